@@ -12,7 +12,7 @@ from itertools import groupby
 
 import numpy as np
 
-from holdfast.designs import Checked
+from holdfast.designs import HeldOutResult
 from holdfast.probability import Difference, Distribution, Interval
 
 NOMINAL = 0.95
@@ -159,7 +159,7 @@ def _weighted_share(w: Weight, at: float) -> Study:
 
 def _quantile(level: float) -> Study:
     def study(rng: np.random.Generator, n: int) -> tuple[bool, float]:
-        found = Checked.of(rng.random(n), np.ones(n), np.zeros(0), level=level)
+        found = HeldOutResult.of(rng.random(n), np.ones(n), np.zeros(0), level=level)
         return _inside(found.guaranteed, 1 - level)
 
     return study

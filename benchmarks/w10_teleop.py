@@ -104,19 +104,19 @@ def eleven(q: np.ndarray, x: np.ndarray, v: np.ndarray, a: np.ndarray, target: n
 
 def bank(chosen: argparse.Namespace) -> str:
     from holdfast import arms
-    from holdfast.teleop import SCENARIOS, TaskBank, random_tasks, run
+    from holdfast.teleop import SCENARIOS, TaskBank, run_tasks, sample_tasks
 
     each, few = (20, 2) if chosen.quick else (400, 10)
     arm = arms.load("planar-3r")
-    tasks = random_tasks(arm, each, seed=1)
+    tasks = sample_tasks(arm, each, seed=1)
     sample = np.linspace(0, len(tasks) - 1, few).astype(np.int64)
-    masks = [tasks.healthy(s.failed) for s in SCENARIOS]
+    masks = [tasks.healthy_mask(s.failed) for s in SCENARIOS]
 
     def drawn() -> None:
-        random_tasks(arm, each, seed=1)
+        sample_tasks(arm, each, seed=1)
 
     def ours() -> TaskBank:
-        return TaskBank.of(tasks, run(arm, tasks))
+        return TaskBank.from_trials(tasks, run_tasks(arm, tasks))
 
     def plain() -> np.ndarray:
         return np.array(
@@ -161,7 +161,7 @@ def bank(chosen: argparse.Namespace) -> str:
 
 
 def experiment(chosen: argparse.Namespace) -> str:
-    from holdfast.teleop import Kind, read_protocol, replay, simulate_experiment
+    from holdfast.teleop import TrialKind, read_protocol, replay_trials, simulate_experiment
 
     protocol = read_protocol()
     people = 2 if chosen.quick else 24
@@ -174,8 +174,8 @@ def experiment(chosen: argparse.Namespace) -> str:
             records = simulate_experiment(Path(folder) / "study", protocol, people, seed=seed)
             times.append(time.perf_counter() - start)
             with records:
-                again.append(harness.seconds(lambda r=records: replay(r)))
-                counts = tuple(len(records.entries(kind=k)) for k in (Kind.TRIAL, Kind.TRAINING))
+                again.append(harness.seconds(lambda r=records: replay_trials(r)))
+                counts = tuple(len(records.entries(kind=k)) for k in (TrialKind.TRIAL, TrialKind.TRAINING))
     asked = f"{counts[0]} trials and {counts[1]} of training; asked for: below {EXPERIMENT_ASKED:g} s for 24 people"
     lines = [
         [f"{people} simulated people, training to last rating, recorded", str(Spread.of(times)), asked],

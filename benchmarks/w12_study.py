@@ -73,11 +73,11 @@ def warm(folder: Path, asked, runner) -> None:
 
 
 def threads(count: int):
-    from holdfast.engine import Threads
-    from holdfast.kernels import pool, set_threads
+    from holdfast.engine import ThreadRunner
+    from holdfast.kernels import set_threads, shared_pool
 
     set_threads(count)
-    return Threads(count, pool())
+    return ThreadRunner(count, shared_pool())
 
 
 def size_of(folder: Path, seconds: float) -> int:
@@ -140,11 +140,11 @@ def status(folder: Path, chunks: int) -> float:
 
     asked = study(folder, chunks, 1)
     s = Study.create(folder / "many", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    s.folder(0).mkdir(parents=True)
+    s.cell_folder(0).mkdir(parents=True)
     done = [f"{k} {'ab' * 16} 40000 1 0".encode() for k in range(chunks)]  # a checksum, bytes, seconds, and the machine
-    (s.folder(0) / "done.journal").write_bytes(b"".join(b"%s %08x\n" % (text, zlib.crc32(text)) for text in done))
+    (s.cell_folder(0) / "done.journal").write_bytes(b"".join(b"%s %08x\n" % (text, zlib.crc32(text)) for text in done))
     begin = time.perf_counter()
-    assert Study.open(folder / "many").complete
+    assert Study.open(folder / "many").is_complete
     return time.perf_counter() - begin
 
 

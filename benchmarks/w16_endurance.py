@@ -32,12 +32,12 @@ def one_line(chosen: argparse.Namespace) -> str:
         times = []
         for k in range(chosen.rounds + 1):
             begun, wall = time.process_time(), time.perf_counter()
-            best = hf.endure(arm, path, samples=samples, spacing=spacing, compare=compare)
+            best = hf.plan_motion(arm, path, samples=samples, spacing=spacing, compare=compare)
             if k:
                 times.append((time.process_time() - begun, time.perf_counter() - wall))
         spent, passed = np.min(times, axis=0)
         rows.append(
-            f"| {samples} x {spacing:g} rad | {len(best.beside) or '-'} | {best.survival:.4f} "
+            f"| {samples} x {spacing:g} rad | {len(best.comparisons) or '-'} | {best.survival:.4f} "
             f"| {best.gap:.4f} | {spent:.2f} | {passed:.2f} |"
         )
     return (

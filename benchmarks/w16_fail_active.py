@@ -99,7 +99,7 @@ def proofs(chosen: argparse.Namespace) -> str:
             ends.append(found.finding.name)
             there = newton(arm, task, pose, low, high, generator)
             known += len(there) > 0
-            against += found.none and len(there) > 0
+            against += found.proved_empty and len(there) > 0
             if found.finding.name == "ALL":
                 counts = slice(6 if task == "position" else 7)  # the last joint does not move the tool point
                 against += sum(np.abs(found.q - x)[:, counts].max(axis=1).min() > 1e-4 for x in there)

@@ -50,7 +50,7 @@ def wrapper(chosen: argparse.Namespace) -> str:
         def step(self, action):
             return nothing, 0.0, False, False, {}
 
-    faults = hf.faults.Faults([hf.faults.locked(onset=0.0), hf.faults.weak(gain=0.5, onset=9.0)])
+    faults = hf.faults.FaultModel([hf.faults.locked(onset=0.0), hf.faults.weak(gain=0.5, onset=9.0)])
     bare = gymnasium.Wrapper(Idle())
     faulty = hf.faults.FaultWrapper(Idle(), faults)
     faulty.reset()
@@ -80,7 +80,7 @@ def vectors(chosen: argparse.Namespace) -> str:
     law = hf.control.damped(arm, damping, task="position", gain=1.5)
     start = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.8, 0.7])
     pose = arm.forward_kinematics(start + 0.2)
-    faults = hf.faults.Faults([hf.faults.locked(onset=(0.0, 0.2))], seed=18)
+    faults = hf.faults.FaultModel([hf.faults.locked(onset=(0.0, 0.2))], seed=18)
     options = {"period": period, "start": start, "tolerance": (0.0, 0.0), "horizon": 1e6}
     env = hf.faults.FaultVectorEnv(law, count, faults, goals=lambda generator, n: np.tile(pose, (n, 1, 1)), **options)
     still = np.zeros(env.action_space.shape)

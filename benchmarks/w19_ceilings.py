@@ -23,7 +23,7 @@ def searches(chosen: argparse.Namespace) -> str:
     seconds, rows = 3.0 if chosen.quick else 20.0, []
     for n, m, k in SIZES:
         harness.progress(f"{n}, {m}, {k}")
-        found, best = hf.ceilings.search(n=n, m=m, k=k, seed=1, seconds=seconds), 0.0
+        found, best = hf.ceilings.search_null_space(n=n, m=m, k=k, seed=1, seconds=seconds), 0.0
         sets, rng, end = np.array(list(combinations(range(n), k))), np.random.default_rng(1), time.monotonic() + seconds
 
         def least(x: np.ndarray, sets: np.ndarray = sets, shape: tuple[int, int] = (n, n - m)) -> float:
@@ -43,11 +43,11 @@ def judged(chosen: argparse.Namespace) -> str:
     import holdfast as hf
 
     samples = 200 if chosen.quick else 2000
-    j = hf.designs.synthesise(hf.ceilings.look_up(n=7, m=6), starts=4).jacobians[0]
-    hf.designs.judge_orders(j, samples=10, at_most=1)  # compiles
+    j = hf.designs.synthesise(hf.ceilings.upper_bound(n=7, m=6), starts=4).jacobians[0]
+    hf.designs.compare_joint_orders(j, samples=10, at_most=1)  # compiles
     harness.progress("orders")
     start = time.perf_counter()
-    found = hf.designs.judge_orders(j, samples=samples)
+    found = hf.designs.compare_joint_orders(j, samples=samples)
     ours = len(found.orders) * samples / (time.perf_counter() - start)
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (samples, 7))
     start = time.perf_counter()

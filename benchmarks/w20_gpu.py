@@ -45,7 +45,7 @@ def main() -> None:
     for name, (rows, plain) in here.items():
         gpu = on_gpu[name][1]
         off = float(np.nanmax(np.abs(plain() - gpu())))
-        kernels.settle()
+        kernels.wait_for_compiler()
         times = []
         for _ in range(ROUNDS):
             start = time.perf_counter()

@@ -53,7 +53,7 @@ def set_threads(threads: int) -> None:
 def holdfast(threads: int) -> Function:
     from holdfast import susceptibility
 
-    together = susceptibility.Together(measures())
+    together = susceptibility.SusceptibilityBatch(measures())
 
     def evaluate(q: Array) -> Both:
         set_threads(threads)

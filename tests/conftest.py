@@ -157,15 +157,15 @@ def gpu(monkeypatch):
     from holdfast.kernels.gpu import driver, launch
 
     fake = FakeDriver()
-    monkeypatch.setattr(driver, "_bindings", lambda: fake)
-    monkeypatch.setattr(launch, "ptx_text", fake.ptx)
-    driver.device.cache_clear()
+    monkeypatch.setattr(driver, "_driver_functions", lambda: fake)
+    monkeypatch.setattr(launch, "make_ptx", fake.ptx)
+    driver.get_device.cache_clear()
     yield fake
     set_backend(None)
     if fake.live:
         gc.collect()
     assert not fake.live, "memory on the device that nobody gave back"
-    driver.device.cache_clear()
+    driver.get_device.cache_clear()
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.kernels.gpu import arrays
 from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows
 from holdfast.kernels.llvm import machine_code
-from holdfast.kernels.llvm.arithmetic import Machine
+from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.llvm.machine_code import Code, object_code
 
 
@@ -76,10 +76,10 @@ class FakeDriver:
         values, kinds = rest[-2]
         name = program.digest, state
         if name not in self.codes:
-            machine = Machine(1, machine_code.host().machine.fused)
-            text = DeviceRows(program, machine, on_device=False).text()
+            machine = TargetMachine(1, machine_code.detect_host().machine.fused)
+            text = DeviceRows(program, machine, on_device=False).module_text()
             if state is not None:
-                text = DeviceLoop(program, state, machine, on_device=False).text()
+                text = DeviceLoop(program, state, machine, on_device=False).module_text()
             self.codes[name] = Code(object_code(text, 0))
         row = ctypes.CFUNCTYPE(None, *kinds, ctypes.c_int64)(self.codes[name].address)
         for thread in range(rest[0] * rest[3]):

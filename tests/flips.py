@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from holdfast.teleop.protocol.protocol import Training, read_protocol
-from holdfast.teleop.records.entries import Kind
+from holdfast.teleop.records.entries import TrialKind
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import Session
-from holdfast.teleop.records.verification import verify
+from holdfast.teleop.records.verification import verify_records
 from holdfast.teleop.trials.recordings import End
 
 
@@ -34,15 +34,15 @@ class Seen:
 
 def trial(records: Records, code: str, rng: np.random.Generator, cycles: int = 60, end: End | None = End.ABORTED) -> int:
     """The next trial of a subject, given up; its number."""
-    todo = Session(records, code).next()
+    todo = Session(records, code).next_trial()
     assert todo is not None
     number = records.begin_trial(code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task)
     q, time = rng.normal(size=(cycles + 1, 3)), np.arange(cycles) / 6
-    records.append(number, 0, time, velocity=rng.normal(size=(cycles, 2)), q=q[:-1])
+    records.append_cycles(number, 0, time, velocity=rng.normal(size=(cycles, 2)), q=q[:-1])
     if end is not None:
-        records.finish(number, end, q[-1])
-        if todo.kind == Kind.TRIAL:
-            records.rate(number, 2, {"why": "slow"})
+        records.finish_trial(number, end, q[-1])
+        if todo.kind == TrialKind.TRIAL:
+            records.rate_trial(number, 2, {"why": "slow"})
     return number
 
 
@@ -59,8 +59,8 @@ def experiment(folder: Path) -> None:
             trial(records, codes[0], rng)
         trial(records, codes[0], rng, end=End.ARRIVED)
         trial(records, codes[0], rng, cycles=150)
-        records.event("dropped-frames", codes[0], 1, k=3, data={"count": 3})
-        records.event("paused", data={"by": "experimenter"})
+        records.add_event("dropped-frames", codes[0], 1, k=3, data={"count": 3})
+        records.add_event("paused", data={"by": "experimenter"})
         records.set_last_seq(codes[0], 41, 4711)
         trial(records, codes[1], rng, end=None)  # broken off by the next
         trial(records, codes[1], rng)
@@ -117,7 +117,7 @@ def change_digits(data: bytes, count: int, rng: np.random.Generator) -> list[tup
 
 def is_damaged(folder: Path) -> bool:
     """Return whether verify finds damage."""
-    return bool(verify(folder).damaged)
+    return bool(verify_records(folder).damages)
 
 
 def changed(

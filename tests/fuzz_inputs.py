@@ -380,9 +380,9 @@ def of_certificate(data: bytes, rng: np.random.Generator) -> bytes:
     with suppress(Exception):  # a document that has no digests or no sentence
         document = json.loads(changed)
         document["made_by"] = REFITTED
-        document["arm_digest"] = verifier.digest(document["arm"])
-        document["claim"] = verifier.sentence(document)
-        document["digest"] = verifier.digest(document)
+        document["arm_digest"] = verifier.compute_digest(document["arm"])
+        document["claim"] = verifier.claim_sentence(document)
+        document["digest"] = verifier.compute_digest(document)
         return json.dumps(document).encode()
     return changed
 
@@ -639,18 +639,18 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.certificates import verifier
     from holdfast.clearance import Capsules
     from holdfast.cli.values import read_weights
-    from holdfast.designs.book.entries import read as read_record
+    from holdfast.designs.book.entries import load_record_file as read_record
     from holdfast.endurance.rates import FailureRates
-    from holdfast.engine import Threads
-    from holdfast.engine.memory import BEFORE, FILE, Memory
-    from holdfast.paths.path import in_file as read_path
-    from holdfast.paths.path_file import pose_table
+    from holdfast.engine import ThreadRunner
+    from holdfast.engine.memory import LEGACY_MEMORY_FILE, MEMORY_FILE, SearchMemory
+    from holdfast.paths.path import load_path_file as read_path
+    from holdfast.paths.path_file import read_pose_table
     from holdfast.recovery.waypoints import read_waypoints
     from holdfast.regions.pose_list import PoseList
     from holdfast.studies import read as read_study
-    from holdfast.studies.results import assessed
+    from holdfast.studies.results import read_assessment
     from holdfast.studio.motions import read_motion
-    from holdfast.teleop.records.verification import readable
+    from holdfast.teleop.records.verification import open_or_name_damage
     from holdfast.teleop.serve import texts
 
     def arm_of(path: Path) -> object:
@@ -677,25 +677,25 @@ def kinds(root: Path) -> dict[str, Kind]:
     (root / "study.yaml").write_bytes(b"poses: 8\nchunk: 4\narms: [planar-3r]\nassess: {}\n")
     asked = read_study(root / "study.yaml")
     whole = study.Study.create(root / "study", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    whole.run(asked.cells, Threads(1))
+    whole.run(asked.cells, ThreadRunner(1))
     plan = {"seed": 1, "vary": ["a1"]}
     (root / "before").mkdir()
     for name in ("search", "before"):
-        Memory(root / name, plan).part("one", lambda: {"x": np.arange(6.0).reshape(2, 3)})
-    lines = [line.rpartition(b" ")[0] for line in (root / "before" / FILE).read_bytes().splitlines()]
-    (root / "before" / BEFORE).write_bytes(b"\n".join([*lines, b""]))
+        SearchMemory(root / name, plan).recall_or_compute("one", lambda: {"x": np.arange(6.0).reshape(2, 3)})
+    lines = [line.rpartition(b" ")[0] for line in (root / "before" / MEMORY_FILE).read_bytes().splitlines()]
+    (root / "before" / LEGACY_MEMORY_FILE).write_bytes(b"\n".join([*lines, b""]))
 
     def study_of(_: Path) -> object:
         s = study.Study.open(root / "study")
-        return s.status(), s.complete, s.makers, s.runs, s.source, [assessed(s, k) for k in range(len(s.cells))]
+        return s.status(), s.is_complete, s.makers, s.runs, s.source, [read_assessment(s, k) for k in range(len(s.cells))]
 
     def run_of(_: Path) -> object:
         found = load(run)
-        return found.distribution, found.default_threshold(), found.store.missing, found.store.dataset()  # type: ignore[union-attr]
+        return found.distribution, found.default_threshold(), found.store.missing_chunks, found.store.dataset()  # type: ignore[union-attr]
 
     def result_of(_: Path) -> tuple[Any, ...]:
         found = load(run)
-        return found.plan.to_dict(), found.store.missing, found.default_threshold(), found.store.dataset()  # type: ignore[union-attr]
+        return found.plan.to_dict(), found.store.missing_chunks, found.default_threshold(), found.store.dataset()  # type: ignore[union-attr]
 
     stored, original = (run / "run.json").read_bytes(), result_of(run)
 
@@ -711,13 +711,13 @@ def kinds(root: Path) -> dict[str, Kind]:
         hf.certify(hf.certificates.out_of_reach_claim(planar, (9.5, 0.5), 0.1)),
     ]
     certificates = [proof.write(certificate).read_bytes() for proof in proofs]
-    digests = {verifier.digest(json.loads(data)) for data in certificates}
+    digests = {verifier.compute_digest(json.loads(data)) for data in certificates}
 
     def certificate_of(path: Path) -> object:
         found = hf.certificates.check_certificate(path)
         document = json.loads(path.read_bytes())
         if document.get("made_by") != REFITTED:
-            assert verifier.digest(document) in digests, "accepted another certificate"
+            assert verifier.compute_digest(document) in digests, "accepted another certificate"
         return found
 
     flips.experiment(root / "experiment")
@@ -727,7 +727,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     def records_of(path: Path) -> tuple[Any, ...]:
         for left in path.parent.glob("records.sqlite-*"):
             left.unlink()
-        with readable(path.parent) as records, np.errstate(all="ignore"):
+        with open_or_name_damage(path.parent) as records, np.errstate(all="ignore"):
             return teleop.trial_table(records), teleop.cycle_table(records), records.events(), records.subjects()
 
     sound_records = records_of(root / "experiment" / "records.sqlite")
@@ -796,12 +796,12 @@ def kinds(root: Path) -> dict[str, Kind]:
         **{f"log in {x}": Kind([data], table(x), hf.faults.Log.load, root / f"in.{x}") for x, data in logs.items()},
         "bounds": Kind([bounds.read_bytes()], of_numbers, bounds_of, root / "in.json"),
         "study": Kind(STUDIES, of_yaml, read_study, root / "in.yaml"),
-        "protocol": Kind([teleop.read_protocol().text().encode()], of_yaml, teleop.read_protocol, root / "in.yaml"),
-        "texts": Kind([texts.ENGLISH.read_bytes()], of_yaml, texts.read, root / "in.yaml"),
+        "protocol": Kind([teleop.read_protocol().to_yaml().encode()], of_yaml, teleop.read_protocol, root / "in.yaml"),
+        "texts": Kind([texts.ENGLISH_FILE.read_bytes()], of_yaml, texts.load_texts, root / "in.yaml"),
         "URDF": Kind([URDF], of_xml, arm_of, root / "in.urdf"),
         "MJCF": Kind([MJCF], of_xml, arm_of, root / "in.mjcf"),
-        "poses": Kind([POSES], of_table, PoseList.read, root / "in.csv"),
-        "waypoints of a path": Kind([PLAIN, TURNED], of_table, pose_table, root / "in.csv"),
+        "poses": Kind([POSES], of_table, PoseList.read_csv, root / "in.csv"),
+        "waypoints of a path": Kind([PLAIN, TURNED], of_table, read_pose_table, root / "in.csv"),
         "waypoints": Kind([MOTION], of_table, lambda path: read_waypoints(planar, path), root / "in.csv"),
         "motion": Kind([MOTION], of_table, lambda path: read_motion(planar, path), root / "in.csv"),
         "weights": Kind([b"1,2,3\n4,5,6\n7,8,9\n"], of_table, lambda path: read_weights("--w", str(path)), root / "in.csv"),
@@ -824,8 +824,12 @@ def kinds(root: Path) -> dict[str, Kind]:
         "made.json": one(root / "study" / "made.json", of_json, study_of),
         "run.json of a cell": one(cell / "run.json", of_json, study_of),
         "journal of a cell": one(cell / "done.journal", lambda x, r: of_bytes(x, r), study_of),
-        BEFORE: one(root / "before" / BEFORE, of_json_lines, lambda path: Memory(path.parent, plan)),
-        FILE: one(root / "search" / FILE, lambda x, r: of_bytes(x, r), lambda path: Memory(path.parent, plan)),
+        LEGACY_MEMORY_FILE: one(
+            root / "before" / LEGACY_MEMORY_FILE, of_json_lines, lambda path: SearchMemory(path.parent, plan)
+        ),
+        MEMORY_FILE: one(
+            root / "search" / MEMORY_FILE, lambda x, r: of_bytes(x, r), lambda path: SearchMemory(path.parent, plan)
+        ),
     }
     readers = [kind for kind in found.values() if kind.file.stem == "in"]
     places = special_files(root / "special", {kind.file.suffix for kind in readers})

@@ -14,7 +14,7 @@ from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
-from holdfast.registry import INDICES, Registry
+from holdfast.registry import INDEX_REGISTRY, Registry
 
 ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
 EPS = float(np.finfo(np.float64).eps)
@@ -482,7 +482,7 @@ def attained(j: np.ndarray, whole: np.ndarray) -> float:
     """What some Jacobian keeps after so many locks: equal entries of the null space, or what is stored."""
     m, n = whole.shape[-2:]
     k = n - j.shape[-1]
-    return np.sqrt((n - m) / n) if k == 1 else hf.ceilings.look_up(n=n, m=m, k=k).best_known
+    return np.sqrt((n - m) / n) if k == 1 else hf.ceilings.upper_bound(n=n, m=m, k=k).best_known
 
 
 ORACLES = {
@@ -521,4 +521,4 @@ def example(registry: Registry, name: str, arm: hf.Arm, task="pose") -> str:
 
 def index_of(name: str, arm: hf.Arm, task="pose", failures="single", length: float | None = None) -> hf.indices.Index:
     """A registered index, with the settings of its example where it cannot do without."""
-    return hf.indices.by_name(example(INDICES, name, arm, task), arm, task, failures=failures, length=length)
+    return hf.indices.by_name(example(INDEX_REGISTRY, name, arm, task), arm, task, failures=failures, length=length)

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import betaincinv
 from scipy.stats import beta
 
-from holdfast.probability.beta import quantile
+from holdfast.probability.beta import beta_quantile
 from holdfast.probability.intervals import Interval
 
 
@@ -20,15 +20,15 @@ def test_it_is_scipys(largest, rng):
         rest = rng.choice([0.005, 0.025, 0.05, 0.95, 0.975, 0.995])
         for a, b in ((hits, size - hits + 1), (hits + 1, size - hits)):
             if a > 0.05 and b > 0.05:
-                assert quantile(a, b, rest) == pytest.approx(betaincinv(a, b, rest), rel=1e-10), (a, b, rest)
+                assert beta_quantile(a, b, rest) == pytest.approx(betaincinv(a, b, rest), rel=1e-10), (a, b, rest)
 
 
 def test_extremes_stay_inside(rng):
     for _ in range(300):
         a, b = np.exp(rng.uniform(np.log(1e-3), np.log(1e4), 2))
-        x = quantile(a, b, rng.uniform(1e-6, 1 - 1e-6))
+        x = beta_quantile(a, b, rng.uniform(1e-6, 1 - 1e-6))
         assert 0 <= x <= 1
-    assert quantile(1.0, 1.0, 0.25) == pytest.approx(0.25, rel=1e-15)
+    assert beta_quantile(1.0, 1.0, 0.25) == pytest.approx(0.25, rel=1e-15)
 
 
 def test_limits_of_a_share_are_those_of_clopper_and_pearson():

@@ -185,9 +185,9 @@ def test_recovery_keeps_the_reduced_range_and_speed(rng):
     assert json.dumps(found.to_dict())
     assert "panda_joint1 within 22.92 to 68.75 deg" in " ".join(found.describe())
     beyond = hf.recover(arm, bad, home, goal=pose, samples=0)
-    assert beyond.ending == hf.recovery.Ending.START_OUTSIDE_LIMITS
+    assert beyond.ending == hf.recovery.RecoveryOutcome.START_OUTSIDE_LIMITS
     assert "its limits are now 0.4 to 1.2" in beyond.reason
     lost = hf.recover(arm, bad, at, samples=0)  # home itself is outside the range: its pose is aimed at
-    assert lost.given_up is not None
-    assert lost.given_up.names[0] == "panda_joint1"
-    assert lost.given_up.misses[0] == pytest.approx(0.4)
+    assert lost.relaxed is not None
+    assert lost.relaxed.names[0] == "panda_joint1"
+    assert lost.relaxed.misses[0] == pytest.approx(0.4)

@@ -14,7 +14,7 @@ import pytest
 import typer
 
 from holdfast.cli.declaration import as_typer
-from holdfast.cli.program import COMMANDS
+from holdfast.cli.program import COMMAND_MODULES
 
 DOCS = Path(__file__).parents[1] / "docs"
 sys.path.insert(0, str(DOCS / "_ext"))
@@ -41,7 +41,7 @@ def test_every_link_has_a_text():
 
 def functions(name):
     """The functions of a command, or of the commands of a group, with how each is called."""
-    module, _, function = COMMANDS[name].partition(":")
+    module, _, function = COMMAND_MODULES[name].partition(":")
     found = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
     if not isinstance(found, typer.Typer):
         return {name: as_typer(found)}
@@ -51,7 +51,7 @@ def functions(name):
     }
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", COMMAND_MODULES)
 def test_the_page_of_a_command_has_every_option_with_its_default(pages, name):
     page = pages[f"holdfast-{name}"]
     for called, function in functions(name).items():
@@ -105,7 +105,7 @@ def test_an_equation_is_found_by_its_number_in_any_spelling():
 def test_the_how_to_pages_name_the_page_that_a_command_writes():
     said = "\n\n".join(p.read_text() for p in sorted((DOCS / "how-to").glob("*.md"))).split("\n\n")
     silent = []
-    for name in COMMANDS:
+    for name in COMMAND_MODULES:
         for called, function in functions(name).items():
             told = get_type_hints(function, include_extras=True).get("out")
             text = next((x.help or "" for x in get_args(told)[1:] if isinstance(x, typer.models.OptionInfo)), "")

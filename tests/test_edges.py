@@ -10,7 +10,7 @@ from holdfast.arm.task import as_task
 from holdfast.failures import failure_sets
 from holdfast.indices import CustomIndex, by_name
 from holdfast.kernels import Kernel, Loop
-from holdfast.registry import INDICES
+from holdfast.registry import INDEX_REGISTRY
 from holdfast.solvers import solve_ik, solver
 
 
@@ -71,13 +71,13 @@ def test_no_rows_higher_up(pa10):
     q = np.zeros((0, 9))
     assert pa10.forward_kinematics(q).shape == (0, 4, 4)
     assert pa10.jacobian(q).shape == (0, 6, 9)
-    for index in (*(oracles.index_of(n, pa10, "position") for n in INDICES), CustomIndex(ca.sumsqr, pa10, "position")):
+    for index in (*(oracles.index_of(n, pa10, "position") for n in INDEX_REGISTRY), CustomIndex(ca.sumsqr, pa10, "position")):
         e = index.evaluate(q)
         assert (e.value.shape, e.by_failure.shape, index(q).shape, index.gradient(q).shape) == ((0,), (0, 9), (0,), (0, 9))
     assert solve_ik(pa10, np.zeros((0, 4, 4))).q.shape == (0, 9)
 
 
-@pytest.mark.parametrize("name", [n for n in INDICES if "singular" in n])
+@pytest.mark.parametrize("name", [n for n in INDEX_REGISTRY if "singular" in n])
 def test_gradient_of_a_task_of_one_row(name, pa10):
     index = by_name(name, pa10, ["vx"])
     q = np.random.default_rng(0).uniform(pa10.lower, pa10.upper, (5, 9))

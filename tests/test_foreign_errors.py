@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 
 NAN, INF = float("nan"), float("inf")
 SPOILT: list[Any] = [
@@ -60,7 +60,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     target, pose = [1.5, 1.5], arm.forward_kinematics(q)
     at_planar = {"arm": arm, "task": "planar"}
     claim = hf.certificates.reach_claim(arm, (1.2, 0.5), 0.1)
-    urdf = str(DATA.joinpath("iiwa14.urdf"))
+    urdf = str(DATA_FOLDER.joinpath("iiwa14.urdf"))
     found: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
         "all_configurations": (
             hf.all_configurations,
@@ -108,17 +108,17 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"level": 0.9, "poses": 4, "designs": 4, "climbs": 0, "fresh": 4, "seed": 0, "failures": "single", "length": 1.0},
         ),
         "endurance_of": (
-            hf.endurance_of,
+            hf.evaluate_motion,
             {"arm": arm, "motion": np.tile(q, (3, 1)), "path": g["tiny"], "rates": None, "mode": "on-path", "task": "planar"}
             | {"per_second": False, "samples": 3, "spacing": 0.3, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
         "endure": (
-            hf.endure,
+            hf.plan_motion,
             {"arm": arm, "path": g["timed"], "rates": [1.0, 2.0, 0.0], "mode": "on-path", "task": "planar", "samples": 3}
             | {"per_second": False, "spacing": 0.3, "start": None, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
         "endure_to": (
-            hf.endure_to,
+            hf.plan_motion_to,
             {**at_planar, "start": q, "goal": target, "rates": None, "velocity": 1.0, "spacing": 0.3, "seed": 0, "starts": 4}
             | {"per_second": False},
         ),
@@ -258,7 +258,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {**at_planar, "formula": lambda j: j[0, 0], "name": "x", "unit": "m", "failures": 1},
         ),
         "indices.WeightedSum": (hf.indices.WeightedSum, {"terms": [(1.0, index)], "name": "x"}),
-        "indices.Opposite": (hf.indices.Opposite, {"objective": index}),
+        "indices.Opposite": (hf.indices.NegatedObjective, {"objective": index}),
         "susceptibility.by_name": (hf.susceptibility.by_name, {"arm": arm, "name": "torque", "weights": None}),
         "control.by_name": (
             hf.control.by_name,

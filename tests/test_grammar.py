@@ -19,20 +19,20 @@ KEYS = st.from_regex(r"[a-z]+(_[a-z]+)*", fullmatch=True).filter(lambda x: not g
 
 @given(VALUES)
 def test_a_value_reads_back_to_the_bit(value):
-    text = grammar.written(value)
+    text = grammar.write_value(value)
     assert "+" not in text
     assert ":" not in text
-    found = grammar.value(text)
+    found = grammar.parse_value(text)
     assert repr(found) == repr(value)
 
 
 @given(NAMES, st.dictionaries(KEYS, VALUES, max_size=4))
 def test_a_label_reads_back(name, settings):
-    read, alone, by_key = grammar.split(grammar.label(name, settings))
+    read, alone, by_key = grammar.split_label(grammar.write_label(name, settings))
     assert read == name
     if len(settings) == 1:
         by_key = {next(iter(settings)): alone}
-    assert {key: repr(grammar.value(text)) for key, text in by_key.items()} == {
+    assert {key: repr(grammar.parse_value(text)) for key, text in by_key.items()} == {
         key: repr(value) for key, value in settings.items()
     }
 
@@ -50,13 +50,13 @@ def test_a_label_reads_back(name, settings):
     ],
 )
 def test_the_parts_of_a_label(label, parts):
-    assert grammar.split(label) == parts
+    assert grammar.split_label(label) == parts
 
 
 def test_settings_as_usual_are_left_out_and_a_later_one_has_its_key():
-    assert grammar.label("a", {"b": None, "c": None}) == "a"
-    assert grammar.label("a", {"b": 0.5, "c": None}) == "a:0.5"
-    assert grammar.label("a", {"b": None, "c_d": [0.0, -1e22]}) == "a:c-d=-0,-1e22".replace("-0,", "0,")
+    assert grammar.write_label("a", {"b": None, "c": None}) == "a"
+    assert grammar.write_label("a", {"b": 0.5, "c": None}) == "a:0.5"
+    assert grammar.write_label("a", {"b": None, "c_d": [0.0, -1e22]}) == "a:c-d=-0,-1e22".replace("-0,", "0,")
 
 
 @pytest.mark.parametrize(
@@ -70,11 +70,11 @@ def test_settings_as_usual_are_left_out_and_a_later_one_has_its_key():
 )
 def test_what_cannot_be_read(label, words):
     with pytest.raises(InputError) as error:
-        grammar.split(label)
+        grammar.split_label(label)
     assert words in str(error.value)
 
 
 @pytest.mark.parametrize("value", [np.eye(2), np.inf, float("nan"), len, "two words", "1e3", "a+b", [], True])
 def test_what_cannot_be_written(value):
     with pytest.raises(InputError, match="cannot be written in a label, which holds numbers, a list of numbers, or a word"):
-        grammar.label("a", {"b": value})
+        grammar.write_label("a", {"b": value})

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from holdfast.probability.intervals import Difference, Interval
-from holdfast.words import half_width
+from holdfast.words import format_half_width
 
 
 def pairs(both, lost, won, neither):
@@ -109,4 +109,4 @@ def test_a_share_is_that_of_clopper_and_pearson(count, confidence):
     [(0.0312, "±0.031"), (0.136, "±0.136"), (0.00043, "±0.00043"), (0.0000429, "±0.000043")],
 )
 def test_a_band_has_two_digits_that_are_not_zero(half, text):
-    assert half_width(half) == text
+    assert format_half_width(half) == text

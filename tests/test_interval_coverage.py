@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from holdfast.probability import Distribution
-from holdfast.probability.intervals import ORDERS, Difference, Interval, _Gambler
+from holdfast.probability.intervals import BETTING_ORDERS, Difference, Interval, _BettingCapital
 
 LEAST = 0.94  # of a nominal 0.95
 
@@ -66,7 +66,7 @@ def test_the_gamblers_capital_is_a_fair_game():
     mean, grid = float(chance @ [0, 0.5, 1]), np.array([0.0, 0.5, 1.0])
     expected = 0.0
     for row in np.ndindex(3, 3, 3):
-        capital = float(np.exp(_Gambler(grid[list(row)], 0.95).log_capital(mean)))
+        capital = float(np.exp(_BettingCapital(grid[list(row)], 0.95).log_capital(mean)))
         expected += float(np.prod(chance[list(row)])) * capital
     assert expected == pytest.approx(1.0, abs=1e-12)
 
@@ -87,7 +87,7 @@ def test_a_betting_interval_by_scanning_the_means(rng):
     values = rng.beta(0.5, 2, 12)
     found = Interval.of_fractions(values, 0.9)
     shuffle = np.random.default_rng(0)
-    orders = [values] + [shuffle.permutation(values) for _ in range(ORDERS - 1)]
+    orders = [values] + [shuffle.permutation(values) for _ in range(BETTING_ORDERS - 1)]
 
     def refused(m: float, orders: list[np.ndarray]) -> bool:
         total = 0.0
@@ -98,7 +98,7 @@ def test_a_betting_interval_by_scanning_the_means(rng):
                 capital *= 1 + stake * (x - m)
                 seen += x
                 squares += (x - seen / (i + 2)) ** 2
-            total += capital / ORDERS
+            total += capital / BETTING_ORDERS
         return total >= 2 / 0.1
 
     grid = np.linspace(0.001, 0.999, 999)

@@ -11,7 +11,7 @@ import pytest
 import typer
 import yaml
 
-from holdfast.cli.program import assembled
+from holdfast.cli.program import build_app
 
 ROOT = Path(__file__).parents[1]
 SOURCE = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
@@ -26,7 +26,7 @@ ROWS = [
 def parsed(command: str) -> None:
     """Options and arguments of a command of the program, read as it reads them; nothing is computed."""
     arguments = shlex.split(command)[1:]
-    program = typer.main.get_command(assembled(arguments[0]))
+    program = typer.main.get_command(build_app(arguments[0]))
     with program.make_context("holdfast", list(arguments)) as context:
         name, found, rest = program.resolve_command(context, arguments)
         found.make_context(name, rest, parent=context)

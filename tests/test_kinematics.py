@@ -94,7 +94,7 @@ def test_invariant_jacobian_is_a_unimodular_change_of_rows(types, rng):
 
 def test_invariant_jacobian_has_no_more_entries_than_the_world_one(pa10):
     x = kinematics.joint_symbols(pa10)
-    assert kinematics.invariant_jacobian(pa10, x).nnz() < kinematics.jacobian(pa10, x).nnz()
+    assert kinematics.invariant_jacobian(pa10, x).nnz() < kinematics.world_jacobian(pa10, x).nnz()
 
 
 def test_chain_is_the_same_in_every_frame(arm, rng):
@@ -102,7 +102,7 @@ def test_chain_is_the_same_in_every_frame(arm, rng):
     made = oracles.frames(arm, q)
     x = kinematics.joint_symbols(arm)
     for frame in (None, *range(arm.n + 1)):
-        c = kinematics.chain(arm, x, frame)
+        c = kinematics.kinematic_chain(arm, x, frame)
         got = evaluate(ca.horzcat(c.rotation, c.position, *c.axes, *c.points), x, q)
         seen_from = np.broadcast_to(np.eye(4), made[0].shape) if frame is None else made[frame]
         rotation, position = seen_from[:, :3, :3], seen_from[:, :3, 3]
@@ -148,7 +148,7 @@ def test_frames_of_bodies_and_joints_are_the_same_in_every_frame(arm, rng):
     joints = [before @ joint.origin for before, joint in zip(made, arm.joints, strict=False)]
     x = kinematics.joint_symbols(arm)
     for frame in (None, *range(arm.n + 1)):
-        moving, still = kinematics.frames(arm, kinematics.joint_steps(arm, x), frame)
+        moving, still = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, x), frame)
         seen_from = np.broadcast_to(np.eye(4), made[0].shape) if frame is None else made[frame]
         got = evaluate(ca.horzcat(*[ca.horzcat(*f) for f in moving + still]), x, q)
         world = seen_from[:, :3, :3] @ got

@@ -36,7 +36,7 @@ def with_condition(rng, m, n, cond):
 def factor(a):
     """The factorisation at one matrix, as a kernel would do it: zeros of ``a`` are structural."""
     symbol = ca.SX.sym("a", ca.DM(a).sparsity() if np.all(a) else ca.sparsify(ca.DM(a)).sparsity())
-    qr = linalg.householder(symbol)
+    qr = linalg.factor_householder(symbol)
     n, m = qr.n, qr.m
     null = ca.vertcat(*[ca.horzcat(*r) for r in qr.null_rows()])
     unit = [[ca.SX(float(i == k)) for i in range(n)] for k in range(n)]
@@ -164,4 +164,4 @@ def test_jacobi_survives_zero_rows():
 
 def test_dot(rng):
     a, b = rng.normal(size=(2, 5))
-    assert number(linalg.dot(entries(a)[0], entries(b)[0])) == pytest.approx(a @ b, rel=1e-14)
+    assert number(linalg.dot_product(entries(a)[0], entries(b)[0])) == pytest.approx(a @ b, rel=1e-14)

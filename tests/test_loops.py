@@ -11,7 +11,7 @@ from tools.loops.film import OUT, SIZE, write
 from tools.loops.solid import box
 from tools.loops.two_laws import shots
 
-from holdfast.cell.nodes import cut
+from holdfast.cell.nodes import split_triangles
 
 
 @pytest.mark.parametrize("name", LOOPS)
@@ -40,7 +40,7 @@ def test_a_loop_is_drawn_and_begins_with_what_is_shown_longest(tmp_path, monkeyp
 
 def test_triangles_are_halved_until_they_are_small_and_cover_what_they_did():
     whole = box([0.7, 0.5, 0.04], [0.6, 0, 0])
-    pieces = cut(whole, 0.12)
+    pieces = split_triangles(whole, 0.12)
 
     def area(triangles):
         return np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1).sum() / 2

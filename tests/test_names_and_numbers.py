@@ -13,7 +13,7 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.machine import Joint
-from holdfast.control.c_functions import commented
+from holdfast.control.c_functions import write_c_comment
 from holdfast.errors import ArmError, InputError
 from holdfast.failures import read_failures, read_joint
 from holdfast.files.reading import parse_json
@@ -78,7 +78,7 @@ def test_half_of_a_surrogate_pair_is_no_name() -> None:
 @pytest.mark.parametrize("name", ["a/*b", "a*/b", "*/*", "/*/"])
 def test_comments_of_c_hold_any_name(tmp_path, name: str) -> None:  # type: ignore[no-untyped-def]
     file = tmp_path / "c.c"
-    file.write_text(f"{commented([name])}\nint x;\n", encoding="utf-8")
+    file.write_text(f"{write_c_comment([name])}\nint x;\n", encoding="utf-8")
     done = subprocess.run(
         ["cc", "-c", "-Wall", "-Wextra", "-Werror", str(file), "-o", str(tmp_path / "c.o")], capture_output=True
     )

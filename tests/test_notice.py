@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 import holdfast as hf
 from holdfast import notice
-from holdfast.notice import Count, another, each, says, working
+from holdfast.notice import ProgressCount, count_one, report_work, reports_progress, track
 from holdfast.report import figures
 
 
@@ -31,7 +31,7 @@ def clock(monkeypatch):
     """A clock; nobody looks in but the test."""
     made = Clock()
     monkeypatch.setattr(notice, "_clock", made)
-    monkeypatch.setattr(notice, "_watch", lambda: None)
+    monkeypatch.setattr(notice, "_start_watcher", lambda: None)
     monkeypatch.delenv("HOLDFAST_NOTICES")
     return made
 
@@ -48,11 +48,11 @@ def said(capsys):
 
 def look(clock, seconds):
     clock.now += seconds
-    notice._outer.look()
+    notice._outer.print_if_due()
 
 
 def test_short_work_is_not_named(clock, said):
-    with working("thinking") as advance:
+    with report_work("thinking") as advance:
         look(clock, 0.9)
         advance(1, 2)
     assert said() == []
@@ -60,7 +60,7 @@ def test_short_work_is_not_named(clock, said):
 
 
 def test_long_work_is_named_once_and_its_time_said_when_it_is_known(clock, said):
-    with working("thinking") as advance:
+    with report_work("thinking") as advance:
         look(clock, 1.1)
         look(clock, 0.2)
         look(clock, 3.6)
@@ -81,14 +81,14 @@ def test_long_work_is_named_once_and_its_time_said_when_it_is_known(clock, said)
 
 @pytest.mark.parametrize(("total", "left"), [(3_000, "50 min"), (86_401, "24 h"), (5e6, "58 days"), (1e12, "31688 years")])
 def test_a_long_time_is_told_in_its_own_unit(clock, said, total, left):
-    with working("thinking") as advance:
+    with report_work("thinking") as advance:
         clock.now = 9.0
         advance(9, total)
         assert said() == [f"holdfast: thinking, about {left} more"]
 
 
 def test_what_was_done_before_does_not_count(clock, said):
-    with working("going on") as advance:
+    with report_work("going on") as advance:
         advance(60, 100)
         clock.now = 10.0
         advance(70, 100)
@@ -99,8 +99,8 @@ def test_what_was_done_before_does_not_count(clock, said):
 
 
 def test_work_within_work_and_aside_is_not_named(clock, said):
-    with working("outside") as advance:
-        with working("inside") as within:
+    with report_work("outside") as advance:
+        with report_work("inside") as within:
             clock.now = 2.0
             within(1, 2)
         assert said() == []
@@ -108,7 +108,7 @@ def test_work_within_work_and_aside_is_not_named(clock, said):
         assert said() == ["holdfast: outside, about 2 s more"]
 
     def aside():
-        with working("aside") as step:
+        with report_work("aside") as step:
             clock.now += 100.0
             step(1, 2)
             assert notice._outer is None
@@ -121,12 +121,12 @@ def test_work_within_work_and_aside_is_not_named(clock, said):
 
 def test_who_is_told_tells(clock, said):
     told = []
-    with working("outside", lambda *x: told.append(x)) as advance, working("inside") as within:
+    with report_work("outside", lambda *x: told.append(x)) as advance, report_work("inside") as within:
         look(clock, 2.0)
         within(1, 3)
         advance(1, 2)
     assert told == [(1, 2)]
-    with working("outside"), working("inside", lambda *x: told.append(x)) as within:
+    with report_work("outside"), report_work("inside", lambda *x: told.append(x)) as within:
         within(2, 3)
     assert told[1:] == [(2, 3)]
     assert said() == []
@@ -134,7 +134,7 @@ def test_who_is_told_tells(clock, said):
 
 def test_it_can_be_switched_off(clock, said, monkeypatch):
     monkeypatch.setenv("HOLDFAST_NOTICES", "off")
-    with working("thinking"), notice.long("compiling", 100.0):
+    with report_work("thinking"), notice.long_task("compiling", 100.0):
         look(clock, 2.0)
     assert said() == []
 
@@ -158,7 +158,7 @@ def cell(monkeypatch):
 
 
 def test_in_a_notebook_one_line_changes_in_place(clock, said, cell):
-    with working("<thinking>") as advance:
+    with report_work("<thinking>") as advance:
         look(clock, 0.9)
         assert cell == []
         look(clock, 0.2)
@@ -173,7 +173,7 @@ def test_in_a_notebook_one_line_changes_in_place(clock, said, cell):
     assert len({which for *_, which in cell}) == 1
 
     def interrupted():
-        with working("again"), Count("parts", 2) as tell:
+        with report_work("again"), ProgressCount("parts", 2) as tell:
             tell(1)
             look(clock, 3.0)
             raise KeyboardInterrupt
@@ -182,7 +182,7 @@ def test_in_a_notebook_one_line_changes_in_place(clock, said, cell):
         interrupted()
     assert "again, so far 1 of 2 parts<" in cell[-2][0]
     assert "again: stopped after 3 s<" in cell[-1][0]
-    with working("short"), notice.long("compiling", 3.0):
+    with report_work("short"), notice.long_task("compiling", 3.0):
         clock.now += 0.5
     assert "compiling, about 3 s<" in cell[-2][0]
     assert "compiling: 0 s<" in cell[-1][0]
@@ -191,14 +191,14 @@ def test_in_a_notebook_one_line_changes_in_place(clock, said, cell):
 
 def test_a_notebook_may_be_told_nothing(clock, said, cell, monkeypatch):
     monkeypatch.setenv("HOLDFAST_NOTICES", "off")
-    with working("thinking"):
+    with report_work("thinking"):
         look(clock, 9.0)
     assert said() == cell == []
 
 
 def test_how_far_it_has_come_is_said_where_nobody_knows_the_time(clock, said):
-    with working("thinking"), Count("thoughts", 24, most=True) as outer:
-        with Count("words", 5) as inner:
+    with report_work("thinking"), ProgressCount("thoughts", 24, most=True) as outer:
+        with ProgressCount("words", 5) as inner:
             inner(2)
             look(clock, 1.1)
             assert said() == ["holdfast: thinking, so far 2 of 5 words"]
@@ -210,9 +210,9 @@ def test_how_far_it_has_come_is_said_where_nobody_knows_the_time(clock, said):
 
 
 def test_the_time_follows_from_the_parts_of_a_whole_once_enough_are_done(clock, said):
-    with working("thinking"):
+    with report_work("thinking"):
         clock.now = 2.0  # spent on something else
-        with Count("thoughts", 100, whole=True) as tell:
+        with ProgressCount("thoughts", 100, whole=True) as tell:
             look(clock, 1.0)
             assert said() == ["holdfast: thinking"]
             tell(9)
@@ -226,15 +226,15 @@ def test_the_time_follows_from_the_parts_of_a_whole_once_enough_are_done(clock, 
 
 
 def test_a_part_of_work_within_work_tells_no_time(clock, said):
-    with working("outside"), working("inside"), Count("parts", 10, whole=True) as tell:
+    with report_work("outside"), report_work("inside"), ProgressCount("parts", 10, whole=True) as tell:
         tell(5)
         look(clock, 2.0)
     assert said() == ["holdfast: outside: inside, so far 5 of 10 parts"]
 
 
 def test_items_count_once_the_next_is_asked_for(clock, said):
-    with working("thinking"):
-        for k in each("items", range(7), most=True, every=2):
+    with report_work("thinking"):
+        for k in track("items", range(7), most=True, every=2):
             if k == 5:
                 look(clock, 2.0)
                 break
@@ -243,8 +243,8 @@ def test_items_count_once_the_next_is_asked_for(clock, said):
 
 
 def test_what_has_no_total_is_counted(clock, said):
-    another("figure")
-    with working("drawing"):
+    count_one("figure")
+    with report_work("drawing"):
         for seconds in (2.0, 8.0):
             figures.svg(Figure(), "a", "nothing")
             look(clock, seconds)
@@ -255,10 +255,10 @@ def test_what_has_no_total_is_counted(clock, said):
 def test_a_count_is_told_from_any_thread_and_opened_in_the_main_one(clock, said):
     def aside(tell):
         tell(3)
-        with Count("others", 9) as other:
+        with ProgressCount("others", 9) as other:
             other(4)
 
-    with working("thinking"), Count("parts", 8) as tell:
+    with report_work("thinking"), ProgressCount("parts", 8) as tell:
         thread = threading.Thread(target=aside, args=[tell])
         thread.start()
         thread.join()
@@ -267,11 +267,11 @@ def test_a_count_is_told_from_any_thread_and_opened_in_the_main_one(clock, said)
 
 
 def test_an_error_ends_it(clock):
-    with pytest.raises(KeyboardInterrupt), working("thinking"):
+    with pytest.raises(KeyboardInterrupt), report_work("thinking"):
         raise KeyboardInterrupt
     assert notice._outer is None
-    with working("outside"):
-        with pytest.raises(ValueError, match="inside"), working("inside"), Count("parts", 2):
+    with report_work("outside"):
+        with pytest.raises(ValueError, match="inside"), report_work("inside"), ProgressCount("parts", 2):
             raise ValueError("inside")
         assert (notice._outer.names, notice._outer.counts) == (["outside"], [])
 
@@ -279,15 +279,15 @@ def test_an_error_ends_it(clock):
 def test_somebody_looks_in_while_the_main_thread_does_not_speak(monkeypatch):
     """The one test with the true watcher: it waits for it, however long that takes."""
     monkeypatch.delenv("HOLDFAST_NOTICES")
-    monkeypatch.setattr(notice, "_LONG", 0.01)
+    monkeypatch.setattr(notice, "LONG_WORK_S", 0.01)
     heard = threading.Event()
-    monkeypatch.setattr(notice, "_say", lambda text: heard.set())
-    with working("thinking"):
+    monkeypatch.setattr(notice, "_print_notice", lambda text: heard.set())
+    with report_work("thinking"):
         assert heard.wait(600)
 
 
 def test_an_argument_named_progress_is_told():
-    @says("counting")
+    @reports_progress("counting")
     def count(total, progress=None):
         """Count."""
         progress(1, total)
@@ -379,12 +379,12 @@ CALLS = {
 def test_what_is_named_is_what_was_asked_for(what, clock, monkeypatch):
     names = []
 
-    class Noted(notice._Work):
+    class Noted(notice._RunningWork):
         def __init__(self, what):
             names.append(what)
             super().__init__(what)
 
-    monkeypatch.setattr(notice, "_Work", Noted)
+    monkeypatch.setattr(notice, "_RunningWork", Noted)
     arm = hf.arms.load("planar-3r")
     CALLS[what](arm, hf.control.Pseudoinverse(arm, "planar"), np.array([0.3, 0.5, 0.7]))
     assert names == [what]
@@ -402,16 +402,16 @@ class Running(Clock):
 @pytest.mark.parametrize("what", CALLS)
 def test_long_work_says_how_long_or_how_far(what, clock, said, monkeypatch):
     """Everything that takes long says something from which a person can tell whether to wait."""
-    told = Count.add
+    told = ProgressCount.add
 
     def add(self, count):
         told(self, count)
         if notice._outer is not None:
-            notice._outer.look()
+            notice._outer.print_if_due()
 
-    monkeypatch.setattr(Count, "add", add)
+    monkeypatch.setattr(ProgressCount, "add", add)
     monkeypatch.setattr(notice, "_clock", Running())
-    monkeypatch.setattr(notice, "_AT_MOST", 0.0)  # at each look
+    monkeypatch.setattr(notice, "MAX_SILENCE_S", 0.0)  # at each look
     arm = hf.arms.load("planar-3r")
     CALLS[what](arm, hf.control.Pseudoinverse(arm, "planar"), np.array([0.3, 0.5, 0.7]))
     lines = [line for line in said() if "compiling" not in line]

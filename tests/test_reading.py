@@ -42,15 +42,15 @@ READERS = {
     "arm.xml": lambda path: arms.resolve(str(path)),
     "arm.mjcf": lambda path: arms.resolve(str(path)),
     "region.yaml": hf.Region.load,
-    "path.yaml": path_file.read,
-    "points.csv": path_file.pose_table,
+    "path.yaml": path_file.parse_path_file,
+    "points.csv": path_file.read_pose_table,
     "capsules.yaml": lambda path: Capsules.load(path, FLAT),
-    "poses.csv": PoseList.read,
+    "poses.csv": PoseList.read_csv,
     "joints.csv": lambda path: read_joint_table(FLAT, path, "waypoints", "step"),
     "weights.csv": lambda path: read_weights("--weights", str(path)),
     "study.yaml": study_file.read,
     "protocol.yaml": protocol.read_protocol,
-    "texts.yaml": texts.read,
+    "texts.yaml": texts.load_texts,
     "study.json": _study,
     "run.json": _run,
 }
@@ -86,26 +86,26 @@ def test_a_huge_file_is_refused(name, tmp_path):
 def test_regular_files(tmp_path):
     path = tmp_path / "a.txt"
     path.write_bytes(b"\xef\xbb\xbfone\r\ntwo\rthree\n")
-    assert reading.text(path) == "one\ntwo\nthree\n"
-    assert reading.raw(path, 18) == path.read_bytes()
+    assert reading.read_text(path) == "one\ntwo\nthree\n"
+    assert reading.read_bytes(path, 18) == path.read_bytes()
     with pytest.raises(OSError, match="larger than"):
-        reading.raw(path, 17)
-    assert "cpu" in reading.text("/proc/stat")  # its size is 0
+        reading.read_bytes(path, 17)
+    assert "cpu" in reading.read_text("/proc/stat")  # its size is 0
     (tmp_path / "b").write_bytes(b"\xff")
     with pytest.raises(UnicodeDecodeError):
-        reading.text(tmp_path / "b")
+        reading.read_text(tmp_path / "b")
 
 
 def test_names_that_no_file_has(tmp_path):
     with pytest.raises(OSError, match="null character"):
-        reading.raw("a\0b")
+        reading.read_bytes("a\0b")
     for spec in ("x" * 5000, "x" * 5000 + ".yaml", "x" * 5000 + ".xml", "a\0b", "a\0.yaml"):
         with pytest.raises(hf.ArmError):
             arms.resolve(spec)
     with socket.socket(socket.AF_UNIX) as server:
         server.bind(str(tmp_path / "s"))
         with pytest.raises(OSError, match="not a regular file"):
-            reading.raw(tmp_path / "s")
+            reading.read_bytes(tmp_path / "s")
 
 
 def test_a_long_message_keeps_its_ends():

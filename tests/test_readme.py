@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from holdfast.cli.program import COMMANDS
+from holdfast.cli.program import COMMAND_MODULES
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -30,7 +30,7 @@ def test_links_lead_somewhere(link: str):
 def test_its_commands_exist():
     called = [shlex.split(line, comments=True) for line in blocks("sh").splitlines() if line.startswith("holdfast ")]
     assert len(called) == 3
-    assert {words[1] for words in called} <= set(COMMANDS)
+    assert {words[1] for words in called} <= set(COMMAND_MODULES)
     targets = re.findall(r"^make (\w+)", blocks("sh"), re.MULTILINE)
     assert targets == ["demo", "test"]
 

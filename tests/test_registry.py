@@ -19,9 +19,9 @@ import holdfast as hf
 import oracles
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import CustomIndex, Index
-from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, Parameter, constructor
+from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY, Parameter, constructor
 
-KINDS = {"index": INDICES, "control law": LAWS, "susceptibility": SUSCEPTIBILITIES}
+KINDS = {"index": INDEX_REGISTRY, "control law": LAW_REGISTRY, "susceptibility": SUSCEPTIBILITY_REGISTRY}
 EVERYTHING = [(kind, name) for kind, registry in KINDS.items() for name in registry]
 PANDA = hf.arms.load("panda")
 TASK = "position"
@@ -107,7 +107,7 @@ def test_a_label_gives_the_same_thing_back(kind, name):
     made = entry.make(PANDA, **options, **entry.example(PANDA, TASK))
     label = registry.label(made)
     assert label == made.label
-    assert registry.storable(made)
+    assert registry.is_storable(made)
     again = registry.make(label, PANDA, **options)
     assert registry.label(again) == label
     assert type(again) is type(made)
@@ -144,8 +144,12 @@ def test_a_setting_is_given_once_and_a_whole_number_is_whole():
     with pytest.raises(InputError, match="'torque:effort' and an option both give weights; give it once"):
         hf.susceptibility.by_name("torque:effort", PANDA, [1.0] * 7)
     whole = Parameter("1", "which", name="row", kind="int")
-    assert [whole.read(text, "x") for text in ("3", "2.0", "1.5")] == [3, 2, 1.5]  # the constructor refuses what is not whole
-    assert np.isinf(whole.read("inf", "x"))
+    assert [whole.read_value(text, "x") for text in ("3", "2.0", "1.5")] == [
+        3,
+        2,
+        1.5,
+    ]  # the constructor refuses what is not whole
+    assert np.isinf(whole.read_value("inf", "x"))
 
 
 @pytest.mark.parametrize(("kind", "name"), [(k, n) for k, n in EVERYTHING if KINDS[k][n].parameters])
@@ -169,15 +173,15 @@ def test_what_has_no_label_says_so():
     full = hf.control.weighted(PANDA, root @ root.T, TASK)
     assert full.label == "weighted"
     with pytest.raises(InputError, match=r"an array of shape \(7, 7\) cannot be written in a label"):
-        LAWS.label(full)
+        LAW_REGISTRY.label(full)
     with pytest.raises(InputError, match=r"an array of shape \(7, 7\) cannot be written in a label"):
-        SUSCEPTIBILITIES.label(hf.susceptibility.torque(PANDA, root @ root.T))
+        SUSCEPTIBILITY_REGISTRY.label(hf.susceptibility.torque(PANDA, root @ root.T))
     # A name alone is not enough: one's own function may be called as a built-in index is.
     for own in (CustomIndex, OwnIndex):
         made = own(ca.sumsqr, PANDA, TASK, name="manipulability")
-        assert not INDICES.storable(made)
+        assert not INDEX_REGISTRY.is_storable(made)
         with pytest.raises(InputError, match="of your own making, which a file cannot hold; keep the script"):
-            INDICES.label(made)
+            INDEX_REGISTRY.label(made)
 
 
 def test_a_law_without_a_label_is_not_stored(tmp_path):
@@ -235,7 +239,7 @@ def test_a_marked_function_is_checked():
 # ---- values, whatever computes them ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", INDICES)
+@pytest.mark.parametrize("name", INDEX_REGISTRY)
 def test_an_index_is_the_same_on_both_backends(name, mixed5, rng, monkeypatch):
     q = oracles.inside(mixed5, rng, 40)
     found = []
@@ -248,19 +252,19 @@ def test_an_index_is_the_same_on_both_backends(name, mixed5, rng, monkeypatch):
     np.testing.assert_allclose(slopes, expected, atol=1e-8 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", LAW_REGISTRY)
 def test_a_law_is_the_same_on_both_backends(name, mixed5, rng, monkeypatch):
     q, v = oracles.inside(mixed5, rng, 40), rng.normal(size=(40, 3))
     found = []
     for backend in ("llvm", "casadi"):
         monkeypatch.setenv("HOLDFAST_BACKEND", backend)
-        found.append(LAWS.make(oracles.example(LAWS, name, mixed5, TASK), mixed5, task=TASK).velocity(q, v))
+        found.append(LAW_REGISTRY.make(oracles.example(LAW_REGISTRY, name, mixed5, TASK), mixed5, task=TASK).velocity(q, v))
     # Where the peak error is flat the failure-tolerant inverse may take another damping, by rounding.
     tolerance = 1e-6 if name == "failure-tolerant" else 1e-9
     np.testing.assert_allclose(found[0], found[1], atol=tolerance * np.abs(found[1]).max())
 
 
-@pytest.mark.parametrize("name", SUSCEPTIBILITIES)
+@pytest.mark.parametrize("name", SUSCEPTIBILITY_REGISTRY)
 def test_a_susceptibility_is_that_of_its_oracle(name, generator):
     draw = generator("registry-loaded")
     arm = oracles.with_bodies(oracles.random_arm(draw, types="RRPRRR", limits=2.0), draw, payload=True, armature=True)
@@ -272,10 +276,10 @@ def test_a_susceptibility_is_that_of_its_oracle(name, generator):
     np.testing.assert_allclose(apart, 0, atol=1e-8 * max(1.0, np.abs(expected).max()))
 
 
-@pytest.mark.parametrize("law", [n for n in LAWS if n != "failure-tolerant"])
+@pytest.mark.parametrize("law", [n for n in LAW_REGISTRY if n != "failure-tolerant"])
 def test_the_quadratic_form_of_a_law_gives_its_rates(law, mixed5, rng, monkeypatch):
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
-    made = LAWS.make(oracles.example(LAWS, law, mixed5, TASK), mixed5, task=TASK)
+    made = LAW_REGISTRY.make(oracles.example(LAW_REGISTRY, law, mixed5, TASK), mixed5, task=TASK)
     form = made.quadratic()
     if form is None:
         return
@@ -291,4 +295,4 @@ def test_a_label_does_not_depend_on_what_is_put_on_a_signature(monkeypatch):
     make = hf.indices.relative_manipulability
     told = inspect.signature(make).replace(return_annotation="RelativeManipulability")
     monkeypatch.setattr(make, "__signature__", told, raising=False)
-    assert INDICES.label(make(arm, "planar")) == "relative-manipulability"
+    assert INDEX_REGISTRY.label(make(arm, "planar")) == "relative-manipulability"

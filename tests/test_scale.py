@@ -12,12 +12,12 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
 from holdfast.control import Damped, Pseudoinverse
-from holdfast.convergence.detours import healthy_cost
+from holdfast.convergence.detours import measure_healthy_cost
 from holdfast.designs import design_space
 from holdfast.designs.evaluation import Evaluator
 from holdfast.designs.family import Family
-from holdfast.recovery.proofs.reach import out_of_reach
-from holdfast.simulation import Outcome, simulate
+from holdfast.recovery.proofs.reach import prove_out_of_reach
+from holdfast.simulation import RunOutcome, simulate
 from holdfast.solvers import solve_ik
 
 # A power of two rounds nothing: such a copy does the same to the last bit. The others are 1 mm and 1 km exactly.
@@ -86,7 +86,7 @@ def moved(bent, generator):
 )
 def test_motions(moved, task, size):
     own, other = moved(task, 1.0), moved(task, size)
-    assert (own.code == Outcome.CONVERGED).any()
+    assert (own.code == RunOutcome.CONVERGED).any()
     np.testing.assert_array_equal(own.code, other.code)
     np.testing.assert_array_equal(own.reason, other.reason)
     if size in EXACT:
@@ -94,7 +94,7 @@ def test_motions(moved, task, size):
         np.testing.assert_array_equal(own.time, other.time)
         np.testing.assert_array_equal(own.path_length * size, other.path_length)
         np.testing.assert_array_equal(own.x_final, resized(other.x_final, 1 / size))
-    rest = own.code <= Outcome.STUCK
+    rest = own.code <= RunOutcome.STUCK
     np.testing.assert_allclose(own.x_final[rest], resized(other.x_final[rest], 1 / size), atol=1e-6)
 
 
@@ -206,7 +206,7 @@ def test_inverse_kinematics(bent, rng, size):
 def test_what_a_law_costs_the_healthy_arm(links, rng, size):
     q0, goals = rng.uniform(-2, 2, (6, 3)), links.forward_kinematics(rng.uniform(0.5, 1.5, (6, 3)))
     own, other = (
-        healthy_cost(Pseudoinverse(scaled(links, s), "planar"), q0, resized(goals, s), False, 0.1) for s in (1.0, size)
+        measure_healthy_cost(Pseudoinverse(scaled(links, s), "planar"), q0, resized(goals, s), False, 0.1) for s in (1.0, size)
     )
     assert np.isfinite(own.time).all()
     np.testing.assert_allclose(own.deviation * size, other.deviation, rtol=1e-6, atol=1e-6 * size)
@@ -254,4 +254,4 @@ def test_proofs_that_a_goal_is_out_of_reach(links, size):
     goal = np.eye(4)
     goal[0, 3] = 3 * size * (1 + 2e-7)
     free = np.ones(3, dtype=bool)
-    assert out_of_reach(arm, free, np.zeros(3), goal, False, np.array([0.0, 0.0, 1.0]))
+    assert prove_out_of_reach(arm, free, np.zeros(3), goal, False, np.array([0.0, 0.0, 1.0]))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from holdfast.probability.sobol_sequence import sobol
+from holdfast.probability.sobol_sequence import sobol_points
 
 
 @pytest.mark.parametrize("dimensions", [*range(1, 17), 23])
@@ -17,6 +17,6 @@ def test_the_points_are_those_of_scipy(count, dimensions):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a count that is no power of 2
         theirs = qmc.Sobol(dimensions, scramble=False).random(count) if count else np.zeros((0, dimensions))
-        ours = sobol(count, dimensions)
+        ours = sobol_points(count, dimensions)
     assert ours.shape == (count, dimensions)
     assert np.array_equal(ours, theirs)

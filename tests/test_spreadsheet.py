@@ -8,19 +8,19 @@ import pandas as pd
 import pytest
 
 from holdfast.files.output import write_table
-from holdfast.files.spreadsheet import cell, csv_text, read_cell
+from holdfast.files.spreadsheet import escape_cell, read_cell, write_csv_text
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "-", "="])
 def test_what_would_be_computed_is_text(text):
-    assert cell(text) == f"'{text}"
-    first = pd.read_csv(io.StringIO(csv_text(pd.DataFrame({text: [text], "x": [1.5]}))))
+    assert escape_cell(text) == f"'{text}"
+    first = pd.read_csv(io.StringIO(write_csv_text(pd.DataFrame({text: [text], "x": [1.5]}))))
     assert (first.columns[0], first.iloc[0, 0]) == (f"'{text}", f"'{text}")
 
 
 @pytest.mark.parametrize("value", ["", "S01", "a=b", "-1.5", "+3", "-inf", -2.5, 3, None, "{}"])
 def test_everything_else_stays(value):
-    assert cell(value) == value
+    assert escape_cell(value) == value
 
 
 @pytest.mark.parametrize("missing", ["", "NA"])
@@ -28,7 +28,7 @@ def test_tables_are_those_of_pandas(rng, missing):
     values = np.concatenate([rng.normal(size=200), 10.0 ** rng.uniform(-300, 300, 50), [0.0, -0.0, np.nan, 1e16, 5e-324]])
     numbers = pd.DataFrame({"trial": np.arange(len(values)), "x, m": values, "y": values[::-1]})
     for table in (numbers, numbers.assign(law="pseudoinverse"), numbers.head(0)):
-        assert csv_text(table, missing) == table.to_csv(index=False, na_rep=missing, lineterminator="\n")
+        assert write_csv_text(table, missing) == table.to_csv(index=False, na_rep=missing, lineterminator="\n")
 
 
 def test_names_in_the_head_of_a_table_are_cells(tmp_path):

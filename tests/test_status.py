@@ -7,8 +7,8 @@ import pytest
 
 from holdfast import Status
 from holdfast.errors import HoldfastError
-from holdfast.recovery import Ending
-from holdfast.simulation import Outcome, Reason
+from holdfast.recovery import RecoveryOutcome
+from holdfast.simulation import Reason, RunOutcome
 from holdfast.status import require_ok
 from holdfast.teleop.trials import End
 
@@ -41,13 +41,13 @@ def test_every_status_has_a_sentence_of_advice(status):
         assert ":" in status.sentence  # what it is: what to try
 
 
-@pytest.mark.parametrize("kind", [Outcome, Reason, Ending, End])
+@pytest.mark.parametrize("kind", [RunOutcome, Reason, RecoveryOutcome, End])
 def test_the_numbers_of_motions_do_not_change(kind):
     """Those of outcomes, reasons and ends are in studies and records; each says in a sentence of its own what it means."""
     names = {
-        Outcome: "CONVERGED STUCK MOVING UNDECIDED",
+        RunOutcome: "CONVERGED STUCK MOVING UNDECIDED",
         Reason: "NONE SINGULAR TIME_LIMIT STEPS BAD_INPUT HALF_TURN CONTACT",
-        Ending: "HOME HOME_WITH_ROWS_GIVEN_UP PATH_UNFINISHED NO_ROUTE_FOUND NOTHING_FOUND PROVED_UNREACHABLE "
+        RecoveryOutcome: "HOME HOME_WITH_ROWS_GIVEN_UP PATH_UNFINISHED NO_ROUTE_FOUND NOTHING_FOUND PROVED_UNREACHABLE "
         "START_OUTSIDE_LIMITS START_TOO_CLOSE LOCK_ELSEWHERE START_BREAKS_ROWS PROVED_DISCONNECTED",
         End: "ARRIVED STILL TIME ABORTED BROKEN_OFF",
     }

@@ -15,10 +15,10 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms, control
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 from holdfast.recovery import read_waypoints
 from holdfast.studies import read
-from holdfast.studies.results import assessed, driven
+from holdfast.studies.results import read_assessment, read_convergence
 from holdfast.teleop.records import Records
 from holdfast.teleop.trials import End
 
@@ -69,16 +69,16 @@ def test_an_assessment_is_resumed(folder, told):
 
 def test_a_study(folder, told):
     study, told = Study.open(folder / "study"), told["study"]
-    assert (study.complete, study.digest, study.verify()) == (True, told["digest"], [])
-    close(assessed(study, 0).plain.mean, told["mean"])
-    close(driven(study, 1).ends, told["ends"])
+    assert (study.is_complete, study.digest, study.verify()) == (True, told["digest"], [])
+    close(read_assessment(study, 0).plain.mean, told["mean"])
+    close(read_convergence(study, 1).ends, told["ends"])
 
 
 def test_a_study_is_resumed(folder):
     asked, study = read(folder / "small.yaml"), Study.open(folder / "study")
     before = unchanged(study.path)
     study.check_same(Study.create(folder / "again", asked.name, asked.seed, cells=asked.cells, source=asked.text))
-    assert study.run(asked.cells, Threads(1)) == {}
+    assert study.run(asked.cells, ThreadRunner(1)) == {}
     assert unchanged(study.path) == before
 
 
@@ -104,7 +104,7 @@ def test_an_experiment(folder, told):
     told = told["experiment"]
     with Records.open(folder / "experiment") as records:
         entries = records.entries()
-        trials = records.trials(entries)
+        trials = records.read_trials(entries)
         assert [s.code for s in records.subjects()] == told["subjects"]
         assert [End(e).name for e in trials.end] == told["ends"]
         assert [e.rating for e in entries] == told["ratings"]

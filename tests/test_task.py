@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.arm import kinematics
-from holdfast.arm.task import Task, as_task, plane_normal, rows_task
+from holdfast.arm.task import Task, as_task, plane_normal, task_from_rows
 from holdfast.errors import TaskError
-from holdfast.grammar import FAILURES, ROWS, TASKS
+from holdfast.grammar import FAILURE_SET_SIZES, TASK_ROW_NAMES, TASK_SIZES
 
 
 def jacobian(task, arm, q):
@@ -51,13 +51,13 @@ def test_pointing_leaves_exactly_the_turn_about_the_tool_axis_free(mixed8, rng):
 @pytest.mark.parametrize("frame", ["base", "tool"])
 def test_chosen_rows_in_their_order(frame, mixed8, rng):
     q = oracles.inside(mixed8, rng, 5)
-    for rows in (["vx"], ["wz", "vy"], ["vz", "wx", "vx", "wy"], list(ROWS)):
-        task = rows_task(rows, frame=frame, length=0.5)
+    for rows in (["vx"], ["wz", "vy"], ["vz", "wx", "vx", "wy"], list(TASK_ROW_NAMES)):
+        task = task_from_rows(rows, frame=frame, length=0.5)
         assert task.m == len(rows)
         assert task.name == "+".join(rows)
         expected = oracles.task_jacobian(mixed8, q, rows, frame, 0.5)
         np.testing.assert_allclose(jacobian(task, mixed8, q), expected, atol=1e-13)
-    assert rows_task(["vx"], name="reach").name == "reach"
+    assert task_from_rows(["vx"], name="reach").name == "reach"
 
 
 def test_a_list_of_rows_is_a_task(mixed8):
@@ -114,14 +114,14 @@ def test_rows_of_your_own(mixed8, rng):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda arm: as_task(arm, "posse"), "task 'posse' is not known; use one of " + ", ".join(TASKS)),
-        (lambda arm: as_task(arm, ["vx", "vq"]), "task row 'vq' is not known; rows are " + ", ".join(ROWS)),
+        (lambda arm: as_task(arm, "posse"), "task 'posse' is not known; use one of " + ", ".join(TASK_SIZES)),
+        (lambda arm: as_task(arm, ["vx", "vq"]), "task row 'vq' is not known; rows are " + ", ".join(TASK_ROW_NAMES)),
         (lambda arm: as_task(arm, ["vx", "vx"]), "each row once"),
         (lambda arm: as_task(arm, []), "at least one row"),
         (lambda arm: as_task(arm, "pose", length=0.0), "the characteristic length is 0 m; it must be above 0"),
         (lambda arm: as_task(arm, "pose", length=np.nan), "characteristic length"),
         (lambda arm: as_task(arm, "pose", length=np.inf), "characteristic length"),
-        (lambda arm: rows_task(["vx"], frame="hand"), "frame 'hand' is not known; use 'base' or 'tool'"),
+        (lambda arm: task_from_rows(["vx"], frame="hand"), "frame 'hand' is not known; use 'base' or 'tool'"),
         (lambda arm: Task("t", 2 * np.eye(6)), "orthonormal"),
         (lambda arm: Task("t", np.eye(6)[[0, 0]]), "orthonormal"),
         (lambda arm: Task("t", np.eye(5)), r"must be an array \(m, 6\)"),
@@ -141,15 +141,15 @@ def test_descriptions_name_the_length_only_where_it_matters(mixed8):
     assert "length=0.5" in repr(as_task(mixed8, "pose", 0.5))
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", TASK_SIZES)
 def test_every_name_is_a_task_with_the_rows_that_it_is_said_to_have(name):
     arm = hf.arms.load("planar-3r" if name.startswith("planar") else "panda")
     task = as_task(arm, name)
-    assert (task.name, task.m) == (name, TASKS[name])
+    assert (task.name, task.m) == (name, TASK_SIZES[name])
 
 
 def test_names_of_tasks_and_failures_are_typed_in_one_place():
-    lists = [", ".join(TASKS), '"pose", "pointing"', ", ".join(FAILURES), '"single", "pairs"']
+    lists = [", ".join(TASK_SIZES), '"pose", "pointing"', ", ".join(FAILURE_SET_SIZES), '"single", "pairs"']
     source = Path(hf.__file__).parent
     # The verifier of certificates shares no code with the rest and names the tasks for itself.
     files = [file for file in source.rglob("*.py") if file.parent.name != "verified"]

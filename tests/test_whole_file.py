@@ -11,7 +11,7 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arms.spec import ArmSpec
-from holdfast.files.output import replaced, writing
+from holdfast.files.output import open_replacement, replace_file
 from holdfast.recovery.waypoints import write_waypoints
 from holdfast.report.figures import save_png
 from holdfast.studies import template
@@ -33,7 +33,7 @@ def full_disk(room=64):
 def test_all_or_nothing(tmp_path):
     path = tmp_path / "a.txt"
     path.write_text("before")
-    for write in (lambda: replaced(path, "x" * 1000), lambda: replaced(path, b"x" * 1000), lambda: _lines(path, 1000)):
+    for write in (lambda: replace_file(path, "x" * 1000), lambda: replace_file(path, b"x" * 1000), lambda: _lines(path, 1000)):
         with full_disk(), pytest.raises(hf.StoreError, match="too large"):
             write()
         assert path.read_text() == "before"
@@ -48,7 +48,7 @@ def test_all_or_nothing(tmp_path):
 
 
 def _lines(path, count):
-    with writing(path) as file:
+    with open_replacement(path) as file:
         for _ in range(count):
             file.write("x")
 
@@ -58,7 +58,7 @@ def test_an_error_while_writing_leaves_what_was_there(tmp_path):
     path.write_text("before")
 
     def interrupted():
-        with writing(path) as file:
+        with open_replacement(path) as file:
             file.write("half")
             raise KeyboardInterrupt
 
@@ -71,11 +71,11 @@ def test_an_error_while_writing_leaves_what_was_there(tmp_path):
 def test_links_and_devices(tmp_path):
     (tmp_path / "there").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "there" / "a.txt")
-    replaced(tmp_path / "link", "text")
+    replace_file(tmp_path / "link", "text")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "there" / "a.txt").read_text() == "text"
     (tmp_path / "null").symlink_to("/dev/null")
-    replaced(tmp_path / "null", "text")
+    replace_file(tmp_path / "null", "text")
     assert (tmp_path / "null").is_char_device()
 
 
@@ -87,7 +87,7 @@ def arm():
 WRITERS = {
     "waypoints": lambda arm, to: write_waypoints(arm, np.zeros((20, arm.n)), to),
     "study file": lambda arm, to: template.write(to, [ArmSpec("planar-3r")], 10, 5, 0),
-    "texts": lambda arm, to: texts.copy(to),
+    "texts": lambda arm, to: texts.copy_english_texts(to),
     "protocol": lambda arm, to: protocol.read_protocol().write(to),
     "figure": lambda arm, to: save_png(_figure(), to),
 }

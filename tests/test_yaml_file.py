@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from holdfast import InputError
-from holdfast.files.yaml import parse
+from holdfast.files.yaml import parse_yaml
 
 TRIPS = {
     "a day that is none": "a: 2026-02-30",
@@ -36,7 +36,7 @@ TRIPS = {
 @pytest.mark.parametrize("case", TRIPS)
 def test_what_trips_the_parser_is_a_sentence(case):
     with pytest.raises(InputError) as caught:
-        parse(TRIPS[case], "; see the manual")
+        parse_yaml(TRIPS[case], "; see the manual")
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 500
 
@@ -53,7 +53,7 @@ def test_what_trips_the_parser_is_a_sentence(case):
     ],
 )
 def test_sound_yaml_is_as_pyyaml_reads_it(text):
-    assert parse(text) == yaml.safe_load(text)
+    assert parse_yaml(text) == yaml.safe_load(text)
 
 
 @pytest.mark.parametrize(
@@ -62,7 +62,7 @@ def test_sound_yaml_is_as_pyyaml_reads_it(text):
 )
 def test_a_key_given_twice(text, line):
     with pytest.raises(InputError, match=f"line {line}: the key '.*' is given twice"):
-        parse(text)
+        parse_yaml(text)
 
 
 @pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "? ", "{a: ["])
@@ -70,7 +70,7 @@ def test_a_key_given_twice(text, line):
 def test_deep_blocks(opening, depth):
     closing = {"[": "]", "{a: ": "}", "{a: [": "]}"}.get(opening, "")
     with pytest.raises(InputError):
-        parse(opening * depth + "1" + closing * depth)
+        parse_yaml(opening * depth + "1" + closing * depth)
 
 
 def test_aliases_do_not_blow_up():
@@ -78,10 +78,10 @@ def test_aliases_do_not_blow_up():
     merged = "\n".join(f"a{k}: &a{k} {{<<: [*a{k - 1}, *a{k - 1}], b{k}: 1}}" for k in range(1, 40))
     for text in (f"a0: &a0 [1, 2]\n{doubled}", f"a0: &a0 {{x: 1}}\n{merged}", "a: &a [*a]", "a: &a {b: *a}"):
         with pytest.raises(InputError, match=r"use fewer aliases|levels deep"):
-            parse(text)
+            parse_yaml(text)
 
 
 def test_many_keys_are_read_in_a_moment():
     """The check for keys given twice took the square of their number: three minutes for 30,000."""
-    found = parse("".join(f"k{k}: 1\n" for k in range(10_000)))
+    found = parse_yaml("".join(f"k{k}: 1\n" for k in range(10_000)))
     assert len(found) == 10_000

@@ -6,16 +6,16 @@ import json
 from pathlib import Path
 
 import holdfast as hf
-from holdfast.clearance.cover import SPHERES_TO, fitted
-from holdfast.clearance.shape import Shape
+from holdfast.clearance.cover import MAX_MEAN_EXCESS_M, fit_capsules
+from holdfast.clearance.shape import CollisionModel
 
 FILE = Path(__file__).parents[1] / "src/holdfast/arms/data/covers.json"
 
 
 def main() -> None:
     """By the digests of the shapes: a shape that is read otherwise one day is fitted again by whoever meets it."""
-    shapes = [Shape.of(hf.arms.load(name)) for name in hf.arms.names()]
-    FILE.write_text(json.dumps({shape.digest: fitted(shape, SPHERES_TO) for shape in shapes if len(shape)}) + "\n")
+    shapes = [CollisionModel.from_arm(hf.arms.load(name)) for name in hf.arms.names()]
+    FILE.write_text(json.dumps({shape.digest: fit_capsules(shape, MAX_MEAN_EXCESS_M) for shape in shapes if len(shape)}) + "\n")
 
 
 if __name__ == "__main__":

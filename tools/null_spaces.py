@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from holdfast.ceilings.ascent import best_null_space
-from holdfast.ceilings.minors import lack_of_orthonormality, worst_case
+from holdfast.ceilings.minors import measure_orthonormality_error, worst_relative_manipulability
 
 FILE = Path(__file__).parents[1] / "src/holdfast/ceilings/null_spaces.json"
 CASES = [(n, m, k) for m in range(2, 7) for n in range(m + 2, 11) for k in (2, 3) if k <= n - m]
@@ -33,9 +33,9 @@ def main() -> None:
         n, m, k = case
         found, _ = best_null_space(n, n - m, k, seed=asked.seed, seconds=asked.seconds)
         null = np.linalg.qr(found)[0]
-        assert lack_of_orthonormality(null) < 1e-14
-        value = worst_case(null, k)
-        before = worst_case(np.array(stored[name]), k) if name in stored else 0.0
+        assert measure_orthonormality_error(null) < 1e-14
+        value = worst_relative_manipulability(null, k)
+        before = worst_relative_manipulability(np.array(stored[name]), k) if name in stored else 0.0
         print(f"{name}: {value:.16f}, stored {before:.16f}", flush=True)
         if value > before:
             stored[name] = null.tolist()

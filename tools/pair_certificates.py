@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.special import eval_chebyt, eval_gegenbauer
 
 import holdfast as hf
-from holdfast.ceilings.pair_kernels import certificates
+from holdfast.ceilings.pair_kernels import stored_certificates
 
 Array = NDArray[np.float64]
 FILE = Path(__file__).parents[1] / "src/holdfast/ceilings/pair_certificates.json"
@@ -134,7 +134,7 @@ def gegenbauer(degree: int, dimension: int, s: Array) -> Array:
 
 def found(n: int, m: int) -> dict[str, Any]:
     """A certificate near the least bound that has one."""
-    low = float(hf.ceilings.look_up(n=n, m=m, k=2).best_known or 0)
+    low = float(hf.ceilings.upper_bound(n=n, m=m, k=2).best_known or 0)
     high = mean = sqrt(comb(n - m, 2) / comb(n, 2))
     for _ in range(HALVINGS):
         middle = (low + high) / 2
@@ -170,9 +170,9 @@ def main() -> None:
         n, m = map(int, name.split(","))
         before, stored[n, m] = stored.get((n, m)), found(n, m)
         written(stored)
-        certificates.cache_clear()
+        stored_certificates.cache_clear()
         try:
-            assert Fraction(certificates()[n, m].proven()) >= certificates()[n, m].bound
+            assert Fraction(stored_certificates()[n, m].proved_bound()) >= stored_certificates()[n, m].bound
         except ValueError as error:
             print(f"{name}: {error}", flush=True)
             if before is None:

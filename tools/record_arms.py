@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import holdfast as hf
-from holdfast.grammar import TASKS
+from holdfast.grammar import TASK_SIZES
 
 FOLDER = Path(__file__).parents[1] / "src/holdfast/designs/book/data"
 CLASSES = {
@@ -29,7 +29,7 @@ def main() -> None:
     FOLDER.mkdir(exist_ok=True)
     for task, sizes in CLASSES.items():
         for n, k in sizes:
-            c = hf.ceilings.look_up(n=n, m=TASKS[task], k=k)
+            c = hf.ceilings.upper_bound(n=n, m=TASK_SIZES[task], k=k)
             made = hf.designs.synthesise(c, task=task, starts=STARTS, seed=SEED)
             arm = made.arms[int(np.argmin(made.losses))]
             name = f"{task}-{n}R-k{k}-001"

@@ -19,8 +19,8 @@ from generated import keep
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from holdfast.cli.layout import kind, panel
-from holdfast.cli.program import COMMANDS, PANELS, assembled
+from holdfast.cli.layout import choose_panel, type_label
+from holdfast.cli.program import COMMAND_MODULES, PANEL_TITLES, build_app
 
 EXAMPLE = re.compile(r"^Examples?:\s*", re.M)
 
@@ -56,7 +56,7 @@ def options(command: Any, context: Any, program: str) -> Iterator[str]:
     yield f".. program:: {program}\n"
     shown: dict[str, list[Any]] = {"Arguments": [], "Options": []}
     for parameter in command.params:
-        where = "Arguments" if parameter.param_type_name == "argument" else panel(parameter, command) or "Options"
+        where = "Arguments" if parameter.param_type_name == "argument" else choose_panel(parameter, command) or "Options"
         if not parameter.hidden:
             shown.setdefault(where, []).append(parameter)
     for where, parameters in shown.items():
@@ -70,7 +70,7 @@ def described(parameter: Any, context: Any) -> str:
     """An argument or option with what it takes, what it is for, and its default."""
     if parameter.param_type_name == "argument":
         return f".. describe:: {parameter.metavar or parameter.name.upper()}\n\n   {escaped(parameter.help or '')}\n"
-    value = "" if parameter.is_flag else f" {kind(parameter)}"
+    value = "" if parameter.is_flag else f" {type_label(parameter)}"
     names = ", ".join([f"{name}{value}" for name in parameter.opts] + parameter.secondary_opts)
     words = " ".join(filter(None, [escaped(parameter.help or ""), default(parameter, context)]))
     return f".. option:: {names}\n\n   {words}\n"
@@ -98,17 +98,17 @@ def first(text: str, plain: bool = False) -> str:
 
 def written() -> dict[str, str]:
     """The text of every page by its name."""
-    program = typer.main.get_command(assembled())
+    program = typer.main.get_command(build_app())
     context = typer._click.Context(program, info_name="holdfast")
     pages = {f"holdfast-{name}": "\n".join(page(name, command, context)) for name, command in program.commands.items()}
     index = ["Commands\n========\n", *paragraphs(program.help), "Every command has ``--help`` with an example.\n"]
-    for folder, title in PANELS.items():
+    for folder, title in PANEL_TITLES.items():
         index += [f"{title}\n{'-' * len(title)}\n", ".. list-table::\n   :widths: 25 75\n"]
-        for name in COMMANDS:
-            if COMMANDS[name].startswith(f"{folder}."):
+        for name in COMMAND_MODULES:
+            if COMMAND_MODULES[name].startswith(f"{folder}."):
                 index.append(f"   * - :doc:`{name} <holdfast-{name}>`\n     - {first(program.commands[name].help)}")
         index.append("")
-    index += [".. toctree::\n   :hidden:\n", *(f"   {name} <holdfast-{name}>" for name in COMMANDS), ""]
+    index += [".. toctree::\n   :hidden:\n", *(f"   {name} <holdfast-{name}>" for name in COMMAND_MODULES), ""]
     return {**pages, "index": "\n".join(index)}
 
 
@@ -117,11 +117,11 @@ class Examples(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         self.env.note_reread()  # what it shows is not in this page
-        program = typer.main.get_command(assembled())
+        program = typer.main.get_command(build_app())
         lines = []
-        for folder, title in PANELS.items():
+        for folder, title in PANEL_TITLES.items():
             lines += [f"**{title}**", "", ".. code-block:: sh", ""]
-            for name in (name for name in COMMANDS if COMMANDS[name].startswith(f"{folder}.")):
+            for name in (name for name in COMMAND_MODULES if COMMAND_MODULES[name].startswith(f"{folder}.")):
                 command = program.commands[name]
                 for each in getattr(command, "commands", {name: command}).values():
                     example = EXAMPLE.split(each.help or "")[1:2]

@@ -227,7 +227,11 @@ class Registered(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         from holdfast import registry
 
-        kinds = {"index": registry.INDICES, "law": registry.LAWS, "susceptibility": registry.SUSCEPTIBILITIES}
+        kinds = {
+            "index": registry.INDEX_REGISTRY,
+            "law": registry.LAW_REGISTRY,
+            "susceptibility": registry.SUSCEPTIBILITY_REGISTRY,
+        }
         known = kinds[self.arguments[0]]
         formulas = any(entry.formula for entry in known.values())
         lines = ["| name | equation | |", "|---|---|---|"] if formulas else ["| name | |", "|---|---|"]

@@ -7,7 +7,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.application import Sphinx
 
-from holdfast.report import together
+from holdfast.report import join_units
 
 AS_THEY_ARE = (nodes.FixedTextElement, nodes.literal, nodes.math, nodes.math_block, nodes.raw, nodes.Invisible)
 
@@ -18,7 +18,7 @@ def hold(app: Sphinx, tree: nodes.document) -> None:
         above = text.parent
         while above is not None and not isinstance(above, AS_THEY_ARE):
             above = above.parent
-        held = together(str(text))
+        held = join_units(str(text))
         if above is None and held != text:
             text.parent.replace(text, nodes.Text(held))
 

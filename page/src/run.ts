@@ -1,5 +1,5 @@
 /**
- * One trial under way: `holdfast.teleop.trials.drive` for a single arm, with a protocol's rules. In each cycle the command is read,
+ * One trial under way: `holdfast.teleop.trials.drive_trials` for a single arm, with a protocol's rules. In each cycle the command is read,
  * then the checks are made, then the arm moves: recordings replay exactly because the order is the same.
  */
 

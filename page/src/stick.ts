@@ -1,5 +1,5 @@
 /**
- * The stick: rate control, as `holdfast.teleop.trials.Stick`. The commanded velocity is proportional to the deflection outside the
+ * The stick: rate control, as `holdfast.teleop.trials.Joystick`. The commanded velocity is proportional to the deflection outside the
  * dead zone, and nothing is rescaled there. The arithmetic is the Python one, operation by operation: a recording made here is
  * replayed there.
  */

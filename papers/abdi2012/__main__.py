@@ -227,7 +227,7 @@ def figure_3_4(run: hf.Assessment, optimised: bool, path: Path) -> None:
     top.set(xlabel="pose with a configuration", ylabel="worst-case rho (no unit)", ylim=(0, 0.6))
     middle.hist(values, np.linspace(0, 0.6, 49), color=BLUE)
     middle.set(xlabel="worst-case relative manipulability (no unit)", ylabel="number of poses")
-    band = run.of(optimised).band(reachable_only=True)
+    band = run.distribution_of(optimised).band(reachable_only=True)
     h = np.linspace(0, 0.6, 601)
     f = run.cdf(h, optimised, reachable_only=True)
     bottom.plot(h, f, color=BLUE, label="F(h)")

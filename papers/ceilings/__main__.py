@@ -44,7 +44,7 @@ def arrangements() -> list[str]:
     for n in (6, 7, 8, 9):
         start = monotonic()
         found = hf.ceilings.bounds_by_arrangement(n, enough=0.0465 if n == 9 else 0.0)
-        best = hf.ceilings.look_up(n=n, m=n - 3, k=3).best_known
+        best = hf.ceilings.upper_bound(n=n, m=n - 3, k=3).best_known
         lines.append(f"| {n} | {len(found):,} | {max(found):.13f} | {best:.13f} | {monotonic() - start:.0f} |")
     return lines
 
@@ -52,7 +52,7 @@ def arrangements() -> list[str]:
 def pairs() -> list[str]:
     """Theorem R3: what each certificate proves, replayed in integers."""
     lines = ["| joints | rows | proven | before: mean of all pairs | best null space | seconds |", "|---|---|---|---|---|---|"]
-    for c in hf.ceilings.table().ceilings:
+    for c in hf.ceilings.bound_table().ceilings:
         if c.bound_by == "R3":
             start = monotonic()
             c.verify(proof=True)
@@ -67,7 +67,7 @@ def ceilings() -> list[str]:
         "| joints | rows | lock | bound | by | best known | in roots | bound above it |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    for c in hf.ceilings.table().ceilings:
+    for c in hf.ceilings.bound_table().ceilings:
         best = "attained" if c.attained else f"{c.best_known:.7f}"
         gap = "0" if c.attained else f"{100 * (c.gap or 0):.1f} %"
         lines.append(f"| {c.n} | {c.m} | {c.k} | {c.bound:.7f} | {c.bound_by} | {best} | {c.closed_form} | {gap} |")

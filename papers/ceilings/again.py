@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import holdfast as hf
-from holdfast.ceilings import Ceiling
+from holdfast.ceilings import UpperBound
 
 SECONDS, SEEDS = 60.0, (101, 102, 103)  # seconds of all seeds of a size together; fresh seeds
 SAME = 1e-7  # relative
@@ -18,7 +18,7 @@ def rows(stored: Path) -> Iterator[dict[str, Any]]:
     """What the search of each size found; read from the file as far as it goes, and added to it."""
     done = [json.loads(line) for line in stored.read_text().splitlines()] if stored.exists() else []
     known = {tuple(row["size"]): row for row in done}
-    for c in hf.ceilings.table().ceilings:
+    for c in hf.ceilings.bound_table().ceilings:
         row = known.get((c.n, c.m, c.k)) or searched(c)
         if (c.n, c.m, c.k) not in known:
             with stored.open("a") as file:
@@ -26,13 +26,13 @@ def rows(stored: Path) -> Iterator[dict[str, Any]]:
         yield row
 
 
-def searched(c: Ceiling) -> dict[str, Any]:
+def searched(c: UpperBound) -> dict[str, Any]:
     """Seed after seed until the best known value is found again, or the time is over."""
     assert c.best_known is not None
     best, took, seed = 0.0, 0.0, 0
     for seed in SEEDS:
         enough = c.best_known * (1 - SAME / 10)
-        found = hf.ceilings.search(n=c.n, m=c.m, k=c.k, seed=seed, seconds=SECONDS / len(SEEDS), enough=enough)
+        found = hf.ceilings.search_null_space(n=c.n, m=c.m, k=c.k, seed=seed, seconds=SECONDS / len(SEEDS), enough=enough)
         best, took = max(best, found.value), took + found.seconds
         if best >= enough:
             break

@@ -26,7 +26,7 @@ def table() -> list[str]:
             again = f"{region.size:.4g} m² ({region.size_interval[0]:.4g} to {region.size_interval[1]:.4g})"
             lines.append(f"| {what} | {seed} | {found.value:.5f} m² | {again} | {found.bound:.5f} | {took:.0f} |")
     for task, name in (("position", "self-motion-position-4R-001"), ("pose", "self-motion-pose-7R-001")):
-        recorded = hf.designs.record(name).arm
+        recorded = hf.designs.record_design(name).arm
         assert recorded is not None
         arm = recorded
         bounds = {f"{kind}{k + 1}": (-w, w) for k in range(arm.n) for kind, w in (("a", 1.2), ("alpha", 5.0), ("d", 1.0))}

@@ -65,7 +65,7 @@ def climbed(x: Array, sharpnesses: tuple[float, ...], steps: int) -> Array:
 
 def table(n: int = 7) -> list[str]:
     """The best of all starts, how many of those followed agree, and what the same lines keep of relative manipulability."""
-    bound = hf.ceilings.singular_value(n=n, m=6, angular=True).bound
+    bound = hf.ceilings.bound_singular_value(n=n, m=6, angular=True).bound
     rng, start = np.random.default_rng(1), monotonic()
     found = sorted((climbed(rng.normal(size=6 * n), FIRST, 150) for _ in range(STARTS)), key=least)[-FOLLOWED:]
     found = sorted((climbed(x, LAST, 300) for x in found), key=least)

@@ -37,7 +37,7 @@ def table() -> list[str]:
     rng = np.random.default_rng(0)
     for n, m, k, levers in [(*size, "") for size in SIZES] + [(n, 6, k, levers) for n, k, levers in POSES]:
         lever = np.inf if levers == "any" else 1.0
-        c = hf.ceilings.singular_value(n=n, m=m, k=k, lever=lever, angular=bool(levers))
+        c = hf.ceilings.bound_singular_value(n=n, m=m, k=k, lever=lever, angular=bool(levers))
         some = max(float(least(placed(rng.normal(size=(RANDOM // 20, m, n)), levers), k)[0].max()) for _ in range(20))
         best = float(climbed(placed(rng.normal(size=(STARTS, m, n)), levers), k, levers).max())
         assert max(some, best) <= c.bound * (1 + 1e-12), (n, m, k, some, best, c.bound)

@@ -45,8 +45,8 @@ def searched(level: float, store: str | None) -> hf.Designs:
         level=level,
         poses=POSES,
         designs=DESIGNS,
-        climbs=CLIMBS,
-        fresh=FRESH,
+        local_searches=CLIMBS,
+        check_poses=FRESH,
         seed=SEED,
         store=folder,
     )
@@ -79,7 +79,7 @@ def table(found: hf.Designs) -> list[str]:
 
 def worth(name: str, run: hf.Assessment) -> str:
     """A line of the table of what an arm guarantees."""
-    d = run.of(True)
+    d = run.distribution_of(True)
     q = [float(d.quantile(p, reachable_only=False)) for p in (0.05, 0.25, 0.5)]
     cells = [f"{d.unreached / d.samples:.1%}", *[f"{x:.3f}" for x in q], f"{d.highest:.3f}"]
     return f"| {name} | {' | '.join(cells)} | {run.interval(at_least=0.2, optimised=True)} |"
@@ -90,7 +90,7 @@ def figure(runs: dict[str, hf.Assessment], path: Path) -> None:
     h = np.linspace(0, 0.6, 601)
     curves = []
     for k, (name, run) in enumerate(runs.items()):
-        band = run.of(True).band()
+        band = run.distribution_of(True).band()
         curves.append(Curve(h, run.cdf(h, optimised=True), f"{name}, 95 % band ±{band:.3f}", second=k == 0, band=band))
     with style():
         drawn = Figure(figsize=(8, 4.4), layout="constrained")

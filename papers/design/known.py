@@ -73,7 +73,15 @@ def known() -> list[Known]:
 def found(case: Known, store: str | None = None) -> hf.Designs:
     """The search of a case."""
     return hf.design(
-        case.arm, case.vary, region=case.region, task=case.task, poses=case.poses, designs=256, climbs=4, fresh=256, store=store
+        case.arm,
+        case.vary,
+        region=case.region,
+        task=case.task,
+        poses=case.poses,
+        designs=256,
+        local_searches=4,
+        check_poses=256,
+        store=store,
     )
 
 

@@ -59,7 +59,7 @@ def one_line(quick: bool) -> Part:
     rows, found = [], {}
     for samples, spacing in grids:
         compare: list[Any] = ["least-norm", index] if (samples, spacing) == grids[-2] else []
-        found[samples] = best = hf.endure(arm, path, samples=samples, spacing=spacing, compare=compare)
+        found[samples] = best = hf.plan_motion(arm, path, samples=samples, spacing=spacing, compare=compare)
         assert best.interval is not None
         low, high = best.interval
         rows.append(
@@ -68,9 +68,9 @@ def one_line(quick: bool) -> Part:
         )
     samples, spacing = grids[-2]
     best, finer = found[samples], found[grids[-1][0]]
-    detour = hf.endure(arm, path, samples=samples, spacing=spacing, mode="detour")
-    tried = best.inject(LOCKS if quick else 4 * LOCKS)
-    beside = {other.name: other.survival for other in best.beside}
+    detour = hf.plan_motion(arm, path, samples=samples, spacing=spacing, mode="detour")
+    tried = best.test_locks(LOCKS if quick else 4 * LOCKS)
+    beside = {other.name: other.survival for other in best.comparisons}
     local = beside[f"gradient projection of {index.name}"]
     gap = best.gap if best.gap is not None else np.nan
     change = abs(best.survival - finer.survival)
@@ -107,9 +107,9 @@ def one_line(quick: bool) -> Part:
         Claim(
             "E1 injected locks",
             "399 of 400 as the table",
-            f"{100 * tried.alike:.1f} % of {len(tried.time)}",
+            f"{100 * tried.agreement:.1f} % of {len(tried.time)}",
             f"survived {tried.interval}",
-            verdict(tried.alike >= 0.99 and tried.interval.low <= best.survival <= tried.interval.high),
+            verdict(tried.agreement >= 0.99 and tried.interval.low <= best.survival <= tried.interval.high),
         ),
     ]
     joints = ", ".join(f"{x:.2f}" for x in best.by_joint.values())
@@ -136,19 +136,19 @@ def many_lines(quick: bool) -> Part:
     names: list[str] = []
     while len(found) < wanted:
         try:
-            best = hf.endure(arm, random_line(generator), samples=samples, spacing=spacing, compare=["least-norm", index])
+            best = hf.plan_motion(arm, random_line(generator), samples=samples, spacing=spacing, compare=["least-norm", index])
         except hf.HoldfastError:
             without += 1
             continue
-        tried = best.inject(LOCKS)
+        tried = best.test_locks(LOCKS)
         inside += tried.interval.low <= best.survival <= tried.interval.high
-        alike.append(tried.alike)
+        alike.append(tried.agreement)
         assert best.bound is not None
         assert best.gap is not None
-        found.append((best.survival, best.bound, best.gap, *(other.survival for other in best.beside)))
-        away.append([other.off > 0 for other in best.beside])
-        names = [other.name for other in best.beside]
-        print(len(found), np.round(found[-1], 3), f"alike {tried.alike:.3f}", file=sys.stderr, flush=True)
+        found.append((best.survival, best.bound, best.gap, *(other.survival for other in best.comparisons)))
+        away.append([other.off > 0 for other in best.comparisons])
+        names = [other.name for other in best.comparisons]
+        print(len(found), np.round(found[-1], 3), f"alike {tried.agreement:.3f}", file=sys.stderr, flush=True)
     values, off = np.array(found), np.sum(away, axis=0)
     rows = [
         f"| {n} | {v.mean():.3f} | {v.min():.3f} | {v.max():.3f} |"

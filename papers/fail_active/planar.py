@@ -29,7 +29,7 @@ def guarantees(quick: bool) -> Part:
         end = begin + way * generator.uniform(0.2, 1.0) / np.linalg.norm(way)
         path = line(np.append(begin, 0.0), np.append(end, 0.0), 2.0)
         try:
-            best = hf.endure(machine, path, samples=21, spacing=0.05)
+            best = hf.plan_motion(machine, path, samples=21, spacing=0.05)
         except hf.HoldfastError:
             continue
         count += 1
@@ -70,7 +70,7 @@ def more_redundancy(quick: bool) -> Part:
         end = begin + (end - begin) * min(1.0, 1.2 / float(np.linalg.norm(end - begin)))
         path = line(begin, end, 2.0)
         try:
-            best = hf.endure(machine, path, task="planar", samples=samples, spacing=0.15, seed=1)
+            best = hf.plan_motion(machine, path, task="planar", samples=samples, spacing=0.15, seed=1)
         except hf.HoldfastError:
             continue
         points = path.pose(np.linspace(0, 2.0, 4 * (samples - 1) + 1))[:, :2, 3]

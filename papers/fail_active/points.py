@@ -36,7 +36,7 @@ def point_to_point(quick: bool) -> Part:
             low[k] = high[k] = value
             return len(hf.all_configurations(arm, pose, limits=(low, high)).q) > 0
 
-        got = hf.endure_to(arm, start, pose)
+        got = hf.plan_motion_to(arm, start, pose)
         goals = fibres(arm, pose, spacing=_FINE)[0].q
         lost = np.zeros((len(goals), arm.n))
         for k, theirs in enumerate(hf.joint_bounds(arm, pose, "pose")):

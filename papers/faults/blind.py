@@ -49,7 +49,7 @@ def calibrated(arm: hf.Arm) -> str:
     """Bounds, as the text of their file."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
-        logs = hf.diagnosis.rehearse_many(arm, SECONDS, seeds=range(SEEDS, SEEDS + CALIBRATION))
+        logs = hf.diagnosis.simulate_logs(arm, SECONDS, seeds=range(SEEDS, SEEDS + CALIBRATION))
         files = [thinned(log).save(folder / f"{k}.npz").name for k, log in enumerate(logs)]
         friction = ("--coulomb", str(COULOMB), "--viscous", str(VISCOUS))
         command(folder, "calibrate", *files, "--arm", arm.name, *friction, "--out", "bounds.json")
@@ -71,9 +71,9 @@ def judged(arm: hf.Arm, bounds: str, number: int) -> dict[str, Any]:
     rng, events = np.random.default_rng([14, number]), []
     kind = None if number % 7 == 0 else sorted(KINDS)[rng.integers(len(KINDS))]
     if kind is not None:
-        events = [*hf.faults.Faults([KINDS[kind]], seed=14).draw(arm, episode=number)]
+        events = [*hf.faults.FaultModel([KINDS[kind]], seed=14).draw(arm, episode=number)]
     late = LATE * (number % 2)
-    log = thinned(hf.diagnosis.rehearse(arm, LENGTH, seed=SEEDS + 1000 + number, faults=events), late=late)
+    log = thinned(hf.diagnosis.simulate_log(arm, LENGTH, seed=SEEDS + 1000 + number, faults=events), late=late)
     said = diagnosed(arm, bounds, number, log, late / RATE)
     true = events[0].joint if events else None
     early = bool(said["alarm"] and (not events or said["time_s"] < events[0].onset))
@@ -82,7 +82,7 @@ def judged(arm: hf.Arm, bounds: str, number: int) -> dict[str, Any]:
 
 def undeclared(arm: hf.Arm, bounds: str, number: int) -> dict[str, Any]:
     """What the command says of a healthy log whose poses are late, and which does not say so."""
-    log = thinned(hf.diagnosis.rehearse(arm, LENGTH, seed=SEEDS + 2000 + number), late=LATE)
+    log = thinned(hf.diagnosis.simulate_log(arm, LENGTH, seed=SEEDS + 2000 + number), late=LATE)
     said = diagnosed(arm, bounds, number, log, 0.0)
     return {"alarm": said["alarm"], "named": said["kind"]}
 

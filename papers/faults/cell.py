@@ -42,7 +42,7 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
         return None
     stopping = free.q[(free.time >= brake) & (free.time <= brake + STOPPING)]
     touched = replace(free, clearance=clearance).contacts
-    if not touched or touched[0].time <= brake or not (clearance.room(stopping) >= 0).all():
+    if not touched or touched[0].time <= brake or not (clearance.margin_left(stopping) >= 0).all():
         return None
     kept = hf.simulate_faults(trial.law, trial.q0, trial.target, clearance=clearance, **common)
     did = {action.what for action in kept.actions}

@@ -17,7 +17,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.diagnosis import Bounds, Monitor, calibrate, diagnose
-from holdfast.faults import Fault, Faults, feasible
+from holdfast.faults import Fault, FaultModel, feasible
 from papers.faults.store import limits
 
 HERE = Path(__file__).parent
@@ -110,7 +110,7 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     healthy = hf.simulate_faults(trial.law, trial.q0, trial.target, centring=CENTRING, **common)
     mix = [kind for kind, (count, _) in MIX.items() for _ in range(count)]
     kind = mix[np.random.default_rng([DRAWS, trial.number]).integers(len(mix))]
-    faults = Faults([MIX[kind][1]], seed=DRAWS)
+    faults = FaultModel([MIX[kind][1]], seed=DRAWS)
     (event,) = faults.draw(arm, episode=trial.number)
     if not healthy.ok or event.onset >= healthy.time[-1] - 0.2:
         return None
@@ -142,8 +142,8 @@ def judged(arm: hf.Arm, trial: Trial, monitor: Monitor) -> dict[str, Any] | None
     found["planned"], found["ended"] = any(a.what == "plan" for a in chain.actions), chain.outcome
     found["detour"] = any(a.what == "detour" for a in chain.actions)
     found["why"] = chain.actions[-1].sentence() if chain.actions else ""
-    if found["delay"] is not None and chain.noticed < chain.time[-1]:
-        at = int(np.searchsorted(chain.time, chain.noticed))
+    if found["delay"] is not None and chain.detection_time < chain.time[-1]:
+        at = int(np.searchsorted(chain.time, chain.detection_time))
         both = arm.forward_kinematics(np.stack([chain.reference[at], chain.q[at]]))[:, :3, 3]
         found["distance"] = 1e3 * float(np.linalg.norm(both[0] - both[1]))
     return found

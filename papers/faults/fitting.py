@@ -20,10 +20,10 @@ NAMES = {"many": "of many robots", "fitted": "fitted to the robot"}
 
 def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, number: int) -> dict[str, Any]:
     """Return the answers about a weak joint of one robot, with both kinds of bounds."""
-    events = hf.faults.Faults([KINDS["weak"]], seed=DRAWS).draw(arm, episode=number)
+    events = hf.faults.FaultModel([KINDS["weak"]], seed=DRAWS).draw(arm, episode=number)
     robot, onset = SEEDS + number, events[0].onset
-    healthy = hf.diagnosis.rehearse(arm, HEALTHY_S, seed=HEALTHY_SEEDS + number, body=robot)
-    log = hf.diagnosis.rehearse(arm, LENGTH, seed=robot, faults=events)
+    healthy = hf.diagnosis.simulate_log(arm, HEALTHY_S, seed=HEALTHY_SEEDS + number, robot=robot)
+    log = hf.diagnosis.simulate_log(arm, LENGTH, seed=robot, faults=events)
     dry, wet = np.full(arm.n, COULOMB), np.full(arm.n, VISCOUS)
     fitted = hf.diagnosis.calibrate(arm, [healthy], coulomb=dry, viscous=wet, fit=True)
     answers: dict[str, Any] = {"joint": arm.joint_index(events[0].joint) + 1}

@@ -19,7 +19,7 @@ def watched(arm: hf.Arm, bounds: hf.diagnosis.Bounds, robot: int, records: int) 
     """One robot in several motions: how many of its records alarm, and its largest residuals in units of their bounds."""
     alarms, largest = [], np.zeros(3)
     seeds = range(SEEDS + 10_000 * robot, SEEDS + 10_000 * robot + records)
-    logs = hf.diagnosis.rehearse_many(arm, RECORD, seeds=seeds, bodies=[SEEDS + robot] * records)
+    logs = hf.diagnosis.simulate_logs(arm, RECORD, seeds=seeds, robots=[SEEDS + robot] * records)
     for seed, log in zip(seeds, logs, strict=True):
         told = hf.diagnosis.diagnose(arm, log, bounds)
         scaled = told.scaled

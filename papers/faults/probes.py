@@ -31,11 +31,11 @@ def row(name: str, task: str, zero: tuple[int, ...], count: int, seed: int) -> s
     for k in range(count):
         q = rng.uniform(arm.lower, arm.upper)
         q[list(zero)] = 0.0
-        probe = hf.diagnosis.plan_probe(arm, q, task=task, seed=k)
+        probe = hf.diagnosis.plan_identification(arm, q, task=task, seed=k)
         motion, told = probe.at(RATE), set(probe.told_apart)
         for joint in (None, *arm.joint_names):
             faults = [] if joint is None else [hf.faults.FaultEvent("locked", joint, 0.0)]
-            record = hf.diagnosis.rehearse(arm, motion=motion, faults=faults, seed=60_000 + k)
+            record = hf.diagnosis.simulate_log(arm, motion=motion, faults=faults, seed=60_000 + k)
             said = probe.decide(record)
             if joint is None:
                 clear += said.remaining == ("none",)

@@ -17,7 +17,7 @@ RADIUS = 0.05  # m, of a link about the line from its joint to the next
 SEEDS = 40_000
 
 
-def drawn(arm: hf.Arm, seed: int) -> hf.diagnosis.Push:
+def drawn(arm: hf.Arm, seed: int) -> hf.diagnosis.ExternalForce:
     """One, the links in turn."""
     rng, k = np.random.default_rng([9, seed]), seed % arm.n
     ahead = arm.joints[k + 1].origin if k + 1 < arm.n else arm.tool
@@ -26,13 +26,17 @@ def drawn(arm: hf.Arm, seed: int) -> hf.diagnosis.Push:
     point = rng.uniform() * ahead[:3, 3] + rng.uniform(-RADIUS, RADIUS, 3)
     onset = rng.uniform(*ONSET)
     where = tuple(point.tolist())
-    return hf.diagnosis.Push(arm.joint_names[k], tuple(force.tolist()), onset, end=onset + rng.uniform(*LASTS), point=where)
+    return hf.diagnosis.ExternalForce(
+        arm.joint_names[k], tuple(force.tolist()), onset, end=onset + rng.uniform(*LASTS), point=where
+    )
 
 
 def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, seeds: range) -> list[dict[str, Any]]:
     """What is said of some."""
     pushes = [drawn(arm, seed) for seed in seeds]
-    logs = hf.diagnosis.rehearse_many(arm, LENGTH, seeds=[SEEDS + seed for seed in seeds], pushes=[[push] for push in pushes])
+    logs = hf.diagnosis.simulate_logs(
+        arm, LENGTH, seeds=[SEEDS + seed for seed in seeds], external_forces=[[push] for push in pushes]
+    )
     found = []
     for push, log in zip(pushes, logs, strict=True):
         verdict = hf.diagnosis.diagnose(arm, log, bounds).verdict

@@ -35,9 +35,9 @@ HEAD = [
 
 def judged(arm: hf.Arm, bounds: hf.diagnosis.Bounds, kind: str, numbers: range) -> list[dict[str, Any]]:
     """What is said of some faults of a kind."""
-    faults = hf.faults.Faults([KINDS[kind]], seed=DRAWS)
+    faults = hf.faults.FaultModel([KINDS[kind]], seed=DRAWS)
     events = [faults.draw(arm, episode=k) for k in numbers]
-    logs = hf.diagnosis.rehearse_many(arm, LENGTH, seeds=[SEEDS + k for k in numbers], faults=events)
+    logs = hf.diagnosis.simulate_logs(arm, LENGTH, seeds=[SEEDS + k for k in numbers], faults=events)
     found = []
     _, stiffness, damping = hf.Body().model(arm, hf.Servos(rate=bounds.rate))
     for (event,), log in zip(events, logs, strict=True):

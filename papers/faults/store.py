@@ -57,7 +57,7 @@ class Store:
         if file is not None and file.exists():
             return hf.diagnosis.load(file)
         arm = self.arm
-        logs = hf.diagnosis.rehearse_many(arm, CALIBRATED, seeds=range(robots))
+        logs = hf.diagnosis.simulate_logs(arm, CALIBRATED, seeds=range(robots))
         found = hf.diagnosis.calibrate(arm, logs, coulomb=np.full(arm.n, COULOMB), viscous=np.full(arm.n, VISCOUS))
         if file is not None:
             found.to_json(file)

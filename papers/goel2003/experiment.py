@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.teleop.analysis import Analysis
-from holdfast.teleop.bank import Binning, TaskBank, binning, task_bank
+from holdfast.teleop.bank import Binning, TaskBank, bin_tasks, make_task_bank
 from papers.claims import Claim, Verdict
 from papers.goel2003.simulated_operators import SEED, SUBJECTS, Study, study
 from papers.part import Part
@@ -39,15 +39,15 @@ CORRELATIONS = {("anticipated", "actual"): 0.956, ("actual", "perceived"): 0.969
 @cache
 def bank(seed: int) -> tuple[TaskBank, Binning]:
     """1200 tasks of the planar 3R arm, and the plane of CPM3 and CPM4/CPM3 cut by 6 x 8."""
-    made = task_bank(hf.arms.load("planar-3r"), seed=seed)
-    return made, binning(made)
+    made = make_task_bank(hf.arms.load("planar-3r"), seed=seed)
+    return made, bin_tasks(made)
 
 
 def numbers(made: TaskBank, cells: Binning) -> list[Array]:
     """The numbers of :data:`EXPECTED`: one each, or one for each scenario or tercile."""
-    good = made.completed()
+    good = made.is_completed()
     middle = np.nanmedian(made.measures, axis=1)
-    c3, c4 = made.difficulty[good], made.cpm[made.scenario("failure-tolerant", failed=True)][good]
+    c3, c4 = made.difficulty[good], made.cpm[made.scenario_index("failure-tolerant", failed=True)][good]
     ratio = c4 / c3
     terciles = np.array_split(np.argsort(c3, kind="stable"), 3)
     return [
@@ -62,7 +62,7 @@ def numbers(made: TaskBank, cells: Binning) -> list[Array]:
         np.array([100 * np.mean(ratio[t] < 1) for t in terciles]),
         np.array([c4[t].mean() / c3[t].mean() for t in terciles]),
         np.atleast_1d(np.corrcoef(c3, ratio)[0, 1]),
-        np.atleast_1d(len(cells.occupied)),
+        np.atleast_1d(len(cells.occupied_cells)),
         made.normalisers[[6]],
         made.normalisers[[7]],
     ]
@@ -165,7 +165,7 @@ def claims(s: Study) -> list[Claim]:
 def _settings(s: Study) -> list[Claim]:
     p = s.protocol
     made, _ = bank(BANK)
-    least = int(made.measures[made.scenario("pseudoinverse", failed=False), :, 0].min())
+    least = int(made.measures[made.scenario_index("pseudoinverse", failed=False), :, 0].min())
     trained = f"{s.training.min()} to {s.training.max()}"
     return [
         Claim(

@@ -75,7 +75,7 @@ def _difficulty(a: Analysis) -> Figure:
 def _motions(s: Study, task: int) -> Figure:
     a, p, k = s.analysis, s.protocol, task - 1
     whole, left = ring(p.arm, p.tasks.q0[k]), ring(p.arm, p.tasks.q0[k], int(p.tasks.joint[k]))
-    middle = median_operator(a.observed, a.observed.tasks.index(task), a.observed.index(a.conditions[0].scenario))
+    middle = median_operator(a.observed, a.observed.tasks.index(task), a.observed.condition_index(a.conditions[0].scenario))
     motions = []
     for who, name in ((None if middle is None else a.observed.subjects[middle], "simulated"), (None, "computer")):
         for c in a.observed.conditions:
@@ -102,5 +102,5 @@ def _measures(a: Analysis, task: int) -> Figure:
     machine = np.concatenate([a.computer.cpm[0, t, :, None], a.computer.measures[0, t]], axis=-1)
     figure = measures_figure(values, list(machine.T), [c.scenario for c in o.conditions])
     with style():
-        figure.text(0.995, 0.01, f"task {task}, {a.who}", ha="right", va="bottom", fontsize=9, color=SOFT)
+        figure.text(0.995, 0.01, f"task {task}, {a.subject_phrase}", ha="right", va="bottom", fontsize=9, color=SOFT)
     return figure

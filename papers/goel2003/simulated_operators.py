@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from holdfast.teleop import simulate_experiment
 from holdfast.teleop.analysis import Analysis, analyse
 from holdfast.teleop.protocol import Protocol, read_protocol
-from holdfast.teleop.records import Kind, Records, computer_table, replay, tool_paths, trial_table
+from holdfast.teleop.records import Records, TrialKind, computer_table, replay_trials, tool_paths, trial_table
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -65,10 +65,10 @@ def study() -> Study:
         tempfile.TemporaryDirectory() as folder,
         simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, seed=SEED) as records,
     ):
-        again = replay(records)
+        again = replay_trials(records)
         table, machine = trial_table(records), computer_table(protocol)
         found = analyse(table, machine)
-        counts = [len(records.entries(s.code, Kind.TRAINING)) for s in records.subjects()]
+        counts = [len(records.entries(s.code, TrialKind.TRAINING)) for s in records.subjects()]
         paths = _kept(records, found)
     return Study(
         protocol,
@@ -76,7 +76,7 @@ def study() -> Study:
         found,
         analyse(table, machine, difficulty="computer"),
         np.array(counts),
-        len(again.differs),
+        len(again.differing_entries),
         len(again.entries),
         paths,
     )
@@ -96,7 +96,7 @@ def _kept(records: Records, a: Analysis) -> Paths:
     path = tool_paths(records)
     kept: dict[tuple[str | None, int, int], Array | None] = {}
     for task in shown(a).values():
-        k = median_operator(a.observed, a.observed.tasks.index(task), a.observed.index(a.conditions[0].scenario))
+        k = median_operator(a.observed, a.observed.tasks.index(task), a.observed.condition_index(a.conditions[0].scenario))
         for who in (None, *([] if k is None else [a.observed.subjects[k]])):
             for c in a.observed.conditions:
                 kept[who, task, c.scenario] = path(who, task, c.scenario)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_space, planar_measures
+from holdfast.designs import DesignJoints, LawOfDesigns, PlanarStationarySets, design_space, planar_measures
 from papers.goel2005.three_links import law
 
 Array = NDArray[np.float64]
@@ -65,11 +65,11 @@ class Validation:
     locks: tuple[int, int]
 
 
-def validated(rest: PlanarRest, lengths: Array, seed: int) -> Validation:
+def validated(rest: PlanarStationarySets, lengths: Array, seed: int) -> Validation:
     """Simulate random failures: a target anywhere in the area, a joint, an angle that leaves it within reach, four starts."""
     generator = np.random.default_rng(seed)
     middle = (rings()[1:] + rings()[:-1]) / 2
-    known = [rest.locked(lengths, r) for r in middle.tolist()]
+    known = [rest.analyse_distance(lengths, r) for r in middle.tolist()]
     rows: list[tuple[float, int, float, bool]] = []
     while len(rows) < LOCKS:
         ring, joint = int(generator.choice(RINGS, p=middle / middle.sum())), int(generator.integers(3))
@@ -115,10 +115,10 @@ def designs_of_interest(best: Array, arrival: Array) -> list[tuple[str, Array]]:
 def searched(objective: str) -> hf.ConvergenceDesigns:
     """The best lengths within the bounds for a reach of 3 m."""
     vary = {f"a{k}": BOUNDS for k in (1, 2, 3)}
-    return hf.design_for_convergence(law(), vary, objective=objective, designs=64, climbs=2, keep_reach=True)  # type: ignore[arg-type]
+    return hf.design_for_convergence(law(), vary, objective=objective, designs=64, local_searches=2, keep_reach=True)  # type: ignore[arg-type]
 
 
-def mismatch(rest: PlanarRest) -> tuple[Array, Array]:
+def mismatch(rest: PlanarStationarySets) -> tuple[Array, Array]:
     """(l3 - l2) / reach, and the share of locks that nothing can hold, with l1 a third of the reach."""
     off = np.concatenate([np.linspace(-0.3, 0.3, 61), [-CREEPING, CREEPING]])
     off.sort()
@@ -137,7 +137,7 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
     from papers.goel2005 import design_figures as figures
 
     begin = time.process_time()
-    rest, damped = PlanarRest(law()), PlanarRest(hf.control.damped(law().arm, DAMPING, "planar"))
+    rest, damped = PlanarStationarySets(law()), PlanarStationarySets(hf.control.damped(law().arm, DAMPING, "planar"))
     every = lattice()
     clock = time.process_time()
     maps = {"pseudoinverse": planar_measures(rest.radial(every, rings()))}

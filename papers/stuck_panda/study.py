@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.control import Law
 from holdfast.equilibria import Kind, StationaryPoints, idle_joints
-from holdfast.simulation import Outcome, Reason
+from holdfast.simulation import Reason, RunOutcome
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def against(choice: hf.LawChoice, name: str, other: str) -> Against:
 def open_share(choice: hf.LawChoice, name: str) -> float:
     """Share of the failures that were undecided though the target was in reach."""
     m = choice.map_of(name)
-    return float(((m.code == Outcome.UNDECIDED) & m.in_reach)[m.known][:, :-1].mean())
+    return float(((m.code == RunOutcome.UNDECIDED) & m.in_reach)[m.known][:, :-1].mean())
 
 
 # ---- stationary points with the elbow locked ---------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
     q0 = rng.uniform(arm().lower, arm().upper, (starts, arm().n))
     q0[:, ELBOW] = np.deg2rad(angle)
     runs = hf.simulate(law, q0, target(), locked=[ELBOW], time_limit=TIME_LIMIT)
-    stuck = runs.code == Outcome.STUCK
+    stuck = runs.code == RunOutcome.STUCK
     alone, level = explained(points, runs.q_final[stuck], runs.error[stuck])
     return Elbow(
         task,
@@ -146,7 +146,7 @@ def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
         angle,
         points,
         Counter(map(str, runs.outcome)),
-        Counter(Reason(r).name.lower() for r in runs.reason[runs.code == Outcome.UNDECIDED]),
+        Counter(Reason(r).name.lower() for r in runs.reason[runs.code == RunOutcome.UNDECIDED]),
         int(alone.sum()),
         int(level.sum()),
         int((~alone & ~level).sum()),

@@ -44,7 +44,7 @@ class Best:
 def three_links() -> closed_form.ThreeLinks:
     """The arm with three unit links."""
     arm = hf.arms.load("planar-3r")
-    found = closed_form.ThreeLinks.of(arm, as_task(arm, "planar"))
+    found = closed_form.ThreeLinks.from_task(arm, as_task(arm, "planar"))
     if found is None:
         raise ValueError("the built-in arm has no closed form")
     return found
@@ -64,10 +64,10 @@ def search(half: float, step: float = STEP) -> Best:
     """The largest region on the grid."""
     arm, limits = three_links(), grid(half, step)
     area = np.concatenate(
-        [closed_form.area(arm, np.radians(limits[k : k + _CHUNK]), COARSE) for k in range(0, len(limits), _CHUNK)]
+        [closed_form.workspace_area(arm, np.radians(limits[k : k + _CHUNK]), COARSE) for k in range(0, len(limits), _CHUNK)]
     )
     last = np.argsort(area)[-FINALISTS:]
-    exact = np.array([closed_form.area(arm, np.radians(limits[k][None]), FINE)[0] for k in last])
+    exact = np.array([closed_form.workspace_area(arm, np.radians(limits[k][None]), FINE)[0] for k in last])
     best = int(np.argmax(exact))
     return Best(half, limits[last[best]], float(exact[best]), len(limits))
 

@@ -47,11 +47,11 @@ from holdfast.designs import design as design
 from holdfast.designs import design_for_convergence as design_for_convergence
 from holdfast.enclosure import Configurations as Configurations
 from holdfast.enclosure import all_configurations as all_configurations
-from holdfast.endurance import Endurance as Endurance
 from holdfast.endurance import FailureRates as FailureRates
-from holdfast.endurance import endurance_of as endurance_of
-from holdfast.endurance import endure as endure
-from holdfast.endurance import endure_to as endure_to
+from holdfast.endurance import LockSurvival as LockSurvival
+from holdfast.endurance import evaluate_motion as evaluate_motion
+from holdfast.endurance import plan_motion as plan_motion
+from holdfast.endurance import plan_motion_to as plan_motion_to
 from holdfast.equilibria import basins as basins
 from holdfast.equilibria import stationary_points as stationary_points
 from holdfast.errors import ArmError as ArmError
@@ -89,7 +89,7 @@ from holdfast.regions import Region as Region
 from holdfast.simulation import Runs as Runs
 from holdfast.simulation import simulate as simulate
 from holdfast.solvers import Optima as Optima
-from holdfast.solvers import Reach as Reach
+from holdfast.solvers import PoseSolutions as PoseSolutions
 from holdfast.solvers import optimise as optimise
 from holdfast.solvers import self_motion as self_motion
 from holdfast.solvers import solve_ik as solve_ik

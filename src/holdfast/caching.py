@@ -1,4 +1,4 @@
-"""A property that is computed once and kept."""
+"""Property that is computed once and stored."""
 
 from __future__ import annotations
 

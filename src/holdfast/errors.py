@@ -1,4 +1,4 @@
-"""The exceptions of holdfast.
+"""Exceptions of holdfast.
 
 Every message is one sentence that names the thing, says what was wrong and what would be right.
 The command line prints it and exits with code 2.
@@ -6,7 +6,7 @@ The command line prints it and exits with code 2.
 
 from __future__ import annotations
 
-_MOST = 1000  # letters
+_MAX_MESSAGE_LETTERS = 1000  # letters
 
 
 class HoldfastError(Exception):
@@ -16,7 +16,11 @@ class HoldfastError(Exception):
         text = super().__str__()  # which may quote what stands in a file: of any length, with signs that steer a terminal
         if not text.isprintable():
             text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
-        return text if len(text) <= _MOST else f"{text[: _MOST * 3 // 4]} ... {text[-_MOST // 4 :]}"
+        return (
+            text
+            if len(text) <= _MAX_MESSAGE_LETTERS
+            else f"{text[: _MAX_MESSAGE_LETTERS * 3 // 4]} ... {text[-_MAX_MESSAGE_LETTERS // 4 :]}"
+        )
 
 
 class ArmError(HoldfastError, ValueError):

@@ -16,28 +16,28 @@ from holdfast.kernels.program import SX
 Vector = list[SX]
 
 
-def dot(a: Sequence[SX], b: Sequence[SX]) -> SX:
-    """Sum of products of two equally long vectors."""
+def dot_product(a: Sequence[SX], b: Sequence[SX]) -> SX:
+    """Return the sum of products of two equally long vectors."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
     return total
 
 
-def smallest(values: Sequence[SX]) -> SX:
-    """The smallest of several scalars, without fmin, which would swallow a NaN."""
+def select_smallest(values: Sequence[SX]) -> SX:
+    """Return the smallest of several scalars, without fmin, which would ignore a NaN."""
     best = values[0]
     for x in values[1:]:
         best = ca.if_else(x < best, x, best)
     return best
 
 
-def lowest(values: Sequence[SX], follow: Sequence[SX]) -> tuple[SX, SX]:
-    """What goes with the smallest value (the first one of several), and that value."""
-    best, chosen = values[0], follow[0]
-    for value, other in zip(values[1:], follow[1:], strict=True):
+def select_at_smallest(values: Sequence[SX], companions: Sequence[SX]) -> tuple[SX, SX]:
+    """Return the companion of the smallest value (the first of several) and that value."""
+    best, chosen = values[0], companions[0]
+    for value, companion in zip(values[1:], companions[1:], strict=True):
         less = value < best
-        best, chosen = ca.if_else(less, value, best), ca.if_else(less, other, chosen)
+        best, chosen = ca.if_else(less, value, best), ca.if_else(less, companion, chosen)
     return chosen, best
 
 
@@ -76,12 +76,12 @@ class HouseholderQR:
         """``Q' x`` for x of n entries: the first m in the order of elimination, then coordinates in the null space."""
         y = [x[c] for c in self.columns]
         for j in range(self.m):
-            self._reflect(j, y)
+            self._apply_reflector(j, y)
         return y
 
-    def _reflect(self, j: int, y: Vector) -> None:
+    def _apply_reflector(self, j: int, y: Vector) -> None:
         v, beta = self.reflectors[j]
-        t = dot(v, y[j:]) * beta
+        t = dot_product(v, y[j:]) * beta
         for k, entry in enumerate(v):
             y[j + k] = y[j + k] - t * entry
 
@@ -91,7 +91,7 @@ class HouseholderQR:
         for c in range(self.m, self.n):
             y = [ca.SX(float(i == c)) for i in range(self.n)]
             for j in reversed(range(self.m)):
-                self._reflect(j, y)
+                self._apply_reflector(j, y)
             for position, column in enumerate(self.columns):
                 rows[column].append(y[position])
         return rows
@@ -126,8 +126,8 @@ class HouseholderQR:
         return total
 
 
-def householder(j: SX) -> HouseholderQR:
-    """Factor the transpose of J (m, n), n >= m. A rank-deficient J divides by zero: the caller tests for it."""
+def factor_householder(j: SX) -> HouseholderQR:
+    """Factor the transpose of J (m, n), n >= m; a rank-deficient J divides by zero, for which the caller must test."""
     m, n = j.shape
     order = sorted(range(m), key=lambda i: j[i, :].nnz())
     columns = sorted(range(n), key=lambda k: -j[:, k].nnz())
@@ -137,7 +137,7 @@ def householder(j: SX) -> HouseholderQR:
     pivots: list[SX] = []
     for i in range(m):
         x = rows[i][i:]
-        pivots.append(dot(x, x))
+        pivots.append(dot_product(x, x))
         length = ca.sqrt(pivots[i])
         sign = ca.if_else(x[0] < 0, -1.0, 1.0)  # reflect away from x: no cancellation in v
         v = [x[0] + sign * length, *x[1:]]
@@ -145,7 +145,7 @@ def householder(j: SX) -> HouseholderQR:
         reflectors.append((v, beta))
         r[i][i] = -sign * length
         for k in range(i + 1, m):
-            t = dot(v, rows[k][i:]) * beta
+            t = dot_product(v, rows[k][i:]) * beta
             for c, entry in enumerate(v):
                 rows[k][i + c] = rows[k][i + c] - t * entry
             r[i][k] = rows[k][i]
@@ -153,7 +153,7 @@ def householder(j: SX) -> HouseholderQR:
 
 
 def jacobi_sweep(rows: list[Vector]) -> tuple[list[Vector], SX]:
-    """One sweep of one-sided Jacobi rotations over all pairs of rows.
+    """Apply one sweep of one-sided Jacobi rotations to all pairs of rows.
 
     Returns:
         The rotated rows, and the largest cosine of an angle between two rows before its rotation: 0 when the rows are
@@ -165,11 +165,11 @@ def jacobi_sweep(rows: list[Vector]) -> tuple[list[Vector], SX]:
     largest = ca.SX(0)
     for i in range(len(rows)):
         for k in range(i + 1, len(rows)):
-            a, b, g = dot(rows[i], rows[i]), dot(rows[k], rows[k]), dot(rows[i], rows[k])
+            a, b, g = dot_product(rows[i], rows[i]), dot_product(rows[k], rows[k]), dot_product(rows[i], rows[k])
             size = ca.sqrt(a * b)
             cosine = ca.if_else(size > 0, ca.fabs(g) / size, 0.0)
             largest = ca.if_else(cosine > largest, cosine, largest)
-            c, s, _ = _rotation(a, b, g)
+            c, s, _ = _jacobi_rotation(a, b, g)
             first, second = rows[i], rows[k]
             rows[i] = [c * x - s * y for x, y in zip(first, second, strict=True)]
             rows[k] = [s * x + c * y for x, y in zip(first, second, strict=True)]
@@ -192,21 +192,23 @@ def singular_rows(rows: list[Vector], carried: Vector, sweeps: int) -> tuple[lis
     """
     rows, x = [list(r) for r in rows], list(carried)
     for _ in range(sweeps):
-        squares = [dot(r, r) for r in rows]
+        squares = [dot_product(r, r) for r in rows]
         for i in range(len(rows)):
             for k in range(i + 1, len(rows)):
-                g = dot(rows[i], rows[k])
-                c, s, t = _rotation(squares[i], squares[k], g)
+                g = dot_product(rows[i], rows[k])
+                c, s, t = _jacobi_rotation(squares[i], squares[k], g)
                 squares[i], squares[k] = squares[i] - t * g, squares[k] + t * g
                 x[i], x[k] = c * x[i] - s * x[k], s * x[i] + c * x[k]
                 first, second = rows[i], rows[k]
                 rows[i] = [c * p - s * q for p, q in zip(first, second, strict=True)]
                 rows[k] = [s * p + c * q for p, q in zip(first, second, strict=True)]
-    return rows, x, [dot(r, r) for r in rows]
+    return rows, x, [dot_product(r, r) for r in rows]
 
 
-def _rotation(a: SX, b: SX, g: SX) -> tuple[SX, SX, SX]:
-    """Cosine, sine and tangent of the smaller angle that makes rows of squared lengths a, b and product g orthogonal."""
+def _jacobi_rotation(a: SX, b: SX, g: SX) -> tuple[SX, SX, SX]:
+    """Return cosine, sine, and tangent of the smaller angle that makes rows of squared lengths a, b and product g
+    orthogonal.
+    """
     difference = b - a
     root = ca.fabs(difference) + ca.sqrt(difference * difference + 4 * g * g)
     sign = ca.if_else(difference < 0, -1.0, 1.0)
@@ -237,8 +239,8 @@ def determinant(a: Sequence[Vector]) -> SX:
     return total
 
 
-def slopes_along(values: Sequence[SX], q: SX, directions: Sequence[SX]) -> list[Vector]:
-    """Derivatives of each value by q along each direction, by forward differentiation; one list per value."""
+def directional_derivatives(values: Sequence[SX], q: SX, directions: Sequence[SX]) -> list[Vector]:
+    """Return the derivatives of each value by q along each direction, by forward differentiation; one list per value."""
     stacked = ca.vertcat(*values)
     by_direction = [ca.vertsplit(ca.densify(ca.jtimes(stacked, q, v))) for v in directions]
     return [list(row) for row in zip(*by_direction, strict=True)]
@@ -246,7 +248,7 @@ def slopes_along(values: Sequence[SX], q: SX, directions: Sequence[SX]) -> list[
 
 def damped_least_norm(j: SX, e: SX, damping: SX | float) -> SX:
     """``J' (J J' + damping I)^-1 e``: the least-norm solution of ``J x = e``, damped."""
-    return j.T @ ca.vertcat(*solve_spd(gram(j, damping), ca.vertsplit(ca.densify(e))))
+    return j.T @ ca.vertcat(*solve_spd(damped_gram(j, damping), ca.vertsplit(ca.densify(e))))
 
 
 class Cholesky:
@@ -302,8 +304,8 @@ def solve_spd(a: list[list[SX]], b: Vector) -> Vector:
     return Cholesky(a).solve(b)
 
 
-def gram(j: SX, damping: SX | float = 0.0) -> list[list[SX]]:
-    """``J J' + damping I`` of J (m, n)."""
+def damped_gram(j: SX, damping: SX | float = 0.0) -> list[list[SX]]:
+    """Return ``J J' + damping I`` of J (m, n)."""
     product = j @ j.T
     m = j.shape[0]
     return [[product[i, k] + (damping if i == k else 0) for k in range(m)] for i in range(m)]

@@ -1,4 +1,4 @@
-"""What can be named: the indices, control laws and susceptibilities, with their parameters. One registry for each kind.
+"""Registries of the indices, control laws, and susceptibilities that have a name, with their parameters.
 
 Registered is what the stub of a package exports and :func:`constructor` marks; nothing else lists it. An entry is read from
 the text of its constructor, so that help, menus and error messages can be written without importing what computes.
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, get_type_hints
 
 from holdfast import grammar
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, TaskError
 
@@ -29,7 +29,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Parameter:
-    """What a constructor takes besides arm and task, as ``Annotated[float, Parameter("m/s", "largest joint rate", low=0)]``.
+    """Parameter of a constructor besides arm and task, as ``Annotated[float, Parameter("m/s", "largest joint rate", low=0)]``.
 
     Attributes:
         unit: Of its numbers; ``1`` if they have none.
@@ -55,23 +55,23 @@ class Parameter:
         unit = "" if self.unit == "1" else self.unit
         return ", ".join(filter(None, [self.help, unit, " and ".join(bounds), default]))
 
-    def read(self, text: str, what: str) -> Any:
-        """The value that a label says.
+    def read_value(self, text: str, what: str) -> Any:
+        """Read the value of the parameter from a label.
 
         Raises:
             InputError: It is not of the parameter's kind; ``what`` is what the error calls it.
         """
-        found = grammar.value(text)
+        value = grammar.parse_value(text)
         if self.kind in ("float", "int"):
-            if isinstance(found, tuple):
-                raise InputError(f"{what} has {len(found)} numbers for {self.name}; give one")
-            if isinstance(found, str):
+            if isinstance(value, tuple):
+                raise InputError(f"{what} has {len(value)} numbers for {self.name}; give one")
+            if isinstance(value, str):
                 raise InputError(f"{what}: '{text}' is not a number; give one: {self.describe()}")
-            return int(found) if self.kind == "int" and found.is_integer() else found
-        if isinstance(found, str) and "," in text:
-            wrong = next(x for x in text.split(",") if not grammar.is_number(x))
-            raise InputError(f"{what}: '{wrong.strip()}' is not a number; give {self.describe()}")
-        return found if isinstance(found, str) else list(found) if isinstance(found, tuple) else [found]
+            return int(value) if self.kind == "int" and value.is_integer() else value
+        if isinstance(value, str) and "," in text:
+            bad_part = next(x for x in text.split(",") if not grammar.is_number(x))
+            raise InputError(f"{what}: '{bad_part.strip()}' is not a number; give {self.describe()}")
+        return value if isinstance(value, str) else list(value) if isinstance(value, tuple) else [value]
 
 
 def constructor(
@@ -87,11 +87,11 @@ def constructor(
         needs: What an arm must have: ``"inertia"``, ``"redundancy"``.
         properties: What tests may rely on: ``"Abdi 2012"``, ``"base-free"`` (the base joint does not matter).
     """
-    return checked
+    return check_arguments
 
 
 @dataclass(frozen=True)
-class Entry:
+class RegistryEntry:
     """A named constructor with its parameters.
 
     Attributes:
@@ -116,8 +116,8 @@ class Entry:
     @property
     def make(self) -> Callable[..., Any]:
         """The constructor."""
-        found: Callable[..., Any] = getattr(import_module(self.module), self.function)
-        return found
+        constructor_function: Callable[..., Any] = getattr(import_module(self.module), self.function)
+        return constructor_function
 
     @property
     def usage(self) -> str:
@@ -129,14 +129,14 @@ class Entry:
 
     def example(self, arm: Any, task: Any = "pose") -> dict[str, Any]:
         """Values of the parameters that fit an arm and a task, for menus, templates and tests."""
-        found = {}
+        values = {}
         for p in self.parameters:
             made = getattr(import_module(self.module), p.example, p.example) if isinstance(p.example, str) else p.example
-            found[p.name] = made(arm, task) if callable(made) else made
-        return found
+            values[p.name] = made(arm, task) if callable(made) else made
+        return values
 
-    def read(self, value: str | None, by_key: Mapping[str, str], what: str) -> dict[str, Any]:
-        """The settings that a label gives: values by the names of the constructor."""
+    def read_settings(self, value: str | None, by_key: Mapping[str, str], what: str) -> dict[str, Any]:
+        """Read the settings of a label as values by the names of the constructor."""
         if value is not None:
             if not self.parameters:
                 raise InputError(f"{what}: {self.kind} '{self.name}' takes no setting; write {self.name} alone")
@@ -145,11 +145,11 @@ class Entry:
         for key in by_key:
             if key not in known:
                 raise InputError(f"{what}: {self.kind} '{self.name}' has no setting '{key}'; write {self.usage}")
-        return {key: known[key].read(text, what) for key, text in by_key.items()}
+        return {key: known[key].read_value(text, what) for key, text in by_key.items()}
 
 
 class Labelled:
-    """What can be written as a label: it has a name and settings."""
+    """Object that can be written as a label, with a name and settings."""
 
     @property
     def slug(self) -> str:
@@ -158,19 +158,19 @@ class Labelled:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What the constructor was given besides arm and task, by name; None for what is as usual."""
+        """Arguments of the constructor besides arm and task, by name; None for a default."""
         return {}
 
     @property
     def label(self) -> str:
         """The name with the settings, as the command line takes it; the name alone where they cannot be written."""
         try:
-            return grammar.label(self.slug, self.settings)
+            return grammar.write_label(self.slug, self.settings)
         except InputError:
             return self.slug
 
 
-class Registry(Mapping[str, Entry]):
+class Registry(Mapping[str, RegistryEntry]):
     """All entries of one kind.
 
     Args:
@@ -185,15 +185,15 @@ class Registry(Mapping[str, Entry]):
         self.kind, self.package, self._error = kind, f"holdfast.{package}", error
 
     @cached_property
-    def _entries(self) -> dict[str, Entry]:
+    def _entries(self) -> dict[str, RegistryEntry]:
         offered: dict[str, set[str]] = {}
-        for node in ast.parse(_text(f"{self.package.partition('.')[2].replace('.', '/')}/__init__.pyi")).body:
+        for node in ast.parse(_read_source(f"{self.package.partition('.')[2].replace('.', '/')}/__init__.pyi")).body:
             if isinstance(node, ast.ImportFrom) and node.module:
                 offered.setdefault(node.module, set()).update(a.name for a in node.names)
-        known = (entry for module, names in offered.items() for entry in _constructors(self.kind, module, names))
+        known = (entry for module, names in offered.items() for entry in _read_constructors(self.kind, module, names))
         return {entry.name: entry for entry in known}
 
-    def __getitem__(self, name: str) -> Entry:
+    def __getitem__(self, name: str) -> RegistryEntry:
         return self._entries[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -202,18 +202,18 @@ class Registry(Mapping[str, Entry]):
     def __len__(self) -> int:
         return len(self._entries)
 
-    def _of_file(self, label: str) -> Entry | None:
-        """The entry of a function of one's own, written as ``module:function``; None for any other label."""
+    def _entry_of_function(self, label: str) -> RegistryEntry | None:
+        """Return the entry of a user's own function, written as ``module:function``; None for any other label."""
         if not self._own or label.partition(":")[0] in self or not _MODULE_FUNCTION.fullmatch(label):
             return None
-        return Entry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
+        return RegistryEntry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
 
     def covers(self, label: str) -> bool:
         """Return whether a label names an entry, or a function of a file as ``module:function``."""
-        return label.partition(":")[0] in self or self._of_file(label) is not None
+        return label.partition(":")[0] in self or self._entry_of_function(label) is not None
 
-    def read(self, label: str, option: str = "") -> tuple[Entry, dict[str, Any]]:
-        """The entry that a label names, and the settings that it gives.
+    def read_label(self, label: str, option: str = "") -> tuple[RegistryEntry, dict[str, Any]]:
+        """Return the entry that a label names and the settings of the label.
 
         Args:
             label: See :mod:`holdfast.grammar`.
@@ -223,18 +223,18 @@ class Registry(Mapping[str, Entry]):
             HoldfastError: The name is not known; the message has the nearest, and all.
             InputError: A setting that it does not have, or of another kind.
         """
-        own = self._of_file(label)
+        own = self._entry_of_function(label)
         if own is not None:
             return own, {"function": label}
-        name, value, by_key = grammar.split(label)
+        name, value, by_key = grammar.split_label(label)
         what = f"{option} '{label}'".strip()
         if name not in self:
             form = f", {OWN_INDEX}" if self._own else ""
-            raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self) + form)
-        return self[name], self[name].read(value, by_key, what)
+            raise self._error((f"{option}: " if option else "") + unknown_name_message(self.kind, name, self) + form)
+        return self[name], self[name].read_settings(value, by_key, what)
 
     def make(self, label: str, arm: Any, *, option: str = "", **options: Any) -> Any:
-        """What a label names, for an arm.
+        """Make the object that a label names, for an arm.
 
         Args:
             label: Name and settings.
@@ -243,24 +243,24 @@ class Registry(Mapping[str, Entry]):
             options: What the constructor takes besides; a setting may be here in place of the label.
 
         Raises:
-            HoldfastError: As :meth:`read`, an option that it does not have, or a setting that is missing.
+            HoldfastError: As :meth:`read_label`, an option that it does not have, or a setting that is missing.
         """
-        entry, settings = self.read(label, option)
+        entry, settings = self.read_label(label, option)
         known = list(inspect.signature(entry.make).parameters)[1:]
         for name in options:
             if name not in known:
                 raise InputError(f"{self.kind} '{entry.name}' has no option '{name}'; it takes {', '.join(known)}")
             if name in settings:
                 raise InputError(f"'{label}' and an option both give {name}; give it once")
-        given = settings | options
+        arguments = settings | options
         for p in entry.parameters:
-            if p.default is ... and p.name not in given:
+            if p.default is ... and p.name not in arguments:
                 before = f"{option} '{label}': " if option else ""
                 raise InputError(f"{before}{self.kind} '{entry.name}' needs {p.name}, {p.describe()}; write {entry.usage}")
-        return entry.make(arm, **given)
+        return entry.make(arm, **arguments)
 
-    def storable(self, thing: Labelled) -> bool:
-        """Whether its label gives the thing back."""
+    def is_storable(self, thing: Labelled) -> bool:
+        """Return whether the label of an object reproduces the object."""
         try:
             self.label(thing)
         except InputError:
@@ -268,35 +268,35 @@ class Registry(Mapping[str, Entry]):
         return True
 
     def label(self, thing: Labelled) -> str:
-        """The label that gives the thing back, for what is kept in files.
+        """Return the label that reproduces an object, for files.
 
         Raises:
             InputError: There is none: it is of a class of one's own, or has a setting that no label can hold.
         """
-        entry = self[thing.slug] if thing.slug in self else self._of_file(thing.slug)
+        entry = self[thing.slug] if thing.slug in self else self._entry_of_function(thing.slug)
         made = None if entry is None else get_type_hints(entry.make).get("return")
         if type(thing) is not made:
             raise InputError(f"{thing!r} is of your own making, which a file cannot hold; keep the script")
-        return grammar.label(thing.slug, thing.settings)
+        return grammar.write_label(thing.slug, thing.settings)
 
     def labels(self, arm: Any, task: Any = "pose") -> list[str]:
         """A label of every entry for an arm and a task, with settings only where it cannot do without."""
-        found = []
+        labels = []
         for name, entry in self.items():
             needed = {p.name for p in entry.parameters if p.default is ...}
             example = entry.example(arm, task) if needed else {}
-            found.append(grammar.label(name, {key: value if key in needed else None for key, value in example.items()}))
-        return found
+            labels.append(grammar.write_label(name, {key: value if key in needed else None for key, value in example.items()}))
+        return labels
 
     @property
     def usage(self) -> str:
         """All names, with their settings and what these are, for help."""
-        told = [(e.usage, "; ".join(p.describe() for p in e.parameters)) for e in self.values()]
-        return "; ".join(usage + (f" ({about})" if about else "") for usage, about in told)
+        texts = [(e.usage, "; ".join(p.describe() for p in e.parameters)) for e in self.values()]
+        return "; ".join(usage + (f" ({about})" if about else "") for usage, about in texts)
 
 
-def unknown(kind: str, name: str, *known: Iterable[str]) -> str:
-    """The sentence about a name that is not known: the nearest, and all."""
+def unknown_name_message(kind: str, name: str, *known: Iterable[str]) -> str:
+    """Return the error message for an unknown name, with the nearest name and all known names."""
     import difflib
 
     names = [x for several in known for x in several]
@@ -305,13 +305,13 @@ def unknown(kind: str, name: str, *known: Iterable[str]) -> str:
     return f"{kind} '{name}' is not known; {guess}use one of {', '.join(names)}"
 
 
-def _text(path: str) -> str:
+def _read_source(path: str) -> str:
     file = Path(__file__).parent / path
     return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
-def _constructors(kind: str, module: str, offered: set[str]) -> Iterator[Entry]:
-    text = _text(module.removeprefix("holdfast.").replace(".", "/") + ".py")
+def _read_constructors(kind: str, module: str, offered: set[str]) -> Iterator[RegistryEntry]:
+    text = _read_source(module.removeprefix("holdfast.").replace(".", "/") + ".py")
     if "\n@constructor(" not in text:
         return
     body = ast.parse(text).body
@@ -321,11 +321,11 @@ def _constructors(kind: str, module: str, offered: set[str]) -> Iterator[Entry]:
             case ast.FunctionDef(name, decorator_list=[ast.Call(ast.Name("constructor")) as mark]) if name in offered:
                 facts = {k.arg: ast.literal_eval(k.value) for k in mark.keywords if k.arg}
                 about = (ast.get_docstring(node) or "").partition("\n")[0]
-                parameters = tuple(_parameters(node.args, aliases))
-                yield Entry(kind, name.replace("_", "-"), module, name, about, parameters, **facts)
+                parameters = tuple(_read_parameters(node.args, aliases))
+                yield RegistryEntry(kind, name.replace("_", "-"), module, name, about, parameters, **facts)
 
 
-def _parameters(arguments: ast.arguments, aliases: Mapping[str, ast.expr]) -> Iterator[Parameter]:
+def _read_parameters(arguments: ast.arguments, aliases: Mapping[str, ast.expr]) -> Iterator[Parameter]:
     missing = len(arguments.args) - len(arguments.defaults)
     defaults = [*([None] * missing), *arguments.defaults, *arguments.kw_defaults]
     for argument, default in zip([*arguments.args, *arguments.kwonlyargs], defaults, strict=True):
@@ -336,10 +336,10 @@ def _parameters(arguments: ast.arguments, aliases: Mapping[str, ast.expr]) -> It
             ):
                 given = {k.arg: ast.literal_eval(k.value) for k in call.keywords if k.arg}
                 made = Parameter(*(ast.literal_eval(x) for x in call.args), **given)
-                usual = ... if default is None else ast.literal_eval(default)
-                yield replace(made, name=argument.arg, kind=ast.unparse(kind), default=usual)
+                default_value = ... if default is None else ast.literal_eval(default)
+                yield replace(made, name=argument.arg, kind=ast.unparse(kind), default=default_value)
 
 
-INDICES = Registry("index", "indices", TaskError, ("holdfast.indices.own_file", "load_index"))
-LAWS = Registry("control law", "control", InputError)
-SUSCEPTIBILITIES = Registry("susceptibility", "indices.susceptibility", InputError)
+INDEX_REGISTRY = Registry("index", "indices", TaskError, ("holdfast.indices.own_file", "load_index"))
+LAW_REGISTRY = Registry("control law", "control", InputError)
+SUSCEPTIBILITY_REGISTRY = Registry("susceptibility", "indices.susceptibility", InputError)

@@ -1,4 +1,6 @@
-"""The bases of results and of what notebooks show; what draws and writes them lies above and is looked up by name."""
+"""Base classes of results and of objects that notebooks show; the code that draws and writes them is found by name in a higher
+layer.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Shown:
-    """Base of what a notebook shows as more than a name; no fields, so that any dataclass can derive from it.
+class Presentable:
+    """Base of objects that a notebook shows as more than a name; without fields, so that any dataclass can derive from it.
 
     What presents a class is named in :mod:`holdfast.present`.
     """
@@ -18,19 +20,19 @@ class Shown:
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the answer, a table of its key numbers, the main figure, and what to ask next."""
-        shown: str = self._presented("in_notebook")
-        return shown
+        """Return the notebook view: the answer, a table of its key numbers, the main figure, and possible next steps."""
+        view: str = self._present("in_notebook")
+        return view
 
-    def _presented(self, function: str, *arguments: Any, **options: Any) -> Any:
-        """What a function of the modules that present this class makes of it; they are imported only now."""
-        from holdfast.present import presenter
+    def _present(self, function: str, *arguments: Any, **options: Any) -> Any:
+        """Call a function of the modules that present this class, which are imported only now."""
+        from holdfast.present import find_presenter
 
         names = [each.__name__ for each in type(self).__mro__]
-        return presenter(names, function)(self, *arguments, **options)
+        return find_presenter(names, function)(self, *arguments, **options)
 
 
-class Result(Shown):
+class Result(Presentable):
     """Base of what an analysis returns.
 
     A class repeats a method only to give its options a type (``*args`` is there so that it may).
@@ -44,7 +46,7 @@ class Result(Shown):
         Raises:
             StoreError: It cannot be written; what was there is as it was.
         """
-        written: Path = self._presented("write", Path(path), *args, **options)
+        written: Path = self._present("write", Path(path), *args, **options)
         return written
 
     def save(self, folder: str | Path, *args: Any, **options: Any) -> list[Path]:
@@ -53,13 +55,13 @@ class Result(Shown):
         Raises:
             StoreError: The folder or a file cannot be written.
         """
-        files: list[Path] = self._presented("save", Path(folder), *args, **options)
+        files: list[Path] = self._present("save", Path(folder), *args, **options)
         return files
 
     def figures(self, *args: Any, **options: Any) -> dict[str, Figure]:
         """Its figures by name."""
-        drawn: dict[str, Figure] = self._presented("figures", *args, **options)
-        return drawn
+        figures: dict[str, Figure] = self._present("figures", *args, **options)
+        return figures
 
     def plot(self, name: str = "", **options: Any) -> Figure:
         """One of its figures, which a notebook shows where a cell ends with it.
@@ -74,12 +76,12 @@ class Result(Shown):
         Raises:
             InputError: It has no figure of that name, or none; the message says what to ask instead.
         """
-        drawn: Figure = self._presented("plot", name, **options)
-        return drawn
+        figure: Figure = self._present("plot", name, **options)
+        return figure
 
     def to_dict(self, *args: Any, **options: Any) -> dict[str, Any]:
         """Its numbers by name, in types that JSON has, as ``--json`` prints them; infinity and NaN are None."""
-        data: dict[str, Any] = self._presented("as_json", *args, **options)
+        data: dict[str, Any] = self._present("as_json", *args, **options)
         return data
 
     def describe(self) -> list[str]:
@@ -91,10 +93,10 @@ class Result(Shown):
         cls._repr_pretty_ = cls._repr_pretty_  # type: ignore[method-assign]  # IPython looks for it beside the dataclass's own repr
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
-        """What IPython prints: the sentences, and not all the arrays."""
+        """Print the sentences of the result in IPython, without all its arrays."""
         del cycle
-        printer.text("\n".join(self._presented("sentences")))
+        printer.text("\n".join(self._present("sentences")))
 
     def require_ok(self) -> Self:
-        """Itself, unless it holds no answer; where that may be, the class says so and raises."""
+        """Return the result itself, or raise the class's own error if it holds no answer."""
         return self

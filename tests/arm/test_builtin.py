@@ -15,10 +15,10 @@ from scipy.spatial.transform import Rotation
 
 from holdfast import arms
 from holdfast.arm.task import as_task
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.errors import ArmError
 
-PROVENANCE = yaml.safe_load(DATA.joinpath("provenance.yaml").read_text())
+PROVENANCE = yaml.safe_load(DATA_FOLDER.joinpath("provenance.yaml").read_text())
 
 
 @pytest.mark.parametrize("name", arms.names())
@@ -39,31 +39,31 @@ def test_what_is_said_about_an_arm_is_true(name: str) -> None:
 @pytest.mark.parametrize("name", list(PROVENANCE))
 def test_files_are_those_whose_provenance_is_told(name: str) -> None:
     entry = PROVENANCE[name]
-    content = DATA.joinpath(entry["file"]).read_bytes()
+    content = DATA_FOLDER.joinpath(entry["file"]).read_bytes()
     assert hashlib.sha256(content).hexdigest() == entry["sha256"]
     assert len(entry["sha256_original"]) == 64
     assert arms.about(name).licence == entry["licence"]
     assert entry["package"] in arms.about(name).source
     for text in entry["texts"]:
-        assert len(DATA.joinpath("licenses", text).read_text()) > 500
+        assert len(DATA_FOLDER.joinpath("licenses", text).read_text()) > 500
     kept = () if "meshes" in entry else (b"<collision", b"<mesh")
     for left_over in (b"<visual", b"<transmission", b"<gazebo", b"ns0:", *kept):
         assert left_over not in content
 
 
 def test_every_file_has_its_provenance() -> None:
-    files = {x.name for x in DATA.iterdir() if x.name.endswith(".urdf")}
+    files = {x.name for x in DATA_FOLDER.iterdir() if x.name.endswith(".urdf")}
     assert files == {x["file"] for x in PROVENANCE.values()}
-    assert {x.name for x in DATA.iterdir() if x.name.endswith(".srdf")} == {
+    assert {x.name for x in DATA_FOLDER.iterdir() if x.name.endswith(".srdf")} == {
         x["pairs"]["file"] for x in PROVENANCE.values() if "pairs" in x
     }
-    texts = {x.name for x in DATA.joinpath("licenses").iterdir()}
+    texts = {x.name for x in DATA_FOLDER.joinpath("licenses").iterdir()}
     assert texts == {text for x in PROVENANCE.values() for text in x["texts"]}
 
 
 def test_meshes_are_those_whose_provenance_is_told() -> None:
     listed = {f"{x['meshes_in']}/{name}": h for x in PROVENANCE.values() for name, h in x.get("meshes", {}).items()}
-    root = Path(str(DATA))
+    root = Path(str(DATA_FOLDER))
     found = {p.relative_to(root).as_posix(): p for p in root.rglob("*") if p.is_file() and p.suffix not in (".yaml", ".txt")}
     meshes = {name: p for name, p in found.items() if "/" in name}
     assert {name: hashlib.sha256(p.read_bytes()).hexdigest() for name, p in meshes.items()} == listed
@@ -160,7 +160,7 @@ def test_ur5_rail_is_the_ur5_on_a_slide() -> None:
 
 def test_iiwa_is_the_14() -> None:
     """Lengths by Pinocchio: base to shoulder, upper arm, forearm; the iiwa 7 has 0.34, 0.40, 0.40 m."""
-    model = pin.buildModelFromUrdf(str(DATA.joinpath("iiwa14.urdf")))
+    model = pin.buildModelFromUrdf(str(DATA_FOLDER.joinpath("iiwa14.urdf")))
     data = model.createData()
     pin.forwardKinematics(model, data, pin.neutral(model))
     heights = [data.oMi[k].translation[2] for k in (2, 4, 6)]
@@ -183,11 +183,11 @@ def test_unknown_names() -> None:
 
 def test_resolve(tmp_path: Path) -> None:
     assert arms.resolve("panda") is arms.load("panda")
-    urdf = str(DATA.joinpath("panda.urdf"))
+    urdf = str(DATA_FOLDER.joinpath("panda.urdf"))
     assert arms.resolve(urdf, tip="panda_link8").n == 7
     assert arms.resolve(urdf, base="panda_link2", tip="panda_link8").n == 5
     copy = tmp_path / "copy.XML"
-    copy.write_bytes(DATA.joinpath("iiwa14.urdf").read_bytes())
+    copy.write_bytes(DATA_FOLDER.joinpath("iiwa14.urdf").read_bytes())
     assert arms.resolve(str(copy)).n == 7
     for ending in ("yaml", "yml"):
         path = tmp_path / f"two.{ending}"

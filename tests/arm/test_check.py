@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from holdfast import arms
 from holdfast.arm.machine import Joint, Link
 from holdfast.arm.model import Arm
-from holdfast.arm.soundness import check, require_possible_inertia
+from holdfast.arm.soundness import check_arm, require_possible_inertia
 from holdfast.errors import ArmError
 
 JOINT = Joint("elbow", "revolute", np.eye(4), axis=np.array([0, 0, 1.0]), lower=-1, upper=1, velocity=2, effort=3)
@@ -24,11 +24,11 @@ def arm(joint: Joint = JOINT, link: Link | None = LINK, payload: Link | None = N
 
 
 def messages(a: Arm) -> list[str]:
-    return [f"{x.severity}: {x.subject}: {x.message}" for x in check(a)]
+    return [f"{x.severity}: {x.subject}: {x.message}" for x in check_arm(a)]
 
 
 def test_a_sound_arm_has_no_findings() -> None:
-    assert check(arm()) == []
+    assert check_arm(arm()) == []
     require_possible_inertia(arm())
 
 
@@ -111,8 +111,8 @@ def test_a_link_of_which_nothing_is_known_is_no_point_and_no_massless_link() -> 
 
 
 def test_thin_rods_and_flat_plates_are_sound() -> None:
-    assert check(arm(link=Link(1.0, np.zeros(3), turned((0, 1, 1))))) == []
-    assert check(arm(link=Link(1.0, np.zeros(3), turned((1, 1, 2))))) == []
+    assert check_arm(arm(link=Link(1.0, np.zeros(3), turned((0, 1, 1))))) == []
+    assert check_arm(arm(link=Link(1.0, np.zeros(3), turned((1, 1, 2))))) == []
 
 
 def test_the_payload_is_checked_too() -> None:
@@ -124,7 +124,7 @@ def test_the_payload_is_checked_too() -> None:
 
 def test_two_full_turns_are_plausible() -> None:
     """Some files round 2 pi up in the last digit."""
-    assert check(arm(replace(JOINT, lower=-6.28318530718, upper=6.28318530718))) == []
+    assert check_arm(arm(replace(JOINT, lower=-6.28318530718, upper=6.28318530718))) == []
 
 
 SOUND = ["planar-2r", "planar-3r", "panda", "xarm7", "iiwa14", "ur5", "ur5-rail", "kinova-j2s6s200"]
@@ -132,7 +132,7 @@ SOUND = ["planar-2r", "planar-3r", "panda", "xarm7", "iiwa14", "ur5", "ur5-rail"
 
 @pytest.mark.parametrize("name", arms.names())
 def test_builtin_arms(name: str) -> None:
-    found = check(arms.load(name))
+    found = check_arm(arms.load(name))
     assert not [x for x in found if x.severity == "error"]
     if name in SOUND:
         require_possible_inertia(arms.load(name))
@@ -151,5 +151,5 @@ def test_inertias_in_other_units_are_named(unit: float, named: bool) -> None:
     """Of the Panda's links in kg m^2, kg cm^2, kg mm^2 and g mm^2."""
     panda = arms.load("panda")
     links = tuple(replace(x, inertia=x.inertia * unit) for x in panda.links)
-    found = [x.message for x in check(replace(panda, links=links)) if "radius of gyration" in x.message]
+    found = [x.message for x in check_arm(replace(panda, links=links)) if "radius of gyration" in x.message]
     assert bool(found) is named

@@ -15,8 +15,8 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.arms.builtin import DATA
-from holdfast.arms.dh_file import text
+from holdfast.arms.builtin import DATA_FOLDER
+from holdfast.arms.dh_file import format_dh_file
 from holdfast.arms.dh_rows import dh_table
 
 
@@ -104,7 +104,7 @@ def test_parallel_axes_keep_their_offsets() -> None:
 def test_urdf_arms_agree_with_pinocchio(name: str, tip: str, rng: np.random.Generator) -> None:
     arm = arms.load(name)
     table = dh_table(arm).arm()
-    model = pin.buildModelFromUrdf(str(DATA.joinpath(f"{name}.urdf")))
+    model = pin.buildModelFromUrdf(str(DATA_FOLDER.joinpath(f"{name}.urdf")))
     data = model.createData()
     for values in rng.uniform(-2.5, 2.5, (4, arm.n)):
         q = pin.neutral(model)
@@ -132,7 +132,7 @@ def test_a_table_is_written_as_a_file_that_is_read_again(name: str, tmp_path: Pa
     arm = arms.load(name).with_base(oracles.random_pose(rng))
     table = dh_table(arm)
     file = tmp_path / "arm.yaml"
-    file.write_text(text(table, f"{name}: {{mine}}, no", (0, -9.81, 0), "from: a test"), encoding="utf-8")
+    file.write_text(format_dh_file(table, f"{name}: {{mine}}, no", (0, -9.81, 0), "from: a test"), encoding="utf-8")
     again = arms.resolve(str(file))
     assert (again.name, again.source, again.gravity.tolist()) == (f"{name}: {{mine}}, no", "from: a test", [0, -9.81, 0])
     q = rng.uniform(-3, 3, (6, arm.n))
@@ -146,7 +146,7 @@ def test_a_table_is_written_as_a_file_that_is_read_again(name: str, tmp_path: Pa
 def test_names_of_joints_may_be_anything(tmp_path: Path) -> None:
     rows = [hf.DH(a=0.1, alpha=0.0, name=x) for x in ("no", "1", "a, b}", "x: y", "it's", "null")]
     file = tmp_path / "arm.yaml"
-    file.write_text(text(dh_table(hf.Arm.from_dh(rows)), "~"), encoding="utf-8")
+    file.write_text(format_dh_file(dh_table(hf.Arm.from_dh(rows)), "~"), encoding="utf-8")
     again = arms.resolve(str(file))
     assert again.joint_names == ("no", "1", "a, b}", "x: y", "it's", "null")
     assert again.name == "~"

@@ -9,9 +9,9 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
-from holdfast.arm.soundness import check
+from holdfast.arm.soundness import check_arm
 
 ROW = """<joint name="j{k}" type="{kind}"> <parent link="l{k}"/> <child link="l{next}"/> <origin xyz="0.05 0 0.2"/>
 <axis xyz="{axis}"/> <limit {limits} velocity="2" effort="50"/> </joint>"""
@@ -51,7 +51,7 @@ def test_an_assessment_is_that_of_a_continuous_joint(unlimited, tmp_path):
 
 
 def test_the_finding_names_the_joint_and_the_rule(unlimited):
-    (message,) = [f.message for f in check(unlimited) if f.subject == "joint 'j3'" and "limit" in f.message]
+    (message,) = [f.message for f in check_arm(unlimited) if f.subject == "joint 'j3'" and "limit" in f.message]
     assert "has no limits (one beyond 100 turns counts as none)" in message
 
 
@@ -93,7 +93,7 @@ def test_a_given_configuration_of_another_pose_is_only_compared_with(rng):
 
 
 def test_a_matrix_that_cannot_be_factored_is_a_sentence():
-    @checked
+    @check_arguments
     def decompose():
         return np.linalg.svd(np.full((2, 2), np.nan))
 

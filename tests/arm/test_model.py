@@ -15,9 +15,9 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.arm import urdf
 from holdfast.arm.dh import DH
-from holdfast.arm.machine import Joint, Link, Machine
+from holdfast.arm.machine import ArmData, Joint, Link
 from holdfast.arm.model import Arm
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.errors import ArmError, InputError
 
 
@@ -166,14 +166,16 @@ def test_an_arm_does_not_change_and_its_copies_do() -> None:
 
 
 def test_from_urdf_is_the_reader() -> None:
-    arm = Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8", name="mine", hold={"panda_finger_joint1": 0.01})
+    arm = Arm.from_urdf(
+        str(DATA_FOLDER.joinpath("panda.urdf")), tip="panda_link8", name="mine", hold={"panda_finger_joint1": 0.01}
+    )
     assert (arm.name, arm.n) == ("mine", 7)
 
 
 def test_an_arm_has_all_that_its_machine_says() -> None:
-    file = str(DATA.joinpath("panda.urdf"))
-    machine, arm = urdf.load(file, tip="panda_link8"), Arm.from_urdf(file, tip="panda_link8")
-    assert type(machine) is Machine
+    file = str(DATA_FOLDER.joinpath("panda.urdf"))
+    machine, arm = urdf.load_urdf(file, tip="panda_link8"), Arm.from_urdf(file, tip="panda_link8")
+    assert type(machine) is ArmData
     assert type(arm) is Arm
     assert (arm.title, arm.source, arm.fingerprint) == (
         machine.name + f" ({machine.chain})",

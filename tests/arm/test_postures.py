@@ -11,7 +11,7 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast.arm import generic_configuration
-from holdfast.arm.postures import _soundness
+from holdfast.arm.postures import _score_configurations
 from holdfast.arm.task import plane_normal
 from holdfast.assessment.single_points import structure
 
@@ -42,8 +42,8 @@ def test_a_configuration_behind_the_mounting_plane_counts_half_of_its_mirror_ima
     ahead = np.array([[-0.6, -0.4, 0.5, 0.3], [-1.2, 0.7, -0.3, 0.2]])  # turns about y: all joints at z of 0 or more
     assert min(frame[:, 2, 3].min() for frame in oracles.frames(arm, ahead)) > -1e-12
     assert max(oracles.frames(arm, -ahead)[2][:, 2, 3]) < -0.1
-    np.testing.assert_allclose(_soundness(arm, ahead), 2 * _soundness(arm, -ahead))
-    assert (_soundness(arm, ahead) > 0).all()
+    np.testing.assert_allclose(_score_configurations(arm, ahead), 2 * _score_configurations(arm, -ahead))
+    assert (_score_configurations(arm, ahead) > 0).all()
 
 
 def test_a_sound_home_stays_and_a_degenerate_one_does_not():

@@ -71,7 +71,7 @@ def test_random_arms_against_pinocchio(rng):
         data = model.createData()
 
         def build(q, arm=arm):
-            c = statics.composite(arm, q)
+            c = statics.composite_bodies(arm, q)
             tau = statics.gravity_torques(arm, c)
             return [tau, statics.inertia_diagonal(arm, c), ca.jacobian(tau, q)]
 
@@ -108,7 +108,7 @@ def test_composite_bodies_are_plain_sums_over_links(rng):
         arm = oracles.with_bodies(oracles.random_arm(rng, limits=2.0), rng, payload=trial % 2 == 0)
 
         def build(q, arm=arm):
-            w = statics.in_world(statics.composite(arm, q))
+            w = statics.express_in_world(statics.composite_bodies(arm, q))
             return [ca.horzcat(*w.moments).T, ca.vertcat(*w.inertias), ca.horzcat(*w.points).T, ca.horzcat(*w.axes).T]
 
         q = oracles.inside(arm, rng, 5)
@@ -121,7 +121,7 @@ def test_composite_bodies_are_plain_sums_over_links(rng):
             frame = made[i] @ joint.origin
             close(points.reshape(-1, arm.n, 3)[:, i], frame[:, :3, 3])
             close(axes.reshape(-1, arm.n, 3)[:, i], frame[:, :3, :3] @ joint.axis)
-        masses = statics.composite(arm, kinematics.joint_symbols(arm)).masses
+        masses = statics.composite_bodies(arm, kinematics.joint_symbols(arm)).masses
         np.testing.assert_allclose(
             masses, [sum(b[1] for b in bodies_in_world(arm, q) if b[0] >= i) for i in range(arm.n)], rtol=1e-13
         )
@@ -135,7 +135,7 @@ def test_the_derivatives_of_the_paper_against_differences(types, rng):
     n = arm.n
 
     def build(q):
-        w = statics.in_world(statics.composite(arm, q))
+        w = statics.express_in_world(statics.composite_bodies(arm, q))
         every = [(i, j) for j in range(n) for i in range(n)]
         return [
             ca.horzcat(*[statics.axis_derivative(arm, w, i, j) for i, j in every]).T,

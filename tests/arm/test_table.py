@@ -72,7 +72,7 @@ def test_forward_kinematics_is_the_textbook_product(
         "base": {"xyz": xyz.tolist(), "urdf_rpy": (rpy * unit).tolist()},
         "tool": tool.tolist(),
     }
-    arm = table.load(write(tmp_path_factory.mktemp("table"), content))
+    arm = table.load_dh_file(write(tmp_path_factory.mktemp("table"), content))
     q = rng.uniform(-3, 3, arm.n)
     base = np.eye(4)
     base[:3, :3], base[:3, 3] = Rotation.from_euler("xyz", rpy).as_matrix(), xyz
@@ -107,7 +107,7 @@ def test_links_and_payload_are_given_in_their_row_s_frame(tmp_path: Path, conven
     six = [[i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]] for i in inertias]
     links = [{"mass": 2.0, "com": c.tolist(), "inertia": i} for c, i in zip(coms, [x.tolist() for x in inertias], strict=True)]
     links[2]["inertia"] = [float(x) for x in six[2]]
-    arm = table.load(write(tmp_path, {"rows": rows, "convention": convention, "links": links, "payload": links[-1]}))
+    arm = table.load_dh_file(write(tmp_path, {"rows": rows, "convention": convention, "links": links, "payload": links[-1]}))
     q = rng.uniform(-3, 3, 5)
     moving = np.eye(4)
     for k, link in enumerate(arm.links):
@@ -124,7 +124,7 @@ def test_links_and_payload_are_given_in_their_row_s_frame(tmp_path: Path, conven
 
 def test_every_key_arrives(tmp_path: Path) -> None:
     example = table.__doc__.split("::\n", 1)[1]
-    arm = table.load(write(tmp_path, "\n".join(line[4:] for line in example.splitlines())))
+    arm = table.load_dh_file(write(tmp_path, "\n".join(line[4:] for line in example.splitlines())))
     first, second, third = arm.joints
     assert arm.name == "my arm"
     assert (first.name, first.effort) == ("shoulder", 120)
@@ -147,7 +147,7 @@ def test_every_key_arrives(tmp_path: Path) -> None:
 
 
 def test_numbers_without_a_point_in_scientific_notation_are_numbers(tmp_path: Path) -> None:
-    arm = table.load(write(tmp_path, "rows: [{a: 1e-3, alpha: 0}]"))
+    arm = table.load_dh_file(write(tmp_path, "rows: [{a: 1e-3, alpha: 0}]"))
     assert arm.tool[0, 3] == 1e-3
     assert arm.source == "arm.yaml"
 
@@ -218,7 +218,7 @@ REFUSED = [
 @pytest.mark.parametrize(("content", "sentence"), REFUSED, ids=[case[1][:50] for case in REFUSED])
 def test_refusals(tmp_path: Path, content: str, sentence: str) -> None:
     with pytest.raises(ArmError) as caught:
-        table.load(write(tmp_path, content))
+        table.load_dh_file(write(tmp_path, content))
     assert str(caught.value).startswith("arm.yaml: ")
     assert sentence in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -226,20 +226,20 @@ def test_refusals(tmp_path: Path, content: str, sentence: str) -> None:
 
 def test_unreadable_files(tmp_path: Path) -> None:
     with pytest.raises(ArmError, match=r"none.yaml: the file cannot be read \(No such file or directory\)"):
-        table.load(tmp_path / "none.yaml")
+        table.load_dh_file(tmp_path / "none.yaml")
     (tmp_path / "arm.yaml").write_bytes(b"\xff\xfe\xfa")
     with pytest.raises(ArmError, match="this is not valid YAML"):
-        table.load(tmp_path / "arm.yaml")
+        table.load_dh_file(tmp_path / "arm.yaml")
 
 
 def test_angles_of_many_turns_are_pointed_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     printed: list[str] = []
-    monkeypatch.setattr(table, "aside", printed.append)
+    monkeypatch.setattr(table, "warn_now", printed.append)
     file = tmp_path / "hoist.yaml"
     rows = "rows:\n  - {a: 0, alpha: -90, d: 0.36}\n  - {a: 0.4, alpha: 0, theta: 3.2}\n"
     file.write_text(rows, encoding="utf-8")
-    table.load(file)
+    table.load_dh_file(file)
     assert printed == ["hoist.yaml: alpha of row 1 is -90 rad, 14.3 turns; if it is in degrees, add 'angles: deg'"]
     file.write_text(f"angles: deg\n{rows}", encoding="utf-8")
-    table.load(file)
+    table.load_dh_file(file)
     assert len(printed) == 1

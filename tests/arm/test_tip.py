@@ -11,7 +11,7 @@ import yourdfpy
 from test_urdf import joint, link
 
 import holdfast as hf
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.errors import ArmError
 
 SLIDE = "<axis xyz='0 1 0'/><limit lower='0' upper='0.02' velocity='1' effort='10'/>"
@@ -116,7 +116,7 @@ def test_an_arm_that_is_all_fingers_asks(tmp_path: Path) -> None:
 
 
 def test_a_panda_with_its_hand_ends_at_the_hand_s_frame() -> None:
-    path = DATA.joinpath("panda.urdf")
+    path = DATA_FOLDER.joinpath("panda.urdf")
     arm = hf.Arm.from_urdf(str(path))
     assert arm.chain == hf.arm.Chain("panda_link0", "panda_hand_tcp")
     model = pin.buildModelFromUrdf(str(path))

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from holdfast.arm.model import Arm
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.errors import ArmError
 
 # name, base, tip; the tips are not those of the built-in arms only
@@ -30,7 +30,7 @@ REAL = [
 
 
 def data(name: str) -> str:
-    return str(DATA.joinpath(f"{name}.urdf"))
+    return str(DATA_FOLDER.joinpath(f"{name}.urdf"))
 
 
 class Oracle:

@@ -17,9 +17,9 @@ import oracles
 from holdfast.arm.machine import Joint
 from holdfast.assessment import explain, structure, structures
 from holdfast.present.assessment.explanations import explain_index
-from holdfast.present.assessment.facts import Facts
-from holdfast.registry import INDICES
-from holdfast.words import percent
+from holdfast.present.assessment.facts import AssessmentFacts
+from holdfast.registry import INDEX_REGISTRY
+from holdfast.words import format_percent
 
 GEN3 = [  # Kinova Gen3 with 7 joints: origin in m, turn about x in rad, limit in rad; its shoulder axes miss a point by 12 mm
     ((0, 0, 0.15643), np.pi, np.inf),
@@ -182,7 +182,7 @@ def test_the_report_warns_of_the_elbow_of_a_gen3(tmp_path):
     page = run.report(tmp_path / "report.html").read_text()
     assert '<div class="callout warn"><p><strong>The lock of joint_4 nearly ends this task</strong>' in page
     left = run.survival()["joint_4"].value
-    assert f"Once joint_4 has locked, {percent(left)} of the poses" in page.replace("\u00a0", " ")
+    assert f"Once joint_4 has locked, {format_percent(left)} of the poses" in page.replace("\u00a0", " ")
 
 
 @pytest.mark.parametrize("name", ["gen3", "panda", "iiwa14"])
@@ -228,13 +228,13 @@ def test_thresholds_and_axes_fit_small_values():
     best = max(x.min(axis=1).max() for x in samples)
     assert all(0 < p["at_least"] <= 1.01 * best for p in found["probability"])
     assert max(p["value"] for p in found["optimised"]["probability"]) > 0
-    assert Facts(run, None).axis[-1] < 5 * best
-    assert Facts(run, 0.3).axis[-1] > 0.3  # a threshold that was asked for is always shown
+    assert AssessmentFacts(run, None).axis_values[-1] < 5 * best
+    assert AssessmentFacts(run, 0.3).axis_values[-1] > 0.3  # a threshold that was asked for is always shown
 
 
-@pytest.mark.parametrize("name", [n for n in INDICES if n != "directional-velocity"])
+@pytest.mark.parametrize("name", [n for n in INDEX_REGISTRY if n != "directional-velocity"])
 def test_every_index_is_explained_in_one_line(name):
-    assert explain_index(INDICES.make(name, load("panda")))
+    assert explain_index(INDEX_REGISTRY.make(name, load("panda")))
 
 
 def test_the_console_begins_with_the_reach_after_the_worst_lock():
@@ -242,5 +242,5 @@ def test_the_console_begins_with_the_reach_after_the_worst_lock():
     shares = run.survival()
     worst = min(shares, key=lambda joint: shares[joint].value)
     assert run.describe()[0].startswith(
-        f"Once {worst} has locked, {percent(shares[worst].value)} of the poses of the region are"
+        f"Once {worst} has locked, {format_percent(shares[worst].value)} of the poses of the region are"
     )

@@ -117,7 +117,7 @@ def test_a_panda_over_a_bench_is_counted_as_coal_counts(rng):
     reached = np.isfinite(rows["index"])
     hit = cells.touches(arm, run.plan.clearance.capsules, cell, rows["q"][reached])
     said = rows["from_each"][reached] < 0
-    assert run.plan.others == [solid.name for solid in cell]
+    assert run.plan.collision_partners == [solid.name for solid in cell]
     assert not (hit & ~said).any()
     assert hit.sum() > 20
     assert hit.sum() / said.sum() > 0.75

@@ -14,12 +14,12 @@ import holdfast as hf
 from holdfast import Capsules, Clearance, Region, arms, assess, load
 from holdfast.assessment.plan import make_plan
 from holdfast.clearance import Capsule
-from holdfast.clearance.cover import shape_of
+from holdfast.clearance.cover import choose_capsules
 from holdfast.errors import InputError, StoreError
-from holdfast.present.assessment.facts import Facts
+from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.present.assessment.page import build
 from holdfast.present.assessment.sections import collisions
-from holdfast.present.commands import capsule_files, command_line
+from holdfast.present.commands import build_command_line, list_capsule_files
 from holdfast.status import Status
 
 CLOSE = Region.box([0.2, 0.1, 0], [0.5, 0.5, 0], name="close to the base")
@@ -204,7 +204,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
         ("… and one that is clear was chosen instead", found.blocked - found.hopeless),
     ):
         assert cells[name].startswith(f"{count} ("), name
-    line = collisions.summary(Facts(run, None))
+    line = collisions.summarize_collisions(AssessmentFacts(run, None))
     assert "given radius" in line
     assert f"{found.hopeless} poses cannot" in line
     assert "is an assumption" not in text
@@ -235,16 +235,16 @@ def test_the_command_makes_the_same_run(optimise, capsules, margin, words):
     own = Capsules(
         (Capsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), Capsule(6, (0, 0, 0.1), (0, 0, 0.1), radius=0.07)), ((0, 2),)
     )
-    usual = {"default": shape_of(arm), "assumed": Capsules.along(arm)}
+    usual = {"default": choose_capsules(arm), "assumed": Capsules.along(arm)}
     shape = {"own": own, None: None, **usual}.get(capsules) or (None if capsules is None else Capsules.along(arm, capsules))
     clearance = False if shape is None else Clearance(arm, shape)
     index = hf.indices.relative_manipulability(arm)
     plan = make_plan(arm, CLOSE, index, 10, 0, "random", 100, optimise, False, None, clearance, margin)
     a = hf.Assessment(**dict.fromkeys((f.name for f in dataclasses.fields(hf.Assessment) if f.init), None) | {"plan": plan})
-    command, _ = command_line(a)
+    command, _ = build_command_line(a)
     options = " ".join(command.replace("\\\n", " ").split()).partition("--restarts 100")[2].replace("--optimise", "").strip()
     assert options.startswith(words) if capsules == "assumed" else options == words
-    files = capsule_files(a)
+    files = list_capsule_files(a)
     assert len(files) == (capsules == "own")
     if files:
         assert Capsules.from_dict(yaml.safe_load(files[0].text), arm) == own

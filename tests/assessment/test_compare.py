@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.arms.tool import attachment, attachment_text
+from holdfast.arms.tool import format_tool_pose, tool_pose_from_numbers
 from holdfast.assessment import load_comparison
 from holdfast.present.assessment.comparison import build
 from holdfast.report.page import render
-from holdfast.words import interval, together
+from holdfast.words import format_interval, join_units
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 PANDA, SEVEN = hf.arms.load("panda"), hf.arms.load("pa10-7dof")
 CELL = hf.Region.box([0.45, 0, 0.45], 0.2, [0, 0, np.pi], np.pi / 4, name="cell")
-SIDE = PANDA.with_tool(attachment([0.05, 0, 0.1, 90, 0, 0]))
+SIDE = PANDA.with_tool(tool_pose_from_numbers([0.05, 0, 0.1, 90, 0, 0]))
 
 
 @pytest.fixture(scope="module")
@@ -146,9 +146,9 @@ def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some)
     assert 0.05 in data["values"]
     answers = dict(zip(labels, data["answers"], strict=True))
     for name, run in zip(names, runs[some], strict=True):
-        assert answers.pop(name) == [together(interval(run.interval(at_least=x))) for x in data["values"]]
+        assert answers.pop(name) == [join_units(format_interval(run.interval(at_least=x))) for x in data["values"]]
         if run.optimised is not None:
-            told = [together(interval(run.interval(at_least=x, optimised=True))) for x in data["values"]]
+            told = [join_units(format_interval(run.interval(at_least=x, optimised=True))) for x in data["values"]]
             assert answers.pop(f"{name}, best configurations") == told
     # Who leads is said only of candidates with one task.
     assert list(answers) == ["Largest probability"] * (some.stop == 3)
@@ -214,8 +214,8 @@ def test_six_numbers_of_a_tool(rng):
 
     for arm in (PANDA, SEVEN):
         x = np.r_[rng.uniform(-1, 1, 3), rng.uniform(-80, 80, 3)]
-        pose = attachment(x)
+        pose = tool_pose_from_numbers(x)
         np.testing.assert_allclose(pose[:3, :3], Rotation.from_euler("xyz", x[3:], degrees=True).as_matrix(), atol=1e-12)
         np.testing.assert_array_equal(pose[:3, 3], x[:3])
-        again = [float(v) for v in attachment_text(arm.with_tool(pose)).split(",")]
+        again = [float(v) for v in format_tool_pose(arm.with_tool(pose)).split(",")]
         np.testing.assert_allclose(again, x, atol=1e-9)

@@ -12,7 +12,7 @@ from scipy import stats
 
 from holdfast.errors import InputError
 from holdfast.probability import Distribution, Interval
-from holdfast.probability.collector import Collector
+from holdfast.probability.collector import DistributionCollector
 
 BETTER = ["larger", "smaller"]
 
@@ -237,7 +237,7 @@ def test_no_sample_at_all_is_said():
 def test_all_unreached(better, binned):
     d = Distribution.of([], better, unreached=50)
     if binned:
-        collector = Collector(better, None, most=-1)
+        collector = DistributionCollector(better, None, most=-1)
         collector.add(np.zeros(0), 50, 0)
         d = collector.finish()
     worst = 0.0 if better == "larger" else np.inf
@@ -281,7 +281,7 @@ def test_a_threshold_of_nan_is_refused(which):
 
 
 def collect(values, better, bound, most, parts=13, unreached=0, singular=0):
-    collector = Collector(better, bound, most)
+    collector = DistributionCollector(better, bound, most)
     for part in np.array_split(values, parts):
         collector.add(part, unreached, singular)
     return collector.finish()
@@ -325,7 +325,7 @@ def test_binned_distribution_agrees_to_its_resolution(rng):
 
 def test_values_beyond_what_the_first_ones_showed(rng):
     first, later = rng.uniform(0.4, 0.5, 2000), np.r_[rng.uniform(0.4, 0.5, 6000), np.full(1000, 3.0), np.full(1000, 1e6)]
-    collector = Collector("larger", None, most=1000)
+    collector = DistributionCollector("larger", None, most=1000)
     collector.add(first, 0, 0)
     collector.add(later, 0, 0)
     d = collector.finish()
@@ -349,7 +349,7 @@ def test_binned_negative_values(rng):
 def test_binned_quantiles_at_the_bound_and_among_infinite_values(better, bound, weighted, rng):
     """Most values sit at the bound, in the last bin, which has no upper end; infinite values are in it too."""
     values = rng.permutation(np.r_[np.full(6000, 0.5), rng.uniform(0, 0.5, 3000), np.full(0 if bound else 1000, np.inf)])
-    collector = Collector(better, bound, most=1000)
+    collector = DistributionCollector(better, bound, most=1000)
     for part in np.array_split(values, 7):
         weights = (np.ones(len(part)), np.ones(2)) if weighted else ()
         collector.add(part, 2, 0, *weights)

@@ -15,7 +15,7 @@ from scipy.stats import kstest
 import holdfast as hf
 from holdfast.arm.task import as_task
 from holdfast.cli.values import read_pose, read_target
-from holdfast.present.commands import pose_command, region_file
+from holdfast.present.commands import build_pose_command, format_region_file
 
 RPY = np.deg2rad([20.0, -35.0, 110.0])
 
@@ -42,7 +42,7 @@ def test_a_box_has_the_order_of_urdf_and_abdi_is_an_option(tmp_path):
         (load(tmp_path, f"format: 1\n{box}"), abdi),
     ):
         np.testing.assert_allclose(only_rotation(region), wanted, atol=1e-12)
-        again = load(tmp_path, region_file(region))
+        again = load(tmp_path, format_region_file(region))
         np.testing.assert_allclose(only_rotation(again), wanted, atol=1e-12)
     with pytest.raises(hf.InputError, match="needs 'format: 2'"):
         load(tmp_path, f"order: urdf\n{box}")
@@ -56,7 +56,7 @@ def test_a_density_of_roll_weighs_the_roll_of_urdf(tmp_path, rng):
     samples = next(region.blocks(0, int(rng.integers(1000))))[:50]
     roll = Rotation.from_matrix(region.poses(samples)[:, :3, :3]).as_euler("xyz")[:, 0]
     np.testing.assert_allclose(region.weights(samples), np.interp(roll, [-0.5, 0.5], [1, 3]), atol=1e-12)
-    again = load(tmp_path, region_file(region))
+    again = load(tmp_path, format_region_file(region))
     np.testing.assert_allclose(again.weights(samples), region.weights(samples))
     assert "roll 1 at" in region.describe()
 
@@ -65,7 +65,7 @@ def test_a_printed_pose_is_read_back(rng):
     arm = hf.arms.load("panda")
     for _ in range(20):
         pose = arm.forward_kinematics(rng.uniform(-2, 2, 7))
-        text = next(word.split("=", 1)[1] for word in shlex.split(pose_command(arm, pose)) if word.startswith("--pose="))
+        text = next(word.split("=", 1)[1] for word in shlex.split(build_pose_command(arm, pose)) if word.startswith("--pose="))
         np.testing.assert_allclose(read_pose(arm, "--pose", text), pose, atol=1e-8)
         np.testing.assert_allclose(read_target(arm, as_task(arm, "pose"), text), pose, atol=1e-8)
 
@@ -108,7 +108,7 @@ def test_a_cone_in_a_file_and_in_a_stored_region(tmp_path):
     assert region.axis == (0, 0, -1)
     assert np.rad2deg(region.within) == pytest.approx(30)
     assert "within 30 deg of (0, 0, -1)" in region.describe()
-    for again in (hf.Region.from_dict(json.loads(json.dumps(region.to_dict()))), load(tmp_path, region_file(region))):
+    for again in (hf.Region.from_dict(json.loads(json.dumps(region.to_dict()))), load(tmp_path, format_region_file(region))):
         samples = next(region.blocks(0, 3))[:10]
         np.testing.assert_allclose(again.poses(samples), region.poses(samples), atol=1e-12)
 

@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
-from holdfast.arm.task import as_task, rows_task
+from holdfast.arm.task import as_task, task_from_rows
 from holdfast.cli.values import read_failures, read_task
 from holdfast.failures import failure_sets
 from holdfast.present import commands as rerun
@@ -28,7 +28,7 @@ from holdfast.present.assessment.sections import places
 from holdfast.regions.region import rotation_from_rpy
 from holdfast.regions.weights import Density
 from holdfast.report import save_png
-from holdfast.words import percent
+from holdfast.words import format_percent
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -37,7 +37,7 @@ NINE, SEVEN, PANDA = hf.arms.load("pa10-9dof"), hf.arms.load("pa10-7dof"), hf.ar
 PAPER = hf.Region.box([0.968, 0, 0.041], 0.5, np.deg2rad([0, 174, 0]), np.deg2rad([90, 90, 90]), name="the paper's")
 JOINTS = hf.Region.joints(NINE.lower, NINE.upper)
 LIST = hf.Region.from_poses(PAPER.poses(next(PAPER.blocks(0, 0))[:60]), np.arange(60.0))
-HEAVY = Density.of({"x": [(0.7, 1), (1.2, 4)], "roll": [(0, 1), (1, 2)]})
+HEAVY = Density.from_points({"x": [(0.7, 1), (1.2, 4)], "roll": [(0, 1), (1, 2)]})
 NASTY = replace(NINE, name='<script>alert("1")</script> $\\x$ 臂', source='"><img src=http://example.org/x.png>')
 
 
@@ -95,7 +95,7 @@ def test_every_case_renders(name: str) -> None:
     check(html)
     assert "nan" not in re.sub(r"<svg.*?</svg>", "", html, flags=re.DOTALL).lower()
     assert f"{a.distribution.samples:,}" in html
-    assert headline(html) == facts.Facts(a, None).headline
+    assert headline(html) == facts.AssessmentFacts(a, None).headline
     if name != "nasty":
         assert f"holdfast assess {a.arm.name} " in html
 
@@ -118,15 +118,15 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
     data = a.dataset
     value, failed = data["index"].values, data["by_failure"].values
     reached = np.isfinite(value)
-    line = facts.Facts(a, 0.37).headline
+    line = facts.AssessmentFacts(a, 0.37).headline
     assert "probability 0.00" in line
     worst, counts = np.unique(failed[reached].argmin(axis=1), return_counts=True)
     name = PANDA.joint_names[worst[counts.argmax()]]
     assert f"A lock of {name} is the worst failure at {100 * counts.max() / counts.sum():.1f} %" in line
     assert f"The median of the reached poses is {np.quantile(value[reached], 0.5, method='inverted_cdf'):.3f}" in line
     assert "would gain, a run that optimises says" in line
-    assert "A lock of" not in facts.Facts(a, 0.01).headline  # which says enough
-    best = facts.Facts(case("optimised"), 0.47).headline
+    assert "A lock of" not in facts.AssessmentFacts(a, 0.01).headline  # which says enough
+    best = facts.AssessmentFacts(case("optimised"), 0.47).headline
     median = np.nanquantile(case("optimised").dataset["optimised_index"].values, 0.5, method="inverted_cdf")
     assert f"at the best configuration of each pose it is {median:.3f}, and the probability" in best
     data = case("weighted").dataset
@@ -134,7 +134,7 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
     name = NINE.joint_names[left.argmin()]
     first = f"Once {name} has locked, {100 * left.min():.1f} % of the poses of the region are still reached. "
     for threshold in (0.01, 0.57):
-        assert facts.Facts(case("weighted"), threshold).headline.startswith(first)
+        assert facts.AssessmentFacts(case("weighted"), threshold).headline.startswith(first)
     assert headline(text("panda")).startswith(
         "Hardly any pose" if case("panda").probability(0.19) else "None of the 250 poses drawn keeps"
     )
@@ -142,7 +142,7 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
 
 def test_a_headline_that_is_zero_by_structure_names_the_joint():
     a = case("structural")
-    line = facts.Facts(a, None).headline
+    line = facts.AssessmentFacts(a, None).headline
     assert "Once joint4 locks, the task is singular in every configuration." in line
     failed = a.dataset["by_failure"].values
     spared = np.delete(failed[np.isfinite(failed).all(axis=1)], 3, axis=1).min(axis=1)
@@ -153,8 +153,8 @@ def test_one_configuration_in_a_hundred_is_a_probability_and_less_is_hardly_any(
     three = hf.arms.load("planar-3r")
     a = hf.assess(three, hf.Region.joints([-2] * 3, [2] * 3), poses=100, task="planar")
     top = a.distribution.highest
-    assert facts.Facts(a, top).headline.startswith("With probability 0.01 ")
-    assert facts.Facts(a, np.nextafter(top, 1)).headline.startswith("None of the 100 configurations drawn")
+    assert facts.AssessmentFacts(a, top).headline.startswith("With probability 0.01 ")
+    assert facts.AssessmentFacts(a, np.nextafter(top, 1)).headline.startswith("None of the 100 configurations drawn")
 
 
 @pytest.mark.parametrize(("turned", "nothing"), [(1e-9, True), (1e-8, False)])
@@ -172,7 +172,9 @@ def test_a_manipulability_of_less_than_1e_9_after_a_lock_is_none(turned, nothing
     j = oracles.task_jacobian(turn(1e-4), a.dataset["q"].values, "pose")
     left, healthy = (np.linalg.svd(x, compute_uv=False).prod(axis=1) for x in (np.delete(j, 3, axis=2), j))
     assert a.distribution.highest == pytest.approx(turned / 1e-4 * (left / healthy).max(), rel=1e-3)
-    assert facts.Facts(a, None).headline.startswith("No configuration of the region tolerates every failure") == nothing
+    assert (
+        facts.AssessmentFacts(a, None).headline.startswith("No configuration of the region tolerates every failure") == nothing
+    )
 
 
 @pytest.mark.parametrize(
@@ -181,7 +183,7 @@ def test_a_manipulability_of_less_than_1e_9_after_a_lock_is_none(turned, nothing
 )
 def test_headline_has_the_numbers_of_the_distribution(name: str, threshold: float | None, shown: float) -> None:
     a = case(name)
-    line = facts.Facts(a, threshold).headline
+    line = facts.AssessmentFacts(a, threshold).headline
     # Counted here, from the rows.
     values = a.dataset["index"].values
     with np.errstate(invalid="ignore"):
@@ -197,7 +199,7 @@ def test_headline_has_the_numbers_of_the_distribution(name: str, threshold: floa
         z * np.sqrt(share * (1 - share) / n + (z / (2 * n)) ** 2) / (1 + z * z / n),
     )
     np.testing.assert_allclose([low, high], [middle - half, middle + half], atol=0.006)
-    relation = f" ({percent(shown / a.index.bound)} of the largest possible value)" if a.index.bound else ""
+    relation = f" ({format_percent(shown / a.index.bound)} of the largest possible value)" if a.index.bound else ""
     assert f" {shown:g}{relation} whichever joint locks" in line
     lost = int(np.isnan(values).sum())
     assert (f"for {100 * lost / size:.1f} % of poses" in line) == (lost > 0)
@@ -292,8 +294,8 @@ def test_a_run_of_which_nothing_is_done_yet(region: hf.Region, tmp_path: Path) -
 
 def test_every_section_is_in_the_list_and_has_what_the_page_asks_for() -> None:
     folder = Path(report.__file__).parent / "sections"
-    assert sorted(file.stem for file in folder.glob("[a-z]*.py")) == sorted(report.SECTIONS)
-    for name in report.SECTIONS:
+    assert sorted(file.stem for file in folder.glob("[a-z]*.py")) == sorted(report.SECTION_MODULES)
+    for name in report.SECTION_MODULES:
         section = import_module(f"holdfast.present.assessment.sections.{name}")
         assert isinstance(section.TITLE, str)
         assert next(iter(inspect.signature(section.blocks).parameters.values())).annotation == "Facts"
@@ -308,7 +310,7 @@ def test_unwritable_path(tmp_path: Path) -> None:
 def test_the_region_file_is_the_region(name: str, tmp_path: Path) -> None:
     a = case(name)
     file = tmp_path / "region.yaml"
-    file.write_text(rerun.region_file(a.region))
+    file.write_text(rerun.format_region_file(a.region))
     again = hf.Region.load(file)
     assert again.name == a.region.name
     np.testing.assert_allclose(again.center, a.region.center, rtol=0, atol=1e-15)
@@ -316,7 +318,7 @@ def test_the_region_file_is_the_region(name: str, tmp_path: Path) -> None:
 
 
 def test_command_line() -> None:
-    command, note = rerun.command_line(case("one failure"))
+    command, note = rerun.build_command_line(case("one failure"))
     assert command is not None
     assert note == ""
     words = command.replace("\\\n", "").split()
@@ -326,16 +328,16 @@ def test_command_line() -> None:
     assert options["--failures"] == "joint2"
     assert (options["--poses"], options["--seed"], options["--task"]) == ("50", "0", "position")
     own = hf.indices.CustomIndex(lambda j: j[0, 0], NINE)
-    assert rerun.command_line(hf.assess(NINE, JOINTS, own, poses=10))[0] is None
+    assert rerun.build_command_line(hf.assess(NINE, JOINTS, own, poses=10))[0] is None
     odd = hf.Task("odd", np.array([[0.6, 0.8, 0, 0, 0, 0]]))
-    assert rerun.command_line(hf.assess(NINE, JOINTS, hf.indices.relative_manipulability(NINE, odd), poses=10))[0] is None
-    assert "ARM is the file" in rerun.command_line(case("nasty"))[1]
+    assert rerun.build_command_line(hf.assess(NINE, JOINTS, hf.indices.relative_manipulability(NINE, odd), poses=10))[0] is None
+    assert "ARM is the file" in rerun.build_command_line(case("nasty"))[1]
 
 
 def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
-    for task in (*("pose", "pointing", "position"), rows_task(["vz", "vx", "wy"], "tool"), rows_task(["vx"])):
+    for task in (*("pose", "pointing", "position"), task_from_rows(["vz", "vx", "wy"], "tool"), task_from_rows(["vx"])):
         t = as_task(NINE, task)
-        option = rerun.task_option(NINE, t)
+        option = rerun.format_task_option(NINE, t)
         again = as_task(NINE, read_task(option, "pa10-9dof", NINE))
         assert (again.name, again.frame, again.rows.tolist()) == (t.name, t.frame, t.rows.tolist())
     # Names that the option's own signs are in, and a name that is a number.
@@ -344,7 +346,7 @@ def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
         arm = replace(NINE, joints=joints, links=())
         for failures in ("single", "pairs", 3, [[0]], [[1], [0, 2]]):
             sets = failure_sets(arm, failures)
-            assert failure_sets(arm, read_failures(arm, rerun.failures_option(arm, sets))) == sets
+            assert failure_sets(arm, read_failures(arm, rerun.format_failures_option(arm, sets))) == sets
 
 
 @pytest.mark.parametrize("name", hf.arms.names())
@@ -363,7 +365,7 @@ def test_listed_angles_are_those_of_the_pose_and_inside_the_region() -> None:
     rng = np.random.default_rng(5)
     low, size = np.array(PAPER.center[3:]) - np.array(PAPER.size[3:]) / 2, np.array(PAPER.size[3:])
     drawn = low + size * rng.random((200, 3))
-    shown = places._angles(rotation_from_rpy(drawn), PAPER)
+    shown = places._choose_rpy_angles(rotation_from_rpy(drawn), PAPER)
     np.testing.assert_allclose(shown, drawn, atol=1e-9)
     anything = Rotation.random(50, rng=rng).as_matrix()
-    np.testing.assert_allclose(rotation_from_rpy(places._angles(anything, JOINTS)), anything, atol=1e-9)
+    np.testing.assert_allclose(rotation_from_rpy(places._choose_rpy_angles(anything, JOINTS)), anything, atol=1e-9)

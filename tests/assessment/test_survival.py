@@ -86,7 +86,7 @@ def test_the_seeds_that_a_run_names_give_its_configurations_and_locks(arm, regio
     assert "of its locks (3, b)" in run.plan.to_dict()["seeds"]
     engine = solver(arm, as_task(arm, "planar"))
     poses = region.poses(next(region.blocks(0, 7, count=60))[:60])
-    found = engine.solve(poses, np.random.SeedSequence(7, spawn_key=(1, 0)), run.plan.restarts, engine.within(1e-6))
+    found = engine.solve(poses, np.random.SeedSequence(7, spawn_key=(1, 0)), run.plan.restarts, engine.scale_tolerance(1e-6))
     rows, data = np.flatnonzero(found.success), run.dataset
     np.testing.assert_array_equal(data["q"].values[rows], found.q[rows])
     draw = np.random.default_rng(np.random.SeedSequence(7, spawn_key=(3, 0)).spawn(2)[0])
@@ -242,7 +242,7 @@ def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_l
     assert ("where it was at another pose" in html) == after_lock
     assert "Right: with joint" in html
     assert "--lock joint3=-1.25" in html
-    command, _ = rerun.command_line(run)
+    command, _ = rerun.build_command_line(run)
     assert ("--after-lock" in command) == after_lock
 
 

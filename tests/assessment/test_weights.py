@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 from holdfast import Region
 from holdfast.errors import InputError, StoreError
-from holdfast.present.commands import region_file
+from holdfast.present.commands import format_region_file
 from holdfast.probability import Distribution, Interval
-from holdfast.probability.collector import Collector
+from holdfast.probability.collector import DistributionCollector
 
 BOX = Region.box([1.2, 0.3, 0.0], [2.4, 2.4, 0.0])
 
@@ -107,7 +107,7 @@ def test_bins_hold_weights_too(rng, bound):
     values, w, lost = rng.beta(2, 3, 60_000), rng.random(60_000), rng.random((10, 50))
     values[:20] = np.inf if bound is None else 0.0
     better = "smaller" if bound is None else "larger"
-    few, many = Collector(better, bound, most=5000), Collector(better, bound, most=10**9)
+    few, many = DistributionCollector(better, bound, most=5000), DistributionCollector(better, bound, most=10**9)
     for part, weights, others in zip(np.split(values, 10), np.split(w, 10), lost, strict=True):
         for c in (few, many):
             c.add(part, 50, 0, weights, others)
@@ -207,13 +207,13 @@ def test_a_list_in_a_folder_is_complete(arm, rng, tmp_path):
 def test_a_table_of_poses_is_read_as_it_was_written(rng, tmp_path):
     region = Region.from_poses(random_poses(rng, 20), rng.random(20), name="job")
     (tmp_path / "sub").mkdir()
-    (tmp_path / "sub" / "job.csv").write_text(region.listed.table())
+    (tmp_path / "sub" / "job.csv").write_text(region.listed.to_csv())
     (tmp_path / "job.yaml").write_text("poses: sub/job.csv\n")
     assert Region.load(tmp_path / "job.yaml") == region
     assert Region.from_dict(json.loads(json.dumps(region.to_dict()))) == region
     assert region.describe() == "a list of 20 poses, with weights"
     assert hash(region) == hash(Region.load(tmp_path / "job.yaml"))
-    assert region != Region.from_poses(region.listed.poses(np.arange(20)))
+    assert region != Region.from_poses(region.listed.pose_matrices(np.arange(20)))
 
 
 def test_columns_may_come_in_any_order(tmp_path):
@@ -376,7 +376,7 @@ def test_a_density_in_a_file(tmp_path):
     np.testing.assert_allclose(region.weights(x), expected, atol=1e-12)
     assert Region.from_dict(json.loads(json.dumps(region.to_dict()))) == region
     assert "weight by z 1 at 0 m, 3 at 0.5 m; roll 0 at -45 deg, 1 at 45 deg; linear between" in region.describe()
-    (tmp_path / "b.yaml").write_text(region_file(region))
+    (tmp_path / "b.yaml").write_text(format_region_file(region))
     np.testing.assert_allclose(Region.load(tmp_path / "b.yaml").weights(x), region.weights(x), rtol=1e-14)
 
 
@@ -408,7 +408,7 @@ def test_a_bad_weight_function_is_a_sentence(arm, weight):
 def test_optimised_and_stored_runs_carry_weights(arm, tmp_path):
     region = Region.box([1.2, 0.3, 0.0], [2.4, 2.4, 0.0], weight={"x": [(0, 1), (2.4, 3)]})
     run = hf.assess(arm, region, task="planar", poses=300, optimise=True, store=tmp_path / "run")
-    assert run.of(True).weighted
+    assert run.distribution_of(True).weighted
     assert (run.cdf(0.3, optimised=True) <= run.cdf(0.3)).all()
     again = hf.load(tmp_path / "run")
     np.testing.assert_array_equal(again.optimised_worst_counts, run.optimised_worst_counts)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.bench.cases import TASKS, Draw, draw_failure
-from holdfast.bench.judge import Motion, trouble
-from holdfast.bench.suite import _cell
+from holdfast.bench.cases import CASE_MAKERS, CaseSampler, sample_failure
+from holdfast.bench.judge import BenchmarkMotion, find_violation
+from holdfast.bench.suite import _study_cell
 from holdfast.paths import line
 
 pytest.importorskip("fcl")
@@ -19,11 +19,11 @@ pytest.importorskip("fcl")
 @pytest.fixture(scope="module")
 def draw():
     panda = hf.arms.load("panda")
-    return Draw(panda, hf.Clearance.by_default(panda))
+    return CaseSampler(panda, hf.Clearance.by_default(panda))
 
 
 def test_failures_have_the_shares_that_are_stated(draw, rng):
-    drawn = [draw_failure(draw.arm, 3, rng) for _ in range(400)]
+    drawn = [sample_failure(draw.arm, 3, rng) for _ in range(400)]
     counts = np.array([[len(d.locked), len(d.ranges), len(d.speeds)] for d in drawn])
     np.testing.assert_allclose(np.bincount(counts.sum(axis=1), minlength=4)[1:] / 400, 1 / 3, atol=0.1)
     np.testing.assert_allclose(counts.sum(axis=0) / counts.sum(), [0.5, 0.3, 0.2], atol=0.08)
@@ -32,7 +32,7 @@ def test_failures_have_the_shares_that_are_stated(draw, rng):
         assert (d.hi <= draw.arm.upper).all()
 
 
-@pytest.mark.parametrize("task", [t for t in TASKS if "pointing" not in t])
+@pytest.mark.parametrize("task", [t for t in CASE_MAKERS if "pointing" not in t])
 def test_a_case_begins_clear_within_what_is_left_and_is_the_same_again(draw, task):
     case, again = (draw.case(task, np.random.default_rng(5)) for _ in range(2))
     assert case.to_dict() == again.to_dict()
@@ -49,7 +49,11 @@ def test_an_upright_transfer_is_kept_or_refused(draw):
     np.testing.assert_allclose(ends[:, :3, 2], [[0, 0, -1]] * 2, atol=1e-5)
     bent = case.at + np.where(case.degraded.moves, 0.2, 0.0)
     assert (
-        trouble(case, Motion(np.stack([case.at, np.clip(bent, case.degraded.lo, case.degraded.hi)]), share=np.zeros(0)), None)
+        find_violation(
+            case,
+            BenchmarkMotion(np.stack([case.at, np.clip(bent, case.degraded.lo, case.degraded.hi)]), share=np.zeros(0)),
+            None,
+        )
         == "kept"
     )
 
@@ -65,10 +69,10 @@ def test_the_judge_refuses_what_it_must(draw):
     none = np.zeros(0)
 
     def of(*q):
-        return trouble(case, Motion(np.array(q), share=none), draw.clearance)
+        return find_violation(case, BenchmarkMotion(np.array(q), share=none), draw.clearance)
 
     assert of(begin, end) == ""
-    assert trouble(case, None, draw.clearance) == "none"
+    assert find_violation(case, None, draw.clearance) == "none"
     assert of(begin + 1e-6, end) == "start"
     assert of(begin, begin + 0.01 * turn[2], end) == "lock"
     assert of(begin, begin - 0.2 * turn[1], end) == "limits"
@@ -85,11 +89,11 @@ def test_the_judge_looks_between_waypoints_of_a_path(draw):
     base = draw.case("line", np.random.default_rng(0))
     path = line(arm.forward_kinematics(begin), arm.forward_kinematics(end))
     case = type(base)("line", hf.Degraded(arm, locked=["panda_joint3"]), begin, rows=base.rows, path=path)
-    assert trouble(case, Motion(np.array([begin, end]), share=np.array([0.0, 1.0])), None) == "path"
+    assert find_violation(case, BenchmarkMotion(np.array([begin, end]), share=np.array([0.0, 1.0])), None) == "path"
 
 
 def test_the_arms_own_meshes_are_kept_clear_and_go_with_the_job(draw, rng):
-    job = _cell(draw.arm, None, "line", "recover", 10, 1.0).job
+    job = _study_cell(draw.arm, None, "line", "recover", 10, 1.0).job
     again = pickle.loads(pickle.dumps(job))
     assert (again, hash(again)) == (job, hash(job))
     clearance = again.made.clearance

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.teleop.records.check import replay
-from holdfast.teleop.records.entries import Entry
+from holdfast.teleop.records.check import replay_trials
+from holdfast.teleop.records.entries import TrialRecord
 from holdfast.teleop.records.records import Records
 
 ENDS = {"arrived": "ARRIVED", "aborted": "ABORTED", "time": "TIME", "broken-off": "BROKEN_OFF"}
@@ -48,26 +48,26 @@ def trials(said: dict[int, dict[str, Any]]) -> list[Done]:
     return done
 
 
-def compare(folder: Path, code: str, said: dict[int, dict[str, Any]]) -> tuple[list[Done], list[Entry]]:
+def compare(folder: Path, code: str, said: dict[int, dict[str, Any]]) -> tuple[list[Done], list[TrialRecord]]:
     """Every trial, every cycle, every answer and event of a session is on record once, as it was; and all trials replay."""
     done = trials(said)
     with Records.open(folder) as records:
         assert records.last_seq(code) == len(said)
         entries = records.entries(code)
         assert [(e.kind.value, e.position) for e in entries] == [(d.kind, d.position) for d in done]
-        recorded = records.trials(entries)
+        recorded = records.read_trials(entries)
         for k, (d, e) in enumerate(zip(done, entries, strict=True)):
             cycles = slice(recorded.first[k], recorded.first[k + 1])
             # Of a trial without an end, the last configuration is where the last cycle began.
             np.testing.assert_array_equal(recorded.configurations(k), d.q or [e.q0])
             np.testing.assert_array_equal(recorded.velocity[cycles].ravel(), np.ravel(d.velocity[: recorded.cycles[k]]))
-            np.testing.assert_array_equal(records.times(e), d.time)
+            np.testing.assert_array_equal(records.read_times(e), d.time)
             assert e.end.name == ENDS[d.end or "broken-off"]
             assert e.rating == d.rating
             assert (e.ended is not None) == (d.end is not None)
         speed = np.linalg.norm(recorded.velocity, axis=1)
         assert speed.max(initial=0) <= records.protocol.stick.limit * (1 + 1e-9)
-        assert not replay(records, entries).differs
+        assert not replay_trials(records, entries).differing_entries
         events = [e for e in records.events() if e["subject"] == code]
         told = [(m["kind"], m["data"]) for _, m in sorted(said.items()) if m["type"] == "event"]
         kinds = {kind for kind, _ in told}

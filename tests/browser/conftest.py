@@ -18,7 +18,7 @@ from browser.line import Line
 from browser.station import OPERATOR
 from holdfast.teleop.protocol.protocol import Protocol, Training, read_protocol
 from holdfast.teleop.trials.scenarios import Scenario
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 # Every second picture: to draw is most of what a page costs here.
 HALF = """
@@ -45,7 +45,7 @@ def protocol() -> Protocol:
         whole.with_tasks(tasks),
         rate=60.0,
         substeps=1,
-        stick=Stick(0.015, 0.0015),
+        stick=Joystick(0.015, 0.0015),
         radius=0.12,
         subjects=12,
         training=Training(at_least=1, in_a_row=1, limit=6000.0, most=100, distance=0.7),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from holdfast.teleop.protocol.protocol import Training, read_protocol
-from holdfast.teleop.records.entries import State
+from holdfast.teleop.records.entries import SubjectState
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.rehearsal import simulate_experiment
 from holdfast.teleop.trials.scenarios import Scenario
@@ -123,7 +123,7 @@ def test_an_experiment_is_watched_and_led(contexts, parts):
     page.locator("[data-testid=row-S04][data-state=dropped]").wait_for()
     with Records.open(folder) as records:
         subject = records.subject("S04")
-        assert (subject.state, subject.note) == (State.DROPPED, "A chair\nfell over.")
+        assert (subject.state, subject.note) == (SubjectState.DROPPED, "A chair\nfell over.")
 
     # What is there already: all tables, and the report.
     with page.expect_download(timeout=300_000) as got:

@@ -10,7 +10,7 @@ import pytest
 
 from browser.compare import compare
 from browser.station import Station
-from holdfast.teleop.records.entries import State, Who
+from holdfast.teleop.records.entries import SubjectKind, SubjectState
 from holdfast.teleop.records.records import Records
 
 OUTAGE = float(os.environ.get("HOLDFAST_OUTAGE", "2"))  # s; make soak has 30
@@ -65,11 +65,11 @@ def test_a_whole_session_with_a_gamepad(contexts, experiment):
     assert [d.rating for d in done] == [None, None, *(r - 1 for r in ratings)]
     with Records.open(experiment.folder) as records:
         subject, protocol = records.subject("pad"), records.protocol
-        order = protocol.session(subject.row, subject.number)
+        order = protocol.session_order(subject.row, subject.number)
         assert [(e.task, e.scenario) for e in entries[2:]] == [tuple(row) for row in order]
-        assert (subject.kind, subject.state) == (Who.PERSON, State.COMPLETED)
+        assert (subject.kind, subject.state) == (SubjectKind.PERSON, SubjectState.COMPLETED)
         answers = {key: value for key, value in subject.answers.items() if "." in key}
-        arrived = records.trials([e for e in entries if e.end.name == "ARRIVED"])
+        arrived = records.read_trials([e for e in entries if e.end.name == "ARRIVED"])
         away = np.linalg.norm(arrived.x_end - arrived.target, axis=1)
         assert (away <= protocol.radius).all()
         assert [e["data"]["id"] for e in records.events("input") if e["subject"] == "pad"] == ["Stick of the tests"]
@@ -118,7 +118,7 @@ def test_the_network_is_lost_and_comes_back(contexts, experiment, line):
     station.until(lambda: time.monotonic() > begun + OUTAGE, "the end of the outage")
     # All that was before is on the disk, and the rest is not.
     with Records.open(experiment.folder) as records:
-        before = records.count(records.latest("cut"))
+        before = records.count_cycles(records.latest_trial("cut"))
     station.operator("goal = 'target'")
     station.rate(3)
     station.steer()
@@ -225,5 +225,5 @@ def test_a_dry_run_plays_a_whole_session(contexts, experiment):
     assert [d.kind for d in done if d.end != "broken-off"][-4:] == ["trial"] * 4
     with Records.open(experiment.folder) as records:
         subject = records.subject(code)
-    assert (subject.kind, subject.state) == (Who.SIMULATED, State.COMPLETED)
+    assert (subject.kind, subject.state) == (SubjectKind.SIMULATED, SubjectState.COMPLETED)
     assert {"consent", "demographics", "tlx"} <= subject.answers.keys()

@@ -9,7 +9,7 @@ from scipy.special import eval_gegenbauer
 
 import holdfast as hf
 from holdfast.ceilings import pair_kernels
-from holdfast.ceilings.theorems import PAIRS
+from holdfast.ceilings.theorems import PAIR_BOUNDS
 
 SPECIFIED = {  # what the specification's table says of c(n, n - m, 2)
     (5, 2): 0.516252,
@@ -27,26 +27,31 @@ SPECIFIED = {  # what the specification's table says of c(n, n - m, 2)
 
 @pytest.mark.parametrize("size", [(7, 2), (8, 2)])
 def test_certificates_are_replayed(size):
-    certificate = pair_kernels.certificates()[size]
-    assert float(certificate.bound) <= certificate.proven() <= PAIRS[size]
+    certificate = pair_kernels.stored_certificates()[size]
+    assert float(certificate.bound) <= certificate.proved_bound() <= PAIR_BOUNDS[size]
     n, m = size
-    c = hf.ceilings.look_up(n=n, m=m, k=2)
-    assert (c.bound, c.bound_by) == (PAIRS[size], "R3")
+    c = hf.ceilings.upper_bound(n=n, m=m, k=2)
+    assert (c.bound, c.bound_by) == (PAIR_BOUNDS[size], "R3")
 
 
 def test_no_bound_is_above_the_specified_one_nor_below_what_is_attained():
-    assert set(PAIRS) == set(SPECIFIED) == set(pair_kernels.certificates())
+    assert set(PAIR_BOUNDS) == set(SPECIFIED) == set(pair_kernels.stored_certificates())
     for (n, m), said in SPECIFIED.items():
-        assert hf.ceilings.look_up(n=n, m=m, k=2).best_known < pair_kernels.certificates()[n, m].bound <= PAIRS[n, m] < said
+        assert (
+            hf.ceilings.upper_bound(n=n, m=m, k=2).best_known
+            < pair_kernels.stored_certificates()[n, m].bound
+            <= PAIR_BOUNDS[n, m]
+            < said
+        )
 
 
 @pytest.mark.parametrize("size", [(6, 2), (9, 3)])
 def test_the_sum_over_pairs_and_joints_is_not_negative_for_any_jacobian(size, rng):
     """Evaluated from the exact polynomials, beside the definition by SciPy's Gegenbauer polynomials."""
-    c = pair_kernels.certificates()[size]
+    c = pair_kernels.stored_certificates()[size]
     n, m = size
-    low, high = map(float, c.longest)
-    pairs, joints = pair_kernels.kernel(c).astype(float), pair_kernels.diagonal(c).astype(float)
+    low, high = map(float, c.length_range)
+    pairs, joints = pair_kernels.expand_kernel(c).astype(float), pair_kernels.diagonal_term(c).astype(float)
     for _ in range(20):
         rows = np.linalg.qr(rng.normal(size=(n, m)))[0]
         projector = rows @ rows.T
@@ -77,25 +82,25 @@ def defined(c, y, z, s):
 
 
 def test_a_certificate_that_is_wrong_is_refused():
-    c = pair_kernels.certificates()[7, 2]
+    c = pair_kernels.stored_certificates()[7, 2]
     with pytest.raises(ValueError, match="not proven"):
-        replace(c, bound=c.bound * Fraction(98, 100)).proven()
+        replace(c, bound=c.bound * Fraction(98, 100)).proved_bound()
     other = c.row[1].copy()
     other[0, 0] += Fraction(1, 5)
     with pytest.raises(ValueError, match="not proven"):
-        replace(c, row=(c.row[0], other, *c.row[2:])).proven()
+        replace(c, row=(c.row[0], other, *c.row[2:])).proved_bound()
     with pytest.raises(ValueError, match="no room"):
-        replace(c, bound=Fraction(99, 100)).proven()
+        replace(c, bound=Fraction(99, 100)).proved_bound()
 
 
 def test_halves_of_a_polynomial_are_rounded_upwards(rng):
     """Bernstein coefficients after many halvings stay above the exact values, and near them."""
     exact = np.array([Fraction(int(x), 997) for x in rng.integers(-900, 900, size=6)])
-    rounded = pair_kernels._rounded_up(exact)
-    scale = pair_kernels._LARGEST / max(abs(x) for x in exact)
+    rounded = pair_kernels._round_up(exact)
+    scale = pair_kernels._LARGEST_COEFFICIENT / max(abs(x) for x in exact)
     for _ in range(25):
         side = int(rng.integers(2))
-        rounded = pair_kernels._halved(rounded, 0)[side]
+        rounded = pair_kernels._bisect_coefficients(rounded, 0)[side]
         rows = [exact]
         while len(rows[-1]) > 1:
             rows.append((rows[-1][:-1] + rows[-1][1:]) / 2)

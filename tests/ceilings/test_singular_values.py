@@ -29,7 +29,7 @@ def least(j, k):
     ],
 )
 def test_values_of_the_theorems(size, said, by):
-    c = hf.ceilings.singular_value(**size)
+    c = hf.ceilings.bound_singular_value(**size)
     assert (c.bound, c.bound_by) == (pytest.approx(said, abs=1e-6), by)
     assert c.describe()[0].startswith(f"{c.n} joints")
 
@@ -38,7 +38,7 @@ def test_values_of_the_theorems(size, said, by):
 def test_no_random_jacobian_beats_them(n, m, k, rng):
     j = rng.normal(size=(1000, m, n)) * rng.uniform(0.2, 1, size=(1000, 1, n))
     found = least(j, k) / np.sqrt((j**2).sum(axis=(1, 2)) / n)
-    assert 0 < found.max() <= hf.ceilings.singular_value(n=n, m=m, k=k).bound
+    assert 0 < found.max() <= hf.ceilings.bound_singular_value(n=n, m=m, k=k).bound
 
 
 def test_no_random_pose_beats_them(rng):
@@ -47,9 +47,9 @@ def test_no_random_pose_beats_them(rng):
     w /= np.linalg.norm(w, axis=1, keepdims=True)
     v = np.cross(w, rng.normal(size=w.shape), axis=1)
     long = np.concatenate([30 * v, w], axis=1)
-    assert least(long, 1).max() <= hf.ceilings.singular_value(n=8, m=6, angular=True, lever=np.inf).bound
+    assert least(long, 1).max() <= hf.ceilings.bound_singular_value(n=8, m=6, angular=True, lever=np.inf).bound
     v /= np.sqrt((v**2).sum(axis=(1, 2), keepdims=True) / 8)
-    assert least(np.concatenate([v, w], axis=1), 2).max() <= hf.ceilings.singular_value(n=8, m=6, k=2, angular=True).bound
+    assert least(np.concatenate([v, w], axis=1), 2).max() <= hf.ceilings.bound_singular_value(n=8, m=6, k=2, angular=True).bound
 
 
 @pytest.mark.parametrize(("n", "m", "k"), [(3, 2, 1), (5, 3, 1), (5, 2, 2)])
@@ -58,34 +58,34 @@ def test_an_optimiser_does_not_beat_them(n, m, k, rng):
         j = x.reshape(m, n)
         return -float(least(j, k)) / np.sqrt((x**2).sum() / n)
 
-    bound = hf.ceilings.singular_value(n=n, m=m, k=k).bound
+    bound = hf.ceilings.bound_singular_value(n=n, m=m, k=k).bound
     best = max(-minimize(loss, rng.normal(size=m * n), method="Powell", options={"maxiter": 6}).fun for _ in range(2))
     assert 0.8 * bound < best <= bound * (1 + 1e-12)
 
 
 def test_frames_attain_them():
     for n, m in ((3, 2), (7, 3), (6, 5)):
-        c = hf.ceilings.singular_value(n=n, m=m, lever=0.8)
+        c = hf.ceilings.bound_singular_value(n=n, m=m, lever=0.8)
         assert np.linalg.norm(c.jacobian, axis=0) == pytest.approx(0.8)
         assert least(c.jacobian, 1) == pytest.approx(c.bound, rel=1e-12)
     # S2: the six diagonals of an icosahedron, from the null space of equal angles
-    null = hf.ceilings.look_up(n=6, m=3, k=2).null_space
+    null = hf.ceilings.upper_bound(n=6, m=3, k=2).null_space
     rows = np.linalg.qr(null, mode="complete")[0][:, 3:].T * np.sqrt(2)
     assert np.linalg.norm(rows, axis=0) == pytest.approx(1)
-    assert least(rows, 2) == pytest.approx(hf.ceilings.singular_value(n=6, m=3, k=2).bound, abs=1e-6)
+    assert least(rows, 2) == pytest.approx(hf.ceilings.bound_singular_value(n=6, m=3, k=2).bound, abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "task"), [("panda", "position"), ("pa10-9dof", "pose")])
 def test_the_levers_of_an_arm_bound_its_columns(name, task, rng):
     arm = hf.arms.load(name)
     index = hf.indices.minimum_singular_value(arm, task, length=0.5)
-    c = hf.ceilings.singular_value_of_index(index)
+    c = hf.ceilings.bound_singular_value_of_index(index)
     assert c.angular == (task == "pose")
     q = rng.uniform(np.maximum(arm.lower, -3), np.minimum(arm.upper, 3), (200, arm.n))
     columns = index.task_jacobian(q)[:, :3]
     assert np.sqrt((columns**2).sum(axis=1).mean(axis=1)).max() <= c.lever * (1 + 1e-12)
     assert index(q).max() <= c.bound
-    assert hf.ceilings.singular_value_of_index(hf.indices.minimum_singular_value(arm, task, failures=[0, 1])) is None
+    assert hf.ceilings.bound_singular_value_of_index(hf.indices.minimum_singular_value(arm, task, failures=[0, 1])) is None
 
 
 @pytest.mark.parametrize(
@@ -98,4 +98,4 @@ def test_the_levers_of_an_arm_bound_its_columns(name, task, rng):
 )
 def test_sizes_that_have_none(size, said):
     with pytest.raises(hf.InputError, match=said):
-        hf.ceilings.singular_value(**size)
+        hf.ceilings.bound_singular_value(**size)

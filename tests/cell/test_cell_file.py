@@ -88,7 +88,7 @@ def test_arrays_are_written_beside_the_file(tmp_path, rng):
     assert hf.Cell.from_dict(cell.to_dict()).digest == cell.digest
 
 
-@pytest.mark.parametrize("kind", mesh.FORMATS)
+@pytest.mark.parametrize("kind", mesh.MESH_FORMATS)
 def test_the_same_mesh_in_every_format(tmp_path, kind):
     shape = ring()
     shape.vertices = shape.vertices.astype(np.float32).astype(float)
@@ -169,7 +169,7 @@ def test_what_is_wrong_is_one_sentence_that_says_where(folder, old, new, said):
 
 def test_damaged_meshes(tmp_path):
     shape = ring()
-    for kind in set(mesh.FORMATS) - {"dae"}:  # its package is not one of ours
+    for kind in set(mesh.MESH_FORMATS) - {"dae"}:  # its package is not one of ours
         shape.export(tmp_path / f"ring.{kind}")
     shape.export(tmp_path / "text.stl", file_type="stl_ascii")
     whole = sorted(tmp_path.iterdir())
@@ -230,7 +230,7 @@ def test_stl_files_are_read_without_a_package(tmp_path, monkeypatch):
     theirs = trimesh.load_mesh(tmp_path / "ring.stl")
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     for name in ("ring.stl", "text.stl"):
-        surface, _ = mesh.read(tmp_path / name)
+        surface, _ = mesh.read_mesh(tmp_path / name)
         assert surface.closed
         assert len(surface.vertices) == len(theirs.vertices)
         assert surface.volume == pytest.approx(theirs.volume, rel=1e-6)
@@ -238,7 +238,7 @@ def test_stl_files_are_read_without_a_package(tmp_path, monkeypatch):
     for wrong in (text.replace("vertex", "vertex x", 1), text.replace("vertex", "corner", 1)):
         (tmp_path / "text.stl").write_text(wrong)
         with pytest.raises(hf.InputError, match="damaged"):
-            mesh.read(tmp_path / "text.stl")
+            mesh.read_mesh(tmp_path / "text.stl")
 
 
 def test_a_capsule_file_is_beside_the_cell_and_counts_by_its_content(tmp_path, monkeypatch):

@@ -16,7 +16,7 @@ POSE[:3, :3], POSE[:3, 3] = Rotation.from_rotvec([0.3, -0.8, 0.5]).as_matrix(), 
 
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch):
-    monkeypatch.setattr(field, "_NODES", 30_000)  # a full grid takes seconds
+    monkeypatch.setattr(field, "_MAX_NODES", 30_000)  # a full grid takes seconds
 
 
 def bracket() -> trimesh.Trimesh:
@@ -64,8 +64,8 @@ def test_a_mesh_is_never_farther_than_said_and_not_much_nearer(rng, solid):
     assert (bound <= exact + 1e-9).all()
     width = made.field.grid.width
     close = (np.abs(exact) < 2 * width) & (np.arange(len(points)) < 600)
-    assert (exact - bound)[close].max() < 2 * made.field.excess  # what interpolation can lose at most, twice
-    assert (exact - bound)[:600].max() < 3.2 * made.field.excess
+    assert (exact - bound)[close].max() < 2 * made.field.max_underestimate  # what interpolation can lose at most, twice
+    assert (exact - bound)[:600].max() < 3.2 * made.field.max_underestimate
 
 
 def test_shells_that_overlap_are_solid_together(rng):
@@ -86,7 +86,7 @@ def test_a_grid_whose_lines_run_through_edges_and_corners(rng):
     points = np.round(rng.uniform(-1, 3, (300, 3)) * 8) / 8 + rng.normal(scale=1e-4, size=(300, 3))
     exact = signed(steps, points)
     assert (made.signed_distance(points) <= exact + 1e-9).all()
-    assert (made.signed_distance(points)[exact > 3 * made.field.excess] > 0).all()
+    assert (made.signed_distance(points)[exact > 3 * made.field.max_underestimate] > 0).all()
 
 
 def test_a_cloud_of_50000_points(rng):
@@ -97,7 +97,7 @@ def test_a_cloud_of_50000_points(rng):
     bound = made.signed_distance(in_world(points))
     assert (exact < 0).sum() > 100
     assert (bound <= exact + 1e-9).all()
-    assert (exact - bound)[:2000].max() < 2.5 * made.field.excess
+    assert (exact - bound)[:2000].max() < 2.5 * made.field.max_underestimate
 
 
 @pytest.mark.parametrize("kind", ["mesh", "points"])
@@ -131,10 +131,10 @@ def test_a_field_is_kept_on_the_disk(monkeypatch, tmp_path):
     monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
     points = np.random.default_rng(3).uniform(-1, 1, (20, 3))
     first = Points("scan", points, radius=0.01).field
-    monkeypatch.setattr(field, "between", None)
+    monkeypatch.setattr(field, "bound_distances", None)
     again = Points("other", points, radius=0.02).field
     np.testing.assert_array_equal(first.values, again.values)
-    assert again.less == 0.02
+    assert again.offset == 0.02
 
 
 # ---- as an arm meets them ------------------------------------------------------------------------------------------
@@ -182,21 +182,22 @@ def test_objects_of_both_kinds_are_merged_in_their_order(rng, scene):
     np.testing.assert_allclose(found[:, ~np.array(off)], expected[:, ~np.array(off)], atol=1e-12)
     room = (expected - clearance.margins).min(axis=1)
     np.testing.assert_allclose(clearance(q), expected.min(axis=1), atol=1e-12)
-    np.testing.assert_allclose(clearance.room(q), room, atol=1e-12)
-    nearest, pair, slope = clearance.obstacles.nearest(q)
+    np.testing.assert_allclose(clearance.margin_left(q), room, atol=1e-12)
+    nearest, pair, slope = clearance.obstacles.find_nearest(q)
     np.testing.assert_allclose(nearest, room, atol=1e-12)
     np.testing.assert_array_equal(pair, (expected - clearance.margins).argmin(axis=1))
     assert len({clearance.pair_names[k].partition(" & ")[2] for k in pair}) > 3
     step = 1e-7
     numeric = np.stack(
-        [(clearance.room(q + step * e) - clearance.room(q - step * e)) / (2 * step) for e in np.eye(arm.n)], axis=1
+        [(clearance.margin_left(q + step * e) - clearance.margin_left(q - step * e)) / (2 * step) for e in np.eye(arm.n)],
+        axis=1,
     )
     assert np.quantile(np.abs(numeric - slope).max(axis=1), 0.95) < 1e-6
-    one = clearance.obstacles.nearest(q[:1])
+    one = clearance.obstacles.find_nearest(q[:1])
     np.testing.assert_allclose(one[2], slope[:1], atol=1e-12)
     q[3] = np.nan
-    assert np.isnan(clearance.room(q)[3])
-    assert clearance.obstacles.nearest(q)[1][3] == -1
+    assert np.isnan(clearance.margin_left(q)[3])
+    assert clearance.obstacles.find_nearest(q)[1][3] == -1
 
 
 def test_only_objects_with_a_grid(rng, scene):
@@ -205,7 +206,7 @@ def test_only_objects_with_a_grid(rng, scene):
     clearance = hf.Clearance(arm, cell=alone, itself=False)
     q = rng.uniform(arm.lower, arm.upper, (5, arm.n))
     np.testing.assert_allclose(clearance(q), clearance.by_pair(q).min(axis=1))
-    assert (clearance.closest_pair(q) == clearance.obstacles.nearest(q)[1]).all()
+    assert (clearance.closest_pair(q) == clearance.obstacles.find_nearest(q)[1]).all()
 
 
 def test_no_penetration_that_coal_sees_is_missed(rng, scene):
@@ -276,7 +277,7 @@ def test_from_afar_little_is_lost(rng, kind):
         "points": lambda: Points("scan", shape.vertices, radius=0.02),
         "flat": lambda: Points("plate", rng.uniform(-0.4, 0.4, (500, 3)) * [1, 1, 0], radius=0.02),
     }[kind]()
-    middle, half = made.field.middle, outside.half(made.field.grid)
+    middle, half = made.field.center, outside.half_edges(made.field.grid)
     points = middle + (half + 0.05) * 2 ** rng.uniform(0, 3, (500, 1)) * on_cube(rng, 500)
     if isinstance(made, Points):
         exact = cKDTree(made.centres).query(points)[0] - made.radius
@@ -333,9 +334,9 @@ def test_a_cloud_of_few_points_is_never_farther_than_a_tree_says(rng, kind):
     assert (made.signed_distance(points) <= exact + 1e-10).all()
 
 
-def where_it_may_fail(rng, made: field.Field, count: int) -> np.ndarray:
+def where_it_may_fail(rng, made: field.DistanceField, count: int) -> np.ndarray:
     """On nodes; on faces, edges and corners of the box of the grid, just off them and a width within; inside; far away."""
-    half, middle, width, shape = outside.half(made.grid), made.middle, made.grid.width, made.grid.shape
+    half, middle, width, shape = outside.half_edges(made.grid), made.center, made.grid.width, made.grid.shape
     on_box = on_cube(rng, count)
     on_edge = np.where(rng.uniform(size=(count, 3)) < 0.5, np.sign(on_box), on_box)
     just_off = rng.choice([-1, 1], (count, 3)) * rng.choice([1e-15, 1e-12, 1e-9], (count, 1))
@@ -364,7 +365,7 @@ def test_the_bound_has_no_step(rng):
 
 
 def test_of_many_points_few_are_looked_at_and_the_bound_holds(rng, monkeypatch):
-    monkeypatch.setattr(outside, "_MANY", 500)
+    monkeypatch.setattr(outside, "_MAX_SAMPLES", 500)
     cloud = on_cube(rng, 3000) * [0.5, 0.3, 0.2]
     made = Points("scan", cloud, radius=0.01)
     points = rng.uniform(-1, 1, (2000, 3)) * 2

@@ -60,7 +60,7 @@ def turned(axis: str, angle: float, xyz=(0, 0, 0)) -> np.ndarray:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(field, "_NODES", 30_000)
+    monkeypatch.setattr(field, "_MAX_NODES", 30_000)
     shape = trimesh.convex.convex_hull(np.random.default_rng(5).normal(scale=60, size=(30, 3)))
     shape.export(tmp_path / "jig.stl")
     (tmp_path / "bench.urdf").write_text(URDF)

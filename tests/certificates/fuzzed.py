@@ -32,13 +32,13 @@ class Claimed:
         self.wanted = None if turned is None else np.reshape(_numbers(turned), (3, 3))
         self.task = document["task"]
         root = np.array([_numbers(p) for p in [*document["target"]["box"], *([document["angle"]] if self.locked >= 0 else [])]])
-        tokens = verifier.unpacked(document["tree"], 10**8, "tree")
-        cells = [cell for token, cell in verifier.cells(tokens, len(root)) if token == 0]
+        tokens = verifier.decompress_payload(document["tree"], 10**8, "tree")
+        cells = [cell for token, cell in verifier.iterate_cells(tokens, len(root)) if token == 0]
         self.part = np.array(cells, dtype=float)  # (leaves, axes, 2): k of 2^d
         width = root[:, 1] - root[:, 0]
         self.size = width / 2 ** self.part[..., 1]
         self.corner = root[:, 0] + self.part[..., 0] * self.size
-        packed = verifier.unpacked(document["centres"], 10**9, "centres")
+        packed = verifier.decompress_payload(document["centres"], 10**9, "centres")
         self.q = np.frombuffer(packed, "<i4").reshape(-1, self.n) / 2**24
 
     def tool(self, q: Array) -> tuple[Array, Array]:

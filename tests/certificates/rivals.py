@@ -7,7 +7,7 @@ import time
 import flint
 import numpy as np
 
-from holdfast.certificates.taylor import Form, Reach
+from holdfast.certificates.taylor import ReachSolver, TaylorForm
 
 WIDE = 1e3  # rad: limits that are none
 # deg: working ranges of a PA10 with nine joints, for the cube of poses that is claimed of it
@@ -16,7 +16,7 @@ NINE = [(-40, 40), (37, 43.5), (-40, 40), (60, 100), (-40, 40), (-2, 38), (-40, 
 
 def sampled(claim, budget):
     """What random targets and locked angles tell in so many seconds: how many were tried, how many were not reached."""
-    reach = Reach(claim.arm, claim.task, claim.locked, claim.limits)
+    reach = ReachSolver(claim.arm, claim.task, claim.locked, claim.limits)
     generator, end = np.random.default_rng(17), time.perf_counter() + min(budget, 20.0)
     tried = missed = 0
     while time.perf_counter() < end:
@@ -25,9 +25,9 @@ def sampled(claim, budget):
         )
         left = at
         for _ in range(20):
-            q = reach.placed(generator.uniform(*reach.spans.T, (len(left), claim.arm.n)), left)
-            q = reach.solved(q, left[:, :3], 40)
-            left = left[~(reach.missed(q, left[:, :3])[:, 0] < 1e-9)]
+            q = reach.set_fixed_joints(generator.uniform(*reach.sampling_limits.T, (len(left), claim.arm.n)), left)
+            q = reach.solve_targets(q, left[:, :3], 40)
+            left = left[~(reach.measure_pose_error(q, left[:, :3])[:, 0] < 1e-9)]
             if not len(left):
                 break
         tried, missed = tried + len(at), missed + len(left)
@@ -48,16 +48,16 @@ def half_widths(arm, locked, at, q):
     Returns:
         By Taylor forms, and by the mean-value form with the Jacobian over the box in balls; of those that reach their target.
     """
-    reach = Reach(arm, "position", locked, np.tile([-WIDE, WIDE], (arm.n, 1)))
-    q = reach.solved(reach.placed(q, at), at[:, :3], 60)
-    met = reach.missed(q, at[:, :3])[:, 0] < 1e-9
+    reach = ReachSolver(arm, "position", locked, np.tile([-WIDE, WIDE], (arm.n, 1)))
+    q = reach.solve_targets(reach.set_fixed_joints(q, at), at[:, :3], 60)
+    met = reach.measure_pose_error(q, at[:, :3])[:, 0] < 1e-9
     q, at = q[met], at[met]
-    form = Form.at(reach, q, at[:, :3])
+    form = TaylorForm.expand_at(reach, q, at[:, :3])
 
     def balls(half):
         return np.array([by_intervals(arm, a, b[:3], locked, x) for a, b, x in zip(q, at, half, strict=True)])
 
-    return np.array([widest(len(q), lambda half: form.proved(np.tile(half[:, None], at.shape[1]))), widest(len(q), balls)])
+    return np.array([widest(len(q), lambda half: form.prove_cells(np.tile(half[:, None], at.shape[1]))), widest(len(q), balls)])
 
 
 def widest(count, proved):

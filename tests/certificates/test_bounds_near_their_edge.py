@@ -13,9 +13,9 @@ import pytest
 import written
 
 from holdfast.certificates.verified import bounds, distances
-from holdfast.certificates.verified.balls import Balls
-from holdfast.certificates.verified.chain import Chain, exactly
-from holdfast.certificates.verified.taylor import Error, Form
+from holdfast.certificates.verified.balls import BallArray
+from holdfast.certificates.verified.chain import BallChain, enclose_values
+from holdfast.certificates.verified.taylor import DerivativeEnclosure, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 ROUNDING = 1e-9
@@ -33,12 +33,12 @@ def make_chain(*frames, slides=None):
     """A chain of frames (rotation, origin), the last of which is the tool."""
     places = [written.place(*frame) for frame in frames]
     limits = [[-4.0, 4.0]] * (len(frames) - 1)
-    return Chain(written.Chain(places[:-1], places[-1], limits, slides).stored())
+    return BallChain(written.Chain(places[:-1], places[-1], limits, slides).stored())
 
 
 def at(*middles, half=0.0):
     """Joints at values (N = 1) with half widths."""
-    joints = [exactly(np.array([float(x)])) for x in middles]
+    joints = [enclose_values(np.array([float(x)])) for x in middles]
     for joint, width in zip(joints, np.broadcast_to(half, len(joints)), strict=True):
         joint[:, 2] = width
     return joints
@@ -58,7 +58,9 @@ LEVER = make_chain((STILL, ORIGIN), (STILL, [1.0, 0, 0]))
 def of_one_variable(value, slope, second):
     """Vectors (N, 3) along x, whose derivatives are numbers (N,)."""
     numbers = [np.stack([x, 0 * x, 0 * x], 1) for x in (value, slope, second)]
-    return Form(Balls(numbers[0]), Balls(numbers[1][:, :, None]), Balls(numbers[2][:, :, None, None]))
+    return DerivativeEnclosure(
+        BallArray(numbers[0]), BallArray(numbers[1][:, :, None]), BallArray(numbers[2][:, :, None, None])
+    )
 
 
 @pytest.mark.parametrize("cubic", ["first and second", "value and third", "all"])
@@ -71,16 +73,18 @@ def test_lengths_of_cubics(rng, cubic):
     t = np.linspace(-1, 1, 2001)[:, None] * half
     v = a + b * t + c * t**2 / 2 + e * t**3 / 6
     bends = [(b + c * half + e * half**2 / 2) * half, (c + e * half) * half**2, e * half**3]
-    near, far = distances.span(of_one_variable(a, b, c), bends, half[:, None])
+    near, far = distances.bound_norm(of_one_variable(a, b, c), bends, half[:, None])
     assert (far >= abs(v).max(axis=0) - ROUNDING).all()
     assert (near <= abs(v).min(axis=0) + ROUNDING).all()
 
 
 def test_lengths_of_parts_that_are_left_behind():
     """The nearest length where a place and a rotation lose a known part, and where one only does."""
-    form = Form(Balls([[0.6, 0, 0, 0, 0, 0.8]]), Balls(np.zeros((1, 6, 1))), Balls(np.zeros((1, 6, 1, 1))))
+    form = DerivativeEnclosure(
+        BallArray([[0.6, 0, 0, 0, 0, 0.8]]), BallArray(np.zeros((1, 6, 1))), BallArray(np.zeros((1, 6, 1, 1)))
+    )
     for moved, turned in ((0.1, 0.0), (0.0, 0.2), (0.1, 0.2)):
-        low = distances.nearest(form, 3, (np.array([moved]), np.array([turned])), np.array([[0.1]]))
+        low = distances.bound_norm_below(form, 3, (np.array([moved]), np.array([turned])), np.array([[0.1]]))
         truth = np.hypot(0.6 - moved, 0.8 - turned)
         assert low[0] <= truth + ROUNDING
         assert low[0] > truth - 0.05
@@ -89,8 +93,10 @@ def test_lengths_of_parts_that_are_left_behind():
 @pytest.mark.parametrize("slope", [1.0, 3.0, np.nan])
 def test_a_length_of_zero_with_slopes_along_one_direction(slope):
     """Equations without a solution do not stop the verifier; the leaf proves nothing."""
-    form = Form(Balls(np.zeros((1, 3))), Balls([[[1.0], [slope], [slope]]]), Balls(np.zeros((1, 3, 1, 1))))
-    low = distances.nearest(form, 3, (np.zeros(1), 0), np.ones((1, 1)))
+    form = DerivativeEnclosure(
+        BallArray(np.zeros((1, 3))), BallArray([[[1.0], [slope], [slope]]]), BallArray(np.zeros((1, 3, 1, 1)))
+    )
+    low = distances.bound_norm_below(form, 3, (np.zeros(1), 0), np.ones((1, 1)))
     assert not (low > 0).any()
 
 
@@ -101,8 +107,8 @@ def test_quadratic_functions(rng, variables):
     second = rng.normal(size=(300, 1, variables, variables)) * rng.choice([1, 20], (300, 1, 1, 1))
     second = second + second.swapaxes(2, 3)
     half, rest = rng.uniform(0.1, 1, (300, variables)), rng.uniform(0, 0.1, (300, 1))
-    form = Form(Balls(value), Balls(slope), Balls(second))
-    less, more = (x[:, 0] for x in form.loss(half))
+    form = DerivativeEnclosure(BallArray(value), BallArray(slope), BallArray(second))
+    less, more = (x[:, 0] for x in form.bound_change(half))
     t = np.stack(np.meshgrid(*[np.linspace(-1, 1, 401 if variables == 1 else 101)] * variables), -1).reshape(-1, variables)
     points = t * half[:, None]
     change = np.einsum("ntk,nk->nt", points, slope[:, 0]) + np.einsum("ntj,njk,ntk->nt", points, second[:, 0], points) / 2
@@ -111,14 +117,14 @@ def test_quadratic_functions(rng, variables):
     if variables == 1:
         assert (less + change.min(axis=1) < 1e-3 * (1 + abs(second[:, 0, 0, 0]))).all()
         assert (more - change.max(axis=1) < 1e-3 * (1 + abs(second[:, 0, 0, 0]))).all()
-    most = form.most(half, rest)[:, 0]
+    most = form.bound_magnitude(half, rest)[:, 0]
     assert (most >= abs(value + change).max(axis=1) + rest[:, 0] - ROUNDING).all()
 
 
 def test_products_of_two_variables():
     """x y on a box of half widths 2 and 3 is 6 at its corner."""
-    form = Form(Balls([[0.0]]), Balls(np.zeros((1, 1, 2))), Balls([[[[0.0, 1], [1, 0]]]]))
-    assert form.most(np.array([[2.0, 3.0]]), np.zeros((1, 1)))[0, 0] >= 6
+    form = DerivativeEnclosure(BallArray([[0.0]]), BallArray(np.zeros((1, 1, 2))), BallArray([[[[0.0, 1], [1, 0]]]]))
+    assert form.bound_magnitude(np.array([[2.0, 3.0]]), np.zeros((1, 1)))[0, 0] >= 6
 
 
 # ---- arms ----------------------------------------------------------------------------------------------------------
@@ -169,12 +175,12 @@ def test_errors_behind_the_second_order(rng, task, moved, chain):
     n = chain.n
     far = np.full(2 * n, 0.3) * np.repeat([moved != "target", moved != "arm"], n)
     q = [np.zeros(n), np.zeros(n)]
-    error = Error(task, chain, at(*q[0]), chain, at(*q[1]))
-    rest, _ = error.rest(far[None])
+    error = TaskErrorEnclosure(task, chain, at(*q[0]), chain, at(*q[1]))
+    rest, _ = error.bound_remainder(far[None])
     for way in [*itertools.product((-1.0, 0.0, 1.0), repeat=2 * n), *rng.uniform(-1, 1, (20, 2 * n))]:
         d = far * way
-        there = Error(task, chain, at(*(q[0] + d[:n])), chain, at(*(q[1] + d[n:][::-1]))).value.at[0]
-        second = error.value.at[0] + error.slopes.at[0] @ d + (error.second.at[0] @ d) @ d / 2
+        there = TaskErrorEnclosure(task, chain, at(*(q[0] + d[:n])), chain, at(*(q[1] + d[n:][::-1]))).value.center[0]
+        second = error.value.center[0] + error.slopes.center[0] @ d + (error.second.center[0] @ d) @ d / 2
         behind = there - second
         linear = error.linear
         assert np.linalg.norm(behind[:linear]) <= rest[0, 0] + ROUNDING
@@ -185,7 +191,7 @@ def test_errors_behind_the_second_order(rng, task, moved, chain):
 @pytest.mark.parametrize("q", [(0.0, 0.0), (0.0, 0.5), (0.0, 1.5), (0.0, 3.0)])
 def test_distances_of_an_elbow(q, half):
     """The law of cosines: the distance of the tool from the shoulder depends on the elbow only."""
-    near, far = distances.apart(ELBOW, at(*q, half=half), 0, np.zeros(3), ELBOW.origins[-1], 1)
+    near, far = distances.bound_distance(ELBOW, at(*q, half=half), 0, np.zeros(3), ELBOW.origins[-1], 1)
     inner = np.linspace(q[1] - half, q[1] + half, 2001)
     truth = np.sqrt(1 + 0.8**2 + 2 * 0.8 * np.cos(inner))
     assert near[0] <= truth.min() + ROUNDING
@@ -197,7 +203,7 @@ def test_distances_of_an_elbow(q, half):
 def test_an_axis_that_nearly_meets_a_point(aside):
     """A turn about an axis that passes by a point moves the other point as far as it passes by."""
     point = np.array([0.0, aside, 0])
-    near, far = distances.apart(LEVER, at(0.0, half=1.0), 0, point, LEVER.origins[-1], 1)
+    near, far = distances.bound_distance(LEVER, at(0.0, half=1.0), 0, point, LEVER.origins[-1], 1)
     angle = np.linspace(-1, 1, 2001)
     truth = np.hypot(np.cos(angle), np.sin(angle) - aside)
     assert near[0] <= truth.min() + 1e-12
@@ -215,11 +221,13 @@ def test_distances_from_a_box_of_targets(axes, along, angle):
     task = {"xy": "planar", "xyz": "position"}[axes]
     target = {"axes": axes, "box": box, "orientation": None}
     limits = [joint["limits"] for joint in arm["joints"]]
-    leaves = distances.Apart({"task": task, "target": target, "locked": -1, "arm": arm, "limits": limits, "lemmas": [lemma]})
-    middles = leaves.middles([((0, 0),) * len(leaves.width)])
+    leaves = distances.RefutationVerifier(
+        {"task": task, "target": target, "locked": -1, "arm": arm, "limits": limits, "lemmas": [lemma]}
+    )
+    middles = leaves.enclose_centers([((0, 0),) * len(leaves.width)])
     joints, place = middles[:1], middles[leaves.n :]
-    half = np.stack([x[:, 2] for x in (*joints, *(place[axis] for axis in leaves.variables))], 1)
-    near, far = leaves.span(0, joints, place, half)
+    half = np.stack([x[:, 2] for x in (*joints, *(place[axis] for axis in leaves.error_axes))], 1)
+    near, far = leaves.bound_target_distance(0, joints, place, half)
     q, x = np.meshgrid(np.linspace(-angle, angle, 201), np.linspace(-along, along, 201))
     truth = np.hypot(np.cos(q) - x, np.sin(q))
     assert near[0] <= truth.min() + ROUNDING
@@ -258,7 +266,7 @@ def test_screws_behind_the_first_and_second_order(rng, straight):
         chain = make_chain(*([(STILL, [1.0, 0, 0])] * (n + 1) if straight else random_frames(rng, n)))
         q = np.zeros(n) if straight else rng.uniform(-2, 2, n)
         half = rng.uniform(0.02, 0.3, n) * rng.choice([0, 1], n)
-        x = bounds.Screws(chain, at(*q, half=half))
+        x = bounds.ScrewEnclosure(chain, at(*q, half=half))
         point = chain.moved(at(*q)).places.at[0, n // 2]
         tip, z = chain.moved(at(*q)).tip.at[0], chain.moved(at(*q)).axes.at[0, n // 2]
         point = point + ((tip - point) @ z) * z
@@ -267,7 +275,7 @@ def test_screws_behind_the_first_and_second_order(rng, straight):
             near = np.array([screws_from_the_middle(chain, q + k * 0.05 * way, q, point) for k in range(-3, 4)])
             one, two = (np.tensordot(STENCILS[order], near, 1) / 0.05**order for order in (1, 2))
             change = screws_from_the_middle(chain, q + way, q, point) - near[3]
-            for left, bound in ((change - one, x.second[0]), (change - one - two / 2, x.third[0])):
+            for left, bound in ((change - one, x.second_remainder[0]), (change - one - two / 2, x.third_remainder[0])):
                 left = left[x.order]
                 assert (np.linalg.norm(left[:, :3], axis=1) <= bound[:, 0] + 1e-7).all()
                 assert (np.linalg.norm(left[:, 3:], axis=1) <= bound[:, 3] + 1e-7).all()
@@ -302,12 +310,12 @@ def test_manipulability_at_the_edge_of_a_leaf(rng, kind, width, planar):
             [[-4.0, 4.0]] * n,
         ).stored()
         given = {"joint_box": box, "arm": arm, "task": "planar-pose" if planar else "pose", "locks": [lock]}
-        leaves = (bounds.Wrenches if kind == "ceiling" else bounds.Motions)(given | {"threshold": (0.5).hex()})
+        leaves = (bounds.CeilingVerifier if kind == "ceiling" else bounds.FloorVerifier)(given | {"threshold": (0.5).hex()})
         truth = [kept(chain, q + t * half, [lock])[0] for t in np.linspace(-1, 1, 21)]
         low, high = 1e-6, 1.0
         for _ in range(13):
             leaves.threshold = (low + high) / 2
-            proved = bool(leaves.proves(lock if kind == "ceiling" else 0, [(((0, 0),) * n, 0)])[0])
+            proved = bool(leaves.verify_leaves(lock if kind == "ceiling" else 0, [(((0, 0),) * n, 0)])[0])
             low, high = (low, leaves.threshold) if proved == (kind == "ceiling") else (leaves.threshold, high)
         extreme = max(truth) if kind == "ceiling" else min(truth)
         gap = high - extreme if kind == "ceiling" else extreme - low

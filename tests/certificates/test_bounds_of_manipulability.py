@@ -15,9 +15,9 @@ from written import put, shifted
 import holdfast as hf
 import oracles
 from holdfast.certificates import ceiling_claim, documents, floor_claim, verifier
-from holdfast.certificates.joint_boxes.kernels import Floor
-from holdfast.certificates.joint_boxes.wrenches import Ceiling
-from holdfast.certificates.taylor import Chain
+from holdfast.certificates.joint_boxes.kernels import FloorTest
+from holdfast.certificates.joint_boxes.wrenches import CeilingTest
+from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.verified import bounds
 from holdfast.errors import InputError, TaskError
 
@@ -67,31 +67,31 @@ def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
     sharp, floors = 0.0, 0
     for _ in range(2):
         arm, rows = (flat4, [0, 1, 5]) if kind == "planar" else (oracles.random_arm(rng, types=kind, limits=2.5), slice(None))
-        n, chain, half = arm.n, Chain.of(arm), 10 ** rng.uniform(-3, -0.8, (8, arm.n))
+        n, chain, half = arm.n, CertificateChain.from_arm(arm), 10 ** rng.uniform(-3, -0.8, (8, arm.n))
         if kind == "planar":
             chain = replace(chain, origins=chain.origins * [1, 1, 0])
         middle = rng.uniform(-2, 2, half.shape)
         steps = rng.choice([-1.0, 1.0, 0.3], (40, *half.shape))
         true = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).max(axis=0)
-        test = Ceiling(chain, tuple(range(n)), 0.5)
+        test = CeilingTest(chain, tuple(range(n)), 0.5)
         least = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).min(axis=(0, 2))
-        below = Floor(chain, [2, 3, 4] if kind == "planar" else [*range(6)], tuple(range(n)), 0.5)
+        below = FloorTest(chain, [2, 3, 4] if kind == "planar" else [*range(6)], tuple(range(n)), 0.5)
         thresholds = rng.uniform(0.3, 1.0, 8) * np.sqrt((n - 6 if n > 6 else 1) / n)
         for k in range(8):
             box = np.column_stack([middle[k] - half[k], middle[k] + half[k]])
-            test.slope = thresholds[k] / np.sqrt(1 - thresholds[k] ** 2)
+            test.max_ratio = thresholds[k] / np.sqrt(1 - thresholds[k] ** 2)
             token = int(test(middle[[k]], half[[k]])[0][0])
             document = {
-                "arm": documents._stored(arm), "joint_box": documents._hexes(box), "threshold": thresholds[k].hex(),
+                "arm": documents._encode_arm(arm), "joint_box": documents._encode_floats(box), "threshold": thresholds[k].hex(),
                 "locks": list(range(n)), "task": "planar-pose" if kind == "planar" else "pose",
             }  # fmt: skip
-            leaves = bounds.Wrenches(document)
+            leaves = bounds.CeilingVerifier(document)
             cell = ((0, 0),) * n
-            accepted = [j for j in range(n) if not leaves.rejected([(cell, j)])[1]]
-            assert token < 0 or token - bounds.LOCK in accepted
+            accepted = [j for j in range(n) if not leaves.check_leaves([(cell, j)])[1]]
+            assert token < 0 or token - bounds.FIRST_LOCK_TOKEN in accepted
             assert all(true[k, j] <= thresholds[k] for j in accepted)
-            floor = bounds.Motions(document | {"threshold": (low := thresholds[k] / 10).hex()})
-            enough, below.threshold = not floor.rejected([(cell, 0)])[1], low
+            floor = bounds.FloorVerifier(document | {"threshold": (low := thresholds[k] / 10).hex()})
+            enough, below.threshold = not floor.check_leaves([(cell, 0)])[1], low
             assert not enough or least[k] >= low
             assert below(middle[[k]], half[[k]])[0][0] < 0 or enough
             floors += enough
@@ -216,7 +216,7 @@ def test_forged_with_digests_repaired(fine, tmp_path, forge):
     forge(forged)
     try:
         verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
-    except (verifier.Refused, KeyError):
+    except (verifier.CertificateRejected, KeyError):
         return
     assert verdict.rejected > 0
     assert verdict.undecided > 0
@@ -239,7 +239,7 @@ def test_a_forged_floor(panda, tmp_path, forge):
     forge(forged)
     try:
         verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
-    except verifier.Refused:
+    except verifier.CertificateRejected:
         return
     assert verdict.rejected > 0
     assert verdict.undecided > 0
@@ -250,8 +250,8 @@ def test_another_best_configuration_is_believed_only_as_far_as_it_goes(fine, tmp
     forged["found"] = [x.hex() for x in MIDDLE]
     verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
     assert verdict.rejected == 0
-    np.testing.assert_allclose(verdict.occurs, kept(hf.arms.load("panda"), MIDDLE[None]).min(), atol=1e-7)
-    assert verdict.occurs < hf.check_certificate(written.stored(fine, tmp_path / "b.certificate")).leaves
+    np.testing.assert_allclose(verdict.attained_bound, kept(hf.arms.load("panda"), MIDDLE[None]).min(), atol=1e-7)
+    assert verdict.attained_bound < hf.check_certificate(written.stored(fine, tmp_path / "b.certificate")).leaves
 
 
 @pytest.mark.parametrize(

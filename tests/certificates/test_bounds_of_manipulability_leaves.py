@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from holdfast.certificates.verified import bounds
-from holdfast.certificates.verified.balls import Balls
+from holdfast.certificates.verified.balls import BallArray
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 CASES, ROUNDING = 200, 1e-9
@@ -49,9 +49,9 @@ class Cubics:
             side=np.ones(n),
             same=np.ones((n, n)),
             moves=np.ones((n, n)),
-            screw=Balls(screw),
-            bracket=Balls(bracket),
-            operator=Balls(operator),
+            screw=BallArray(screw),
+            bracket=BallArray(bracket),
+            operator=BallArray(operator),
             second=np.repeat(curved + abs(third), 3, axis=2),
             third=np.repeat(abs(third), 3, axis=2),
         )
@@ -106,12 +106,12 @@ def ceiling_and_truth(monkeypatch, cubics, wrench, turn):
     count, n = x.screw.at.shape[:2]
     y, slopes = np.zeros((count, 6)), np.zeros((count, 6, n))
     y[:, ROWS], slopes[:, ROWS, :2] = wrench, turn
-    leaves = object.__new__(bounds.Wrenches)
-    leaves.arm, leaves.middles, leaves.wrench = None, lambda cells: [], lambda *_: (y, slopes)
-    monkeypatch.setattr(bounds, "Screws", lambda *_: x)
+    leaves = object.__new__(bounds.CeilingVerifier)
+    leaves.arm, leaves.enclose_centers, leaves.choose_wrench = None, lambda cells: [], lambda *_: (y, slopes)
+    monkeypatch.setattr(bounds, "ScrewEnclosure", lambda *_: x)
     moments = np.einsum("nplb,npb->npl", jacobian, wrench[:, None] + np.einsum("nbi,npi->npb", turn, t)) ** 2
     truth = np.sqrt(np.nan_to_num(moments[..., :-1].sum(axis=2) / moments.sum(axis=2), nan=1.0)).max(axis=1)
-    return bisect(leaves, lambda: leaves.proves(n - 1, []), count, ceiling=True), truth
+    return bisect(leaves, lambda: leaves.verify_leaves(n - 1, []), count, ceiling=True), truth
 
 
 def test_ceilings_of_random_jacobians(monkeypatch, rng):
@@ -150,10 +150,10 @@ def test_ceilings_in_which_one_term_counts(monkeypatch, entries, turn):
 def floor_and_truth(cubics, motion, inverse, rows):
     """The proved floor for the last joint and the least value on the grid, of motions (N, n), inverses (N, n, rows)."""
     x, (t, jacobian) = cubics.screws, cubics.on_grid()
-    leaves = object.__new__(bounds.Motions)
-    leaves.rows = ROWS[:rows]
+    leaves = object.__new__(bounds.FloorVerifier)
+    leaves.screw_rows = ROWS[:rows]
     last = motion.shape[1] - 1
-    proved = bisect(leaves, lambda: leaves.enough(x, motion, inverse, [last]), len(motion), ceiling=False)
+    proved = bisect(leaves, lambda: leaves.verify_null_motion(x, motion, inverse, [last]), len(motion), ceiling=False)
     jacobian, nu = jacobian[..., :rows], motion / np.linalg.norm(motion, axis=1)[:, None]
     follow = -np.einsum("nlb,nimb,nm->nli", inverse, cubics.slopes[..., :rows], nu)
     moved = nu[:, None] + np.einsum("nli,npi->npl", follow, t)

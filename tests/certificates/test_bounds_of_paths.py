@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import written
 
-from holdfast.certificates.verified.balls import Balls
-from holdfast.certificates.verified.chain import Chain, exactly
-from holdfast.certificates.verified.distances import Ring
-from holdfast.certificates.verified.motions import Faults
-from holdfast.certificates.verified.taylor import Error, Inclusion
+from holdfast.certificates.verified.balls import BallArray
+from holdfast.certificates.verified.chain import BallChain, enclose_values
+from holdfast.certificates.verified.distances import LoopClosureVerifier
+from holdfast.certificates.verified.motions import PathVerifier
+from holdfast.certificates.verified.taylor import Inclusion, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 ROUNDING, EDGE = 1e-7, 1e-3
@@ -49,15 +49,15 @@ def bound_and_truth(task, arm, middle, columns, half, points):
 
     ``columns`` (2n, 2 + m): how the joints, then those of the healthy arm backwards, follow the lock, path, and section.
     """
-    chain, n, m = Chain(arm), len(middle), columns.shape[1] - 2
+    chain, n, m = BallChain(arm), len(middle), columns.shape[1] - 2
 
     def error(moves):
         q, goal = (np.array(middle) + moves[:, :n]).T, (np.array(middle) + moves[:, : n - 1 : -1]).T
-        return Error(task, chain, list(map(exactly, q)), chain, list(map(exactly, goal)))
+        return TaskErrorEnclosure(task, chain, list(map(enclose_values, q)), chain, list(map(enclose_values, goal)))
 
     box = np.array([half], dtype=float)
-    cells = Inclusion(error(np.zeros((1, 2 * n))), Balls(columns[None]), np.zeros((m, 2 + m)), box.copy())
-    bound = Faults.slopes(SimpleNamespace(m=m), cells, box)[0]
+    cells = Inclusion(error(np.zeros((1, 2 * n))), BallArray(columns[None]), np.zeros((m, 2 + m)), box.copy())
+    bound = PathVerifier.bound_gradients(SimpleNamespace(m=m), cells, box)[0]
     step, truth = 1e-4, []
     for column in [1, *range(2, 2 + m)]:
         moves, way = (points * half) @ columns.T, step * columns[:, column]
@@ -129,7 +129,7 @@ def test_contraction(factor):
         slope = np.array([[[9.0, 0.1, b], [9.0, 0.4, c]]])
         faults = SimpleNamespace(m=2, slopes=lambda cells, half, slope=slope: slope)
         cells = SimpleNamespace(w=np.ones((1, 4)))
-        assert Faults.contracts(faults, cells, np.array([[1.0, 2.0]]))[0] == (factor > 1)
+        assert PathVerifier.is_contraction(faults, cells, np.array([[1.0, 2.0]]))[0] == (factor > 1)
 
 
 # ---- the place on the path -----------------------------------------------------------------------------------------
@@ -150,10 +150,10 @@ def test_turned_cells_go_forward(rng, factor, columns):
         own[0, -1, 1] = abs(own[0, -1, -m:]) @ fastest / factor
         faults = SimpleNamespace(m=m, slopes=lambda cells, half, slope=slope: slope)
         cells = SimpleNamespace(w=rng.uniform(0.1, 1, (1, 2 + columns + m)))
-        assert Faults.forward(faults, cells, Balls(own), np.array([-1e3]))[0] == (factor < 1)
+        assert PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e3]))[0] == (factor < 1)
         own[0, -1, 1] += 1
         last = abs(own[0, -1]) @ cells.w[0]
-        assert Faults.forward(faults, cells, Balls(own), np.array([-last / factor]))[0] == (factor < 1)
+        assert PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-last / factor]))[0] == (factor < 1)
 
 
 def test_turned_cells_whose_section_runs_away():
@@ -162,7 +162,7 @@ def test_turned_cells_whose_section_runs_away():
     own[0, -1, 1] = 1e9
     for slope in (1.0, 1.5):
         faults = SimpleNamespace(m=1, slopes=lambda cells, half, slope=slope: np.array([[[0.1, slope]]]))
-        assert not Faults.forward(faults, cells, Balls(own), np.array([-1e12]))[0]
+        assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e12]))[0]
 
 
 def test_turned_cells_whose_equations_are_solved_badly():
@@ -172,7 +172,7 @@ def test_turned_cells_whose_equations_are_solved_badly():
     assert (b * (1 - f) + c * e) / ((1 - a) * (1 - f) - c * d) > 2e13
     own = np.array([[[0.0, 0, 0, 0], [0, 0, 0, 0], [0, 2e13, 1, 0]]])
     faults, cells = SimpleNamespace(m=2, slopes=lambda cells, half: slope), SimpleNamespace(w=np.ones((1, 4)))
-    assert not Faults.forward(faults, cells, Balls(own), np.array([-1e30]))[0]
+    assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e30]))[0]
 
 
 # ---- cells that continue a motion ----------------------------------------------------------------------------------
@@ -203,10 +203,12 @@ def entered(here, own, w, lock, k, m):
 
 def glue(here, own, w, wide, lock, turned, off=0.0):
     """Whether the verifier accepts that cells continue a motion."""
-    balls = Balls(own, off)
-    ends = Balls(lock[0]), Balls(lock[1])
+    balls = BallArray(own, off)
+    ends = BallArray(lock[0]), BallArray(lock[1])
     first = np.arange(len(own)) % 2 == 0
-    return Faults.glued(SimpleNamespace(m=wide.shape[1]), Balls(here), balls, w, wide, ends, first, turned)
+    return PathVerifier.stays_in_unique_box(
+        SimpleNamespace(m=wide.shape[1]), BallArray(here), balls, w, wide, ends, first, turned
+    )
 
 
 @pytest.mark.parametrize(("m", "tube"), [(1, 0), (2, 0), (2, 2), (3, 1)])
@@ -259,7 +261,7 @@ def test_cells_whose_directions_are_not_known_exactly(rng, off):
 def make_ring(arm, middle, low, high, *, turns):
     """The ring of an arm whose tool is where it is in the middle, with joints between bounds."""
     tool, ranges = list(map(Fraction, middle)), list(map(list, zip(low, high, strict=True)))
-    return Ring(arm, ranges, tool=tool, turns=turns, flat=False)
+    return LoopClosureVerifier(arm, ranges, tool_q=tool, uses_rotation=turns, planar=False)
 
 
 ROOT, TIP = (0, np.zeros(3)), (2, np.array([0.8, 0, 0]))
@@ -288,7 +290,7 @@ def test_rings_whose_base_is_not_known_exactly(elbow, angle, part):
         ends = np.sort(elbow + side * np.array([0, 0.01]))
         ring = make_ring(ELBOW, [0.3, elbow], [0.3, ends[0]], [0.3, ends[1]], turns=False)
         if part == "base":
-            ring._base = Balls(ring._base[0].at + off, abs(off)), ring._base[1]
+            ring._base = BallArray(ring._base[0].at + off, abs(off)), ring._base[1]
         else:
             ring.chain.origins[2] = ring.chain.origins[2] + off
             ring._off = abs(off)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from holdfast.certificates.taylor import Form, Reach
+from holdfast.certificates.taylor import ReachSolver, TaylorForm
 
 
 @pytest.fixture
@@ -13,9 +13,9 @@ def forms(panda, rng):
     """Of a Panda with its fourth joint locked, away from its limits, and half widths of cells of all sizes."""
     limits = np.column_stack([panda.lower, panda.upper])
     q = rng.uniform([-1, -0.5, -1, -2.4, -1, 1, -1], [1, 0.5, 1, -1.2, 1, 2.5, 1], (60, 7))
-    reach = Reach(panda, "position", 3, limits)
+    reach = ReachSolver(panda, "position", 3, limits)
     targets = panda.forward_kinematics(q)[:, :3, 3]
-    return Form.at(reach, q, targets), rng.uniform(0.5, 1, (60, 4)) * 10 ** rng.uniform(-5, -0.5, (60, 1))
+    return TaylorForm.expand_at(reach, q, targets), rng.uniform(0.5, 1, (60, 4)) * 10 ** rng.uniform(-5, -0.5, (60, 1))
 
 
 def test_a_scale_is_the_last_test_that_passes(forms, rng):

@@ -76,7 +76,7 @@ def test_the_proved_fraction_stands_in_the_claim(three, tmp_path, monkeypatch, c
     """A box of which the far half cannot be reached: the arm is 3 m long."""
     proof = hf.certify(reach_claim(three, (3.0, 0.0), (1.0, 0.1)), halvings=4)
     assert 0 < proof.proved < 0.5
-    only = f"Proved for only {verifier.per_cent(proof.proved)} of this claim: For every"
+    only = f"Proved for only {verifier.format_percent(proof.proved)} of this claim: For every"
     file = proof.write(tmp_path / "a.certificate")
     check = hf.check_certificate(file)
     assert proof.describe()[0].startswith(only)

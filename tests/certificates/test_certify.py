@@ -15,10 +15,10 @@ from scipy.optimize import least_squares
 import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, verifier
-from holdfast.certificates.target_boxes.search import Search
-from holdfast.certificates.taylor import Chain, Form, Reach
-from holdfast.certificates.tree import undecided
-from holdfast.certificates.verifier import per_cent
+from holdfast.certificates.target_boxes.search import TargetBoxSearch
+from holdfast.certificates.taylor import CertificateChain, ReachSolver, TaylorForm
+from holdfast.certificates.tree import compute_undecided
+from holdfast.certificates.verifier import format_percent
 from holdfast.errors import InputError
 from holdfast.kernels import set_threads
 
@@ -26,7 +26,7 @@ from holdfast.kernels import set_threads
 def test_the_chain_of_the_file_is_the_arm(panda, rng):
     """Joints turn about the z axes of the frames that the file holds."""
     for arm in (panda, oracles.random_arm(rng, types="RRPRR", limits=2.0)):
-        chain, q, place = Chain.of(arm), rng.uniform(-1.5, 1.5, arm.n), np.eye(4)
+        chain, q, place = CertificateChain.from_arm(arm), rng.uniform(-1.5, 1.5, arm.n), np.eye(4)
         for k in range(arm.n + 1):
             frame, turn = np.eye(4), np.eye(4)
             frame[:3, :3], frame[:3, 3] = chain.rotations[k], chain.origins[k]
@@ -44,13 +44,13 @@ def test_the_chain_of_the_file_is_the_arm(panda, rng):
 def test_the_error_is_never_larger_than_its_bound(types, locked, rng):
     """The third-order remainder and all before it, at random points of random boxes; far from it the bound would be useless."""
     arm = oracles.random_arm(rng, types=types, limits=2.5)
-    reach = Reach(arm, "position", locked, np.tile([-9.0, 9.0], (5, 1)), angle=np.array([-1.6, 1.6]))
+    reach = ReachSolver(arm, "position", locked, np.tile([-9.0, 9.0], (5, 1)), angle=np.array([-1.6, 1.6]))
     q = rng.uniform(-1.5, 1.5, (40, 5))
     at = arm.forward_kinematics(q)[:, :3, 3]
-    form = Form.at(reach, q, at + rng.uniform(-1e-3, 1e-3, (40, 3)))
+    form = TaylorForm.expand_at(reach, q, at + rng.uniform(-1e-3, 1e-3, (40, 3)))
     axes = 3 + (locked >= 0)
     cells, sections = rng.uniform(0, 0.08, (40, axes)), rng.uniform(0, 0.08, (40, 3))
-    above, below, far = form.sides(cells, sections)
+    above, below, far = form.bound_error(cells, sections)
     jacobians = arm.jacobian(q)[:, :3]
     inverse = np.zeros((40, 5, 3))
     inverse[:, reach.free] = np.linalg.pinv(jacobians[:, :, reach.free])
@@ -190,7 +190,7 @@ def test_a_time_limit_leaves_the_rest_undecided(panda):
     assert not proof.finished
     assert 0 < proof.undecided <= 1
     assert proof.proved + proof.undecided == 1
-    tokens = verifier.unpacked(proof.document["tree"], 10**7, "tree")
+    tokens = verifier.decompress_payload(proof.document["tree"], 10**7, "tree")
     assert sum(token >= 16 for token in tokens) + 1 == sum(token < 16 for token in tokens)
 
 
@@ -198,9 +198,13 @@ def test_what_is_proved_first(three):
     """A time limit in batches: the share proved grows all the way, and never shrinks."""
     claim = reach_claim(three, (1.3, 0.6), 0.8, locked={"joint2": (0.6, 2.0)})
     root = np.vstack([claim.box, claim.angle])
-    search = Search(Reach(three, "planar", 1, claim.limits), root, 8, 0)
+    search = TargetBoxSearch(ReachSolver(three, "planar", 1, claim.limits), root, 8, 0)
     shares = []
-    search.run(tell=lambda closed: shares.append((closed, search.nodes, float(1 - undecided(search.tree.in_order()[0])))))
+    search.run(
+        report_closed=lambda closed: shares.append(
+            (closed, search.nodes, float(1 - compute_undecided(search.tree.to_preorder()[0])))
+        )
+    )
     closed, nodes, proved = np.array(shares).T
     assert (np.diff(closed) >= 0).all()
     assert (np.diff(proved) >= 0).all()
@@ -251,7 +255,7 @@ def test_limits_of_the_joint_that_locks_are_kept(panda):
     ],
 )
 def test_what_is_proved_is_never_rounded_up(part, down, up):
-    assert (per_cent(part), per_cent(part, up=True)) == (down, up)
+    assert (format_percent(part), format_percent(part, up=True)) == (down, up)
 
 
 def test_what_is_refused(panda, three, mixed5, tmp_path):

@@ -13,12 +13,12 @@ from written import put, shifted
 import holdfast as hf
 import oracles
 from holdfast.certificates import documents, out_of_reach_claim, verifier
-from holdfast.certificates.crew import Effort
+from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.joint_boxes import exclusion
-from holdfast.certificates.joint_boxes.segments import Segment
-from holdfast.certificates.taylor import Chain
+from holdfast.certificates.joint_boxes.segments import ChainSegment
+from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.verified import distances
-from holdfast.certificates.verified.chain import Chain as VerifiedChain
+from holdfast.certificates.verified.chain import BallChain as VerifiedChain
 from holdfast.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
@@ -57,7 +57,7 @@ def test_the_length_of_a_locked_panda(panda, tmp_path, rng, joint, degrees, at):
     assert proof.leaves <= 200
     assert [lemma["link"] for lemma in proof.document["lemmas"]] == [0]
     assert whole(checked(proof, tmp_path))
-    low, high = exclusion.ranges(claim).T
+    low, high = exclusion.joint_ranges(claim).T
     points = panda.forward_kinematics(rng.uniform(low, high, (20_000, 7)))[:, :3, 3]
     assert not ((points > claim.box[:, 0]) & (points < claim.box[:, 1])).all(axis=1).any()
 
@@ -111,21 +111,21 @@ def leaf_of(tree, roots, point):
 @pytest.mark.parametrize("arm", ["planar-3r", "panda"])
 def test_no_configuration_is_excluded_with_its_own_target(arm, rng, tmp_path, monkeypatch):
     """A box that is reached in part: each configuration lies with its tool in a leaf that is undecided."""
-    monkeypatch.setattr(exclusion, "_witness", lambda *_: None)
+    monkeypatch.setattr(exclusion, "_search_witness", lambda *_: None)
     arm = hf.arms.load(arm)
     where, size = {3: ((2.0, 1.6), 0.8), 7: ((0.55, 0.1, 0.75), 0.3)}[arm.n]
     claim = out_of_reach_claim(arm, where, size, locked={3 % arm.n or 1: (-2.0, -1.2)} if arm.n == 7 else {1: (0.4, 1.2)})
     batches = count()
-    found = exclusion.exclude(claim, 5, 0, Effort(stop=lambda: next(batches) > 12))
+    found = exclusion.search_exclusion(claim, 5, 0, SearchBudget(should_stop=lambda: next(batches) > 12))
     assert 0 < found.undecided < 1
-    ranges = exclusion.ranges(claim)
+    ranges = exclusion.joint_ranges(claim)
     q = rng.uniform(*ranges.T, (40_000, arm.n))
     at = arm.forward_kinematics(q)[:, : len(where), 3]
     inside = ((at > claim.box[:, 0]) & (at < claim.box[:, 1])).all(axis=1)
     assert inside.sum() > 50
     roots = np.vstack([ranges, claim.box])
     assert {leaf_of(found.tree, roots, np.concatenate(pair)) for pair in zip(q[inside][:300], at[inside], strict=False)} == {2}
-    document = documents.refutation(claim, found, seconds=0.0)
+    document = documents.build_refutation_document(claim, found, seconds=0.0)
     verdict = verifier.verify(written.stored(document, tmp_path / "a.certificate"), sample=400)
     assert verdict.rejected == 0
     assert verdict.leaves > 0
@@ -137,21 +137,21 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
     for trial in range(12):
         types, first = ("RRRRR", "PRRRR", "RRPRR", "RPRRP")[trial % 4], trial % 3
         arm = oracles.random_arm(rng, types=types, limits=2.5)
-        chain, last = Chain.of(arm), 5 - trial % 2
+        chain, last = CertificateChain.from_arm(arm), 5 - trial % 2
         end = chain.origins[-1] if last == 5 else rng.uniform(-0.3, 0.3, 3)
-        part, half = Segment.of(chain, first, last, end), rng.uniform(0.01, 0.2, (30, last - first))
+        part, half = ChainSegment.from_chain(chain, first, last, end), rng.uniform(0.01, 0.2, (30, last - first))
         q, x, wide = rng.uniform(-2, 2, half.shape), rng.uniform(-0.8, 0.8, (30, 3)), rng.uniform(0, 0.05, (30, 3))
         steps = rng.choice([-1.0, 1.0, 0.2], (200, 30, last - first + 3))
-        moved = [part.frames(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
+        moved = [part.differentiate_point(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
         true = np.linalg.norm(moved, axis=2)
-        pairs = [(part.nearest(q, half, x, wide)[0], part.farthest(q, half, x, wide)[0])]
+        pairs = [(part.bound_distance_below(q, half, x, wide)[0], part.bound_distance_above(q, half, x, wide)[0])]
         limits, target = (
             [["-0x1.8p+1", "0x1.8p+1"]] * 5,
             {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None},
         )
         lemmas = [{"link": last - first, "point": [y.hex() for y in end.tolist()], "least": "0x0p+0", "most": "0x1p+0"}]
-        document = {"arm": documents._stored(arm), "limits": limits, "locked": -1, "lemmas": lemmas, "task": "position"}
-        leaves = distances.Apart(document | {"target": target})
+        document = {"arm": documents._encode_arm(arm), "limits": limits, "locked": -1, "lemmas": lemmas, "task": "position"}
+        leaves = distances.RefutationVerifier(document | {"target": target})
         if first:  # the links behind it alone
             for name in ("origins", "turns", "slides"):
                 setattr(leaves.arm, name, getattr(leaves.arm, name)[first:])
@@ -160,7 +160,7 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
             for a, h in zip(np.hstack([q, x]).T, np.hstack([half, wide]).T, strict=True)
         ]
         widths = np.stack([joint[:, 2] for joint in placed], axis=1)
-        pairs.append(leaves.span(0, placed[: last - first], placed[last - first :], widths))
+        pairs.append(leaves.bound_target_distance(0, placed[: last - first], placed[last - first :], widths))
         for low, high in pairs:
             assert (low <= true.min(axis=0)).all()
             assert (high >= true.max(axis=0)).all()
@@ -172,10 +172,10 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
 def test_the_verifier_bounds_distances_of_arms_with_slides(rng, types):
     """At random points of random boxes: the greatest and the least distance of the tool from a point of the base."""
     arm = oracles.random_arm(rng, types=types, limits=1.5)
-    chain, half = VerifiedChain(documents._stored(arm)), rng.uniform(0.01, 0.15, (20, arm.n))
+    chain, half = VerifiedChain(documents._encode_arm(arm)), rng.uniform(0.01, 0.15, (20, arm.n))
     q, start = rng.uniform(-1, 1, half.shape), rng.uniform(-0.5, 0.5, 3)
     joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
-    low, high = distances.apart(chain, joints, 0, start, chain.origins[-1], 20)
+    low, high = distances.bound_distance(chain, joints, 0, start, chain.origins[-1], 20)
     at = q + rng.choice([-1.0, 1.0, 0.3], (200, *half.shape)) * half
     tools = arm.forward_kinematics(at.reshape(-1, arm.n))[:, :3, 3].reshape(*at.shape[:2], 3)
     true = np.linalg.norm(tools - start, axis=2)
@@ -232,7 +232,7 @@ def test_forged_with_digests_repaired(fine, tmp_path, forge):
     forge(forged)
     try:
         verdict = verifier.verify(written.stored(written.repaired(forged), tmp_path / "a.certificate"))
-    except (verifier.Refused, KeyError):
+    except (verifier.CertificateRejected, KeyError):
         return
     assert verdict.rejected > 0
     assert verdict.undecided > 0
@@ -266,7 +266,7 @@ def test_a_forged_witness_is_rejected(three, tmp_path):
         verdict = verifier.verify(written.stored(forged, tmp_path / "a.certificate"))
         assert verdict.refuted == good
         assert (verdict.rejected == 0) == good
-        assert ("Refuted" in verdict.sentence) == good
+        assert ("Refuted" in verdict.summary) == good
 
 
 @pytest.mark.parametrize(("angle", "good"), [(0.6, True), (0.06, False), (1.2, False), (6.0, False)])
@@ -279,8 +279,8 @@ def test_a_witness_has_its_tool_turned_into_the_box(angle, good, locked):
     claim = {"task": "planar-pose", "target": {"axes": "xya", "box": box, "orientation": None}, "locked": locked}
     claim["angle"] = None if locked < 0 else [(0.6).hex(), (0.8).hex()]
     claim |= {"arm": stored, "limits": [["-0x1.0p+3", "0x1.0p+3"]] * 4, "lemmas": [], "witness": [x.hex() for x in q]}
-    leaf = (((0, 0),) * 7, distances.WITNESS)
-    assert (distances.Apart(claim).rejected([leaf]) == (1, [])) == good
+    leaf = (((0, 0),) * 7, distances.WITNESS_LEAF)
+    assert (distances.RefutationVerifier(claim).check_leaves([leaf]) == (1, [])) == good
 
 
 def test_what_makes_no_claim(panda, three):

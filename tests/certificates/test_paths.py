@@ -17,11 +17,11 @@ from written import put, shifted
 
 import holdfast as hf
 from holdfast.certificates import path_claim, verifier
-from holdfast.certificates.taylor import Chain
+from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths import march
-from holdfast.certificates.tool_paths.forms import Following
+from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.verified import motions
-from holdfast.certificates.verified.taylor import Error
+from holdfast.certificates.verified.taylor import TaskErrorEnclosure
 from holdfast.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
@@ -164,7 +164,7 @@ def test_an_arm_on_a_rail(tmp_path, rng):
         off, beyond = driven.finished(lock, rng.uniform(*driven.slabs(lock)[0]))
         assert off < 1e-6 > beyond
     assert proof.proved > 0.9
-    faults = motions.Faults(proof.document)
+    faults = motions.PathVerifier(proof.document)
     q, h = start + rng.normal(size=(2, 7)) * 0.05
     with motions.flint.ctx.workprec(64):
         error, first, second = (x.at for x in between(faults, q, h))
@@ -172,7 +172,10 @@ def test_an_arm_on_a_rail(tmp_path, rng):
         far = np.abs(d)
         (place, _, _), (goal, _, _) = driven.tool(q + d[:7]), driven.tool(h + d[:6:-1])
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
-        left = [faults.chain.bend(3, x[None], faults.chain.whole, y[None])[0] / 6 for x, y in ((far[:7], q), (far[:6:-1], h))]
+        left = [
+            faults.chain.bound_derivative(3, x[None], faults.chain.link_lengths, y[None])[0] / 6
+            for x, y in ((far[:7], q), (far[:6:-1], h))
+        ]
         assert (np.abs(place - goal - line[:3]) <= sum(left) + 1e-12).all()
 
 
@@ -198,7 +201,7 @@ def test_a_tool_that_points(panda, tmp_path, rng):
     for lock in driven.document["locks"]:
         off, beyond = driven.finished(lock, rng.uniform(0, 2))
         assert off < 1e-6 > beyond
-    faults = motions.Faults(proof.document)
+    faults = motions.PathVerifier(proof.document)
     (q, h), e = START + rng.normal(size=(2, 7)) * 0.02, 1e-4
     across = driven.tool(h)[1][:, :2].T
 
@@ -239,7 +242,7 @@ def test_closed_form_of_a_planar_pose(flat4, tmp_path, rng):
                 long, short = links[:2]
             true[k] = np.abs(goal).max() < long + short and np.abs(goal).min() > abs(long - short)
         said, never = np.zeros((2, len(at)), dtype=bool)
-        for which, spans in ((said, part.spans), (never, part.refuted_spans)):
+        for which, spans in ((said, part.proved_spans), (never, part.refuted_spans)):
             for begin, stop in spans:
                 which |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
         assert not (said & ~true).any()
@@ -281,7 +284,7 @@ def test_by_a_singular_configuration(singular, three, tmp_path, rng, monkeypatch
     for slab in near:
         off, beyond = driven.finished(lock, rng.uniform(*slab))
         assert off < 1e-6 > beyond
-    monkeypatch.setattr(march, "led", lambda _, slabs: [None] * len(slabs))
+    monkeypatch.setattr(march, "march_through_singularity", lambda _, slabs: [None] * len(slabs))
     plain = hf.certify(singular.claim, halvings=4)
     assert singular.proved > 0.9
     assert singular.proved > plain.proved + Fraction(1, 5)
@@ -305,13 +308,13 @@ def test_turned_cells_that_a_forger_changes_are_rejected(singular, tmp_path):
         document = copy.deepcopy(singular.document)
         forge(document)
         path = written.stored(written.repaired(document), tmp_path / "a.certificate")
-        with contextlib.suppress(verifier.Refused):
+        with contextlib.suppress(verifier.CertificateRejected):
             assert verifier.verify(path).rejected > 0
 
 
 def flipped(monkeypatch, knot):
     """A search that takes the other elbow from a knot on: what it finds there exists, and no motion leads to it."""
-    before = Following.guessed
+    before = LockedTrackingEnclosure.predict_start
 
     def guessed(self, forms, cells, middle):
         q = before(self, forms, cells, middle)
@@ -319,7 +322,7 @@ def flipped(monkeypatch, knot):
         other[:, 1] += 2 * np.arctan2(np.sin(q[:, 2]), 1 + np.cos(q[:, 2])) - q[:, 2]
         return np.where((cells.start == knot * SEGMENT)[:, None], other, q)
 
-    monkeypatch.setattr(Following, "guessed", guessed)
+    monkeypatch.setattr(LockedTrackingEnclosure, "predict_start", guessed)
 
 
 def test_existence_in_every_cell_is_no_motion(three, tmp_path, monkeypatch):
@@ -329,8 +332,8 @@ def test_existence_in_every_cell_is_no_motion(three, tmp_path, monkeypatch):
     assert hf.certify(claim).ok
     flipped(monkeypatch, 5)
     glued = hf.certify(claim, halvings=1)
-    assert [(part.spans[0][0], part.proved) for part in glued.parts] == [(5 * SEGMENT, 3 / 8)]
-    monkeypatch.setattr(Following, "goes_on", lambda self, before, forms: forms.good)
+    assert [(part.proved_spans[0][0], part.proved) for part in glued.parts] == [(5 * SEGMENT, 3 / 8)]
+    monkeypatch.setattr(LockedTrackingEnclosure, "continues_from", lambda self, before, forms: forms.good)
     loose = hf.certify(claim, halvings=1)
     assert loose.ok
     check = hf.check_certificate(loose.write(tmp_path / "a.certificate"))
@@ -416,7 +419,7 @@ def test_what_a_forger_changes_is_rejected(moved, tmp_path, forge):
     document = copy.deepcopy(moved.document)
     forge(document)
     path = written.stored(written.repaired(document), tmp_path / "a.certificate")
-    with contextlib.suppress(verifier.Refused):
+    with contextlib.suppress(verifier.CertificateRejected):
         assert verifier.verify(path).rejected > 0
 
 
@@ -440,7 +443,7 @@ def test_refutations_that_a_forger_changes_are_rejected(elbow, tmp_path, forge):
     document = copy.deepcopy(elbow.document)
     forge(document)
     path = written.stored(written.repaired(document), tmp_path / "a.certificate")
-    with contextlib.suppress(verifier.Refused):
+    with contextlib.suppress(verifier.CertificateRejected):
         assert verifier.verify(path).rejected > 0
 
 
@@ -452,7 +455,7 @@ def test_knots_beyond_seven_radians_are_refused(moved, tmp_path, value):
     for path in (("arm", "joints", 0, "limits"), ("limits", 0)):
         put(path, wide)(document)
     put(("knots", 2, 0), value.hex())(document)
-    with pytest.raises(verifier.Refused, match="beyond 7 rad"):
+    with pytest.raises(verifier.CertificateRejected, match="beyond 7 rad"):
         verifier.verify(written.stored(written.repaired(document), tmp_path / "a.certificate"))
 
 
@@ -472,7 +475,7 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert f"accepted: {moved.leaves}, rejected: 0" in done.stdout
-    assert "sampled" in verifier.verify(file, sample=3).sentence
+    assert "sampled" in verifier.verify(file, sample=3).summary
 
 
 # ---- bounds ----------------------------------------------------------------------------------------------------------
@@ -480,15 +483,15 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 
 def between(faults, q, goal):
     """The verifier's form of the error at q from where the tool is at another configuration."""
-    joints, places = (list(map(motions.exactly, x[:, None])) for x in (q, goal))
-    error = Error(faults.task, faults.chain, joints, faults.chain, places)
+    joints, places = (list(map(motions.enclose_values, x[:, None])) for x in (q, goal))
+    error = TaskErrorEnclosure(faults.task, faults.chain, joints, faults.chain, places)
     return (x[0, : faults.m] for x in (error.value, error.slopes, error.second))
 
 
 def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     """Against differences of what the file says, by scipy's rotations."""
     driven = Driven(moved.write(tmp_path / "a.certificate"))
-    faults = motions.Faults(moved.document)
+    faults = motions.PathVerifier(moved.document)
     q, h = START + rng.normal(size=(2, 7)) * 0.02
     with motions.flint.ctx.workprec(64):
         error, first, second = between(faults, q, h)
@@ -515,21 +518,24 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
 def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     """The search's bound, and so the verifier's lengths, at random points, with the verifier's second derivatives."""
     proof = hf.certify(path_claim(panda, START + np.array([[0.0], [0.01]]), failures=[1]))
-    faults, chain = motions.Faults(proof.document), Chain.of(panda)
-    assert (faults.chain.whole >= chain.lengths).all()
-    assert faults.chain.whole == pytest.approx(chain.lengths, abs=1e-9)
+    faults, chain = motions.PathVerifier(proof.document), CertificateChain.from_arm(panda)
+    assert (faults.chain.link_lengths >= chain.lengths).all()
+    assert faults.chain.link_lengths == pytest.approx(chain.lengths, abs=1e-9)
     limits = np.column_stack([panda.lower, panda.upper])
     knots, slides = proof.claim.knots, panda.prismatic
-    following = Following(chain, knots, "pose", still=[1], tube=np.empty(0), limits=limits, slides=slides)
+    following = LockedTrackingEnclosure(chain, knots, "pose", driven=[1], tube=np.empty(0), limits=limits, slides=slides)
     q, goal = START[None] + 0.01, START[None]
     with motions.flint.ctx.workprec(64):
         error, first, second = (x.at for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
-        now = following.missed(following.moved(q + ours), following.moved(goal + theirs))[0][0]
+        now = following.compute_tracking_error(
+            following.compute_tool_state(q + ours), following.compute_tool_state(goal + theirs)
+        )[0][0]
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
         assert (
-            np.abs(now - line) <= following._third(np.abs(np.append(ours, theirs))[None], np.zeros((1, 14)))[0] + 1e-12
+            np.abs(now - line)
+            <= following._third_order_remainder(np.abs(np.append(ours, theirs))[None], np.zeros((1, 14)))[0] + 1e-12
         ).all()
 
 
@@ -573,4 +579,4 @@ def test_words_and_picture(bent):
     assert told["parts"]["joint1"]["proved"]["value"] == float(bent.parts[0].proved)
     assert list(bent.figures()) == ["slices"]
     assert "one continuous motion" in bent.describe()[0]
-    assert march.SEGMENT == SEGMENT
+    assert march.SEGMENT_INSTANTS == SEGMENT

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, tolerant_claim
-from holdfast.certificates.taylor import Form, Reach
+from holdfast.certificates.taylor import ReachSolver, TaylorForm
 from holdfast.errors import InputError
 
 START = np.radians([20, -10, 15, -110, -10, 105, 60])
@@ -34,13 +34,13 @@ def test_the_error_is_never_larger_than_its_bound(locked, turning, rng):
     tool = arm.forward_kinematics(q)
     nearly = Rotation.from_rotvec(rng.uniform(-0.01, 0.01, 3)).as_matrix()
     wanted = (tool[:, :3, :3] @ nearly) if turning else np.tile(tool[0, :3, :3] @ nearly, (count, 1, 1))
-    reach = Reach(arm, "pose", locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
+    reach = ReachSolver(arm, "pose", locked, np.tile([-9.0, 9.0], (7, 1)), None if turning else wanted[0])
     targets = tool[:, :3, 3] + rng.uniform(-1e-3, 1e-3, (count, 3))
     if turning:
         targets = np.concatenate([targets, Rotation.from_matrix(wanted).as_euler("xyz")], axis=1)
-    form, axes = Form.at(reach, q, targets), targets.shape[1]
+    form, axes = TaylorForm.expand_at(reach, q, targets), targets.shape[1]
     cells, sections = rng.uniform(0, 0.03, (count, axes + (locked >= 0))), rng.uniform(0, 0.03, (count, 6))
-    above, below, far = form.sides(cells, sections)
+    above, below, far = form.bound_error(cells, sections)
     jacobians, inverse = arm.jacobian(q), np.zeros((count, 7, 6))
     off = tool[:, :3, :3] @ wanted.transpose(0, 2, 1)
     np.testing.assert_allclose(form.error, np.concatenate([tool[:, :3, 3] - targets[:, :3], axial(off)], axis=1), atol=1e-12)
@@ -146,7 +146,7 @@ def test_what_was_given_up_is_looked_at_once_more(panda, monkeypatch):
     tool = panda.forward_kinematics(q)
     claim = reach_claim(panda, tool[:3, 3], 0.06, rotation=tool[:3, :3], locked={6: (q[6] - 0.05, q[6] + 0.05)})
     assert hf.certify(claim, seed=6).undecided == 0
-    monkeypatch.setattr("holdfast.certificates.target_boxes.search._LITTLE", 0)
+    monkeypatch.setattr("holdfast.certificates.target_boxes.search._MAX_RETRY_FRACTION", 0)
     once = hf.certify(claim, seed=6)
     assert 0 < once.undecided < 1e-6
 

@@ -44,8 +44,8 @@ def test_one_command_checks_it(bare, tmp_path):
 
 
 def test_it_is_about_our_panda(panda):
-    document = verifier.load(CUBE)
-    arms = document["arm"], documents._stored(panda)
+    document = verifier.load_certificate(CUBE)
+    arms = document["arm"], documents._encode_arm(panda)
     first, second = (
         [float.fromhex(x) for frame in (*arm["joints"], arm["tool"]) for x in frame["rotation"] + frame["origin"]]
         for arm in arms

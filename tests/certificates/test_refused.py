@@ -10,9 +10,9 @@ import pytest
 import holdfast as hf
 from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
 from holdfast.certificates.joint_boxes import halving
-from holdfast.certificates.joint_boxes.halving import OPEN, Halving, need_room
-from holdfast.certificates.joint_boxes.jobs import summed
-from holdfast.certificates.taylor import Reach
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, require_capacity
+from holdfast.certificates.joint_boxes.jobs import summarize_tree
+from holdfast.certificates.taylor import ReachSolver
 from holdfast.errors import InputError
 
 
@@ -20,20 +20,20 @@ def along_first(size):
     """A test that decides boxes of a width along the first axis."""
 
     def test(middle, half):
-        return np.where(half[:, 0] <= size, 0, OPEN), np.where([True, False], half, 0.0)
+        return np.where(half[:, 0] <= size, 0, OPEN_TOKEN), np.where([True, False], half, 0.0)
 
     return test
 
 
 def test_the_estimate_of_a_uniform_tree_is_exact():
     box, deep = np.array([[0.0, 1.0], [0.0, 1.0]]), 25
-    need_room(along_first(2.0**-25), box, 60, 0, "")  # 2^24 boxes
+    require_capacity(along_first(2.0**-25), box, 60, 0, "")  # 2^24 boxes
     with pytest.raises(InputError, match=r"some 3e[+]07 boxes; ask for less"):
-        need_room(along_first(2.0**-26), box, 60, 0, "ask for less")
-    need_room(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
+        require_capacity(along_first(2.0**-26), box, 60, 0, "ask for less")
+    require_capacity(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
     tree = Halving(box, 60)
     tree.run(along_first(2.0**-11))
-    assert summed(tree.in_order(), len(box), tree.tested, True).leaves == 2**10
+    assert summarize_tree(tree.to_preorder(), len(box), tree.tested, True).leaves == 2**10
 
 
 def test_poses_in_a_wide_box(panda):
@@ -44,12 +44,12 @@ def test_poses_in_a_wide_box(panda):
 
 
 def test_bounds_and_distances(panda, monkeypatch):
-    monkeypatch.setattr(halving, "MOST_LEAVES", 16)
+    monkeypatch.setattr(halving, "MAX_LEAVES", 16)
     ready = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
     box = np.column_stack([ready - 0.1, ready + 0.1])
     with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a threshold farther from 0.01"):
         hf.certify(ceiling_claim(panda, box, 0.0125))
-    monkeypatch.setattr(halving, "MOST_LEAVES", 0)
+    monkeypatch.setattr(halving, "MAX_LEAVES", 0)
     with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a narrower interval"):
         hf.certify(out_of_reach_claim(panda, [0.5, 0, -0.3], 0.015, locked={1: (-0.35, -0.26)}))
 
@@ -76,13 +76,13 @@ def test_targets_without_configurations(three, capsys, monkeypatch):
 def test_the_counts_are_those_of_a_count_by_hand(three, capsys, monkeypatch, centre, size):
     """Three links of 1 m reach whatever is within 3 m, so the targets that were drawn can be counted without any search."""
     monkeypatch.delenv("HOLDFAST_NOTICES", raising=False)
-    sampled, solved = [], Reach.solved
+    sampled, solved = [], ReachSolver.solve_targets
 
     def noted(self, q, targets, *options, **named):
         sampled.append(np.unique(targets, axis=0))
         return solved(self, q, targets, *options, **named)
 
-    monkeypatch.setattr(Reach, "solved", noted)
+    monkeypatch.setattr(ReachSolver, "solve_targets", noted)
     hf.certify(reach_claim(three, list(centre), size), halvings=1)
     said = capsys.readouterr().err
     lost = int((np.linalg.norm(sampled[0], axis=1) > 3).sum())

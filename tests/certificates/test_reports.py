@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.present.certificates.joint_boxes import Leaves
+from holdfast.present.certificates.joint_boxes import LeafBoxes
 
 
 def halved(rng, axes, most):
@@ -31,16 +31,18 @@ def halved(rng, axes, most):
 def test_a_picture_shows_the_worst_of_the_other_axes(rng):
     place, depth = halved(rng, 3, 8)
     undecided = rng.random(len(place)) < 0.1
-    leaves = Leaves(np.tile([0.0, 1.0], (3, 1)), list("abc"), np.ones(3, bool), place, depth, undecided)
-    worst, left = leaves.seen((0, 2))
+    leaves = LeafBoxes(np.tile([0.0, 1.0], (3, 1)), list("abc"), np.ones(3, bool), place, depth, undecided)
+    worst, left = leaves.project_onto((0, 2))
     for i, j in rng.integers(0, 128, (40, 2)):
         point = (np.array([i, j]) + 0.5) / 128
         low, width = place[:, [0, 2]] * 0.5 ** depth[:, [0, 2]], 0.5 ** depth[:, [0, 2]]
         over = ((low <= point) & (point < low + width)).all(axis=1)
         assert worst[i, j] == depth[over].sum(axis=1).max()
         assert left[i, j] == undecided[over].any()
-    deep = Leaves(leaves.ends, leaves.names, leaves.turns, place << 9, depth + 9, undecided)  # finer than a picture
-    assert set(zip(*np.nonzero(deep.seen((0, 1))[1]), strict=True)) == {
+    deep = LeafBoxes(
+        leaves.axis_ranges, leaves.axis_names, leaves.is_angle, place << 9, depth + 9, undecided
+    )  # finer than a picture
+    assert set(zip(*np.nonzero(deep.project_onto((0, 1))[1]), strict=True)) == {
         (k >> (d + 2), m >> (e + 2))
         for (k, m), (d, e) in zip((place << 9)[undecided][:, :2], depth[undecided][:, :2], strict=True)
     }

@@ -18,7 +18,7 @@ from holdfast.certificates.joint_boxes import jobs as boxes
 from holdfast.certificates.target_boxes import jobs
 from holdfast.certificates.tool_paths import jobs as motions
 from holdfast.errors import InputError, StoreError
-from holdfast.present.certificates.console import state
+from holdfast.present.certificates.console import format_state
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 WORDS = ["--range", "1=-1..0.5", "--range", "2=0..1.4", "--range", "3=0..1.4"]
@@ -46,7 +46,7 @@ def test_two_processes_find_the_same(claim, whole, tmp_path):
     assert told[-1] == (40_000, 40_000)
     assert lines[-1].open == 0
     assert lines[-1].proved == pytest.approx(np.mean([float(part.proved) for part in whole.parts]))
-    assert state(lines[-1]).endswith(f"open 0 %; {whole.nodes:,} boxes")
+    assert format_state(lines[-1]).endswith(f"open 0 %; {whole.nodes:,} boxes")
     remembered = hf.certify(claim, halvings=6, store=tmp_path)
     assert proofs(remembered) == proofs(whole)
     assert remembered.seconds == found.seconds  # nothing was computed again
@@ -63,11 +63,11 @@ def test_a_search_that_was_stopped_is_resumed(claim, whole, tmp_path):
 
 def test_a_busy_machine_finds_the_same(three, monkeypatch):
     """Boxes of a claim that is cut take turns; what each begins with takes as long as it takes."""
-    monkeypatch.setattr(jobs, "_LARGE", 8)
-    monkeypatch.setattr(jobs, "_JOB", 8)
+    monkeypatch.setattr(jobs, "_SPLIT_ABOVE_CELLS", 8)
+    monkeypatch.setattr(jobs, "_CELLS_PER_JOB", 8)
     claim = reach_claim(three, (1.5, 0.5), 0.8, locked={"joint2": (0.7, 1.3)})
     quiet = hf.certify(claim, halvings=4)
-    monkeypatch.setattr(crew, "_SLICE", 1e-3)
+    monkeypatch.setattr(crew, "_TIME_SLICE_S", 1e-3)
     busy = hf.certify(claim, halvings=4)
     assert quiet.document["digest"] == busy.document["digest"]
 
@@ -105,8 +105,8 @@ def test_a_path_that_was_killed_is_resumed(three, tmp_path):
 
 
 def test_a_part_of_many_cells_is_cut(three, tmp_path, monkeypatch):
-    monkeypatch.setattr(jobs, "_LARGE", 4)
-    monkeypatch.setattr(jobs, "_JOB", 2)
+    monkeypatch.setattr(jobs, "_SPLIT_ABOVE_CELLS", 4)
+    monkeypatch.setattr(jobs, "_CELLS_PER_JOB", 2)
     claim = reach_claim(three, (1.5, 0.5), 0.6, locked={1: (0.5, 1.2)})
     proof = hf.certify(claim, store=tmp_path / "store")
     lines = (tmp_path / "store" / "search.journal").read_text()
@@ -135,8 +135,8 @@ def asked(kind, three, flat4):
 @pytest.mark.parametrize("kind", ["path", "out-of-reach", "floor"])
 def test_what_is_halved_and_marches_is_resumed_as_well(three, flat4, tmp_path, monkeypatch, kind):
     """In jobs so small that there are some: stopped and resumed, in two processes, and what is remembered, all the same."""
-    monkeypatch.setattr(motions, "_JOB", 60)
-    monkeypatch.setattr(boxes, "_JOB", 6)
+    monkeypatch.setattr(motions, "_CELLS_PER_JOB", 60)
+    monkeypatch.setattr(boxes, "_BOXES_PER_JOB", 6)
     claim, halvings = asked(kind, three, flat4)
     whole, journal = hf.certify(claim, halvings=halvings), tmp_path / "search.journal"
     some = hf.certify(claim, halvings=halvings, store=tmp_path, stop=lambda: '"part"' in journal.read_text())

@@ -9,9 +9,9 @@ import pytest
 import written
 
 from holdfast.certificates.verified import balls, bounds
-from holdfast.certificates.verified.balls import Balls
-from holdfast.certificates.verified.chain import Chain, exactly
-from holdfast.certificates.verified.taylor import Error, Form, Inclusion
+from holdfast.certificates.verified.balls import BallArray
+from holdfast.certificates.verified.chain import BallChain, enclose_values
+from holdfast.certificates.verified.taylor import DerivativeEnclosure, Inclusion, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 COUNT = 100
@@ -32,8 +32,8 @@ def holds(ball, truth):
 
 def draw_balls(rng, *shape):
     """Draw balls, some of which are numbers, and the numbers at one end of each."""
-    ball = Balls(rng.normal(size=shape), abs(rng.normal(size=shape)) * rng.choice([0, 1e-17, 1e-3], shape))
-    return ball, exact(ball.at) + exact(ball.off) * rng.choice([-1, 1], shape)
+    ball = BallArray(rng.normal(size=shape), abs(rng.normal(size=shape)) * rng.choice([0, 1e-17, 1e-3], shape))
+    return ball, exact(ball.center) + exact(ball.radius) * rng.choice([-1, 1], shape)
 
 
 def make_chain(*lengths, slides):
@@ -44,19 +44,19 @@ def make_chain(*lengths, slides):
         here = along_y if slide else np.eye(3)
         turns, before = [*turns, before.T @ here], here
     places = [written.place(turn, before.T @ [length, 0, 0]) for turn, length in zip(turns, (0.0, *lengths), strict=True)]
-    return Chain(written.Chain(places[:-1], places[-1], [[-4.0, 4.0]] * len(slides), list(slides)).stored())
+    return BallChain(written.Chain(places[:-1], places[-1], [[-4.0, 4.0]] * len(slides), list(slides)).stored())
 
 
 def test_sums_and_products_of_balls(rng):
     (a, x), (b, y) = draw_balls(rng, COUNT, 3), draw_balls(rng, COUNT, 3)
     assert holds(a + b, x + y)
     assert holds(-a, -x)
-    assert holds(balls.times("na,na->n", a, b), (x * y).sum(axis=1))
+    assert holds(balls.einsum("na,na->n", a, b), (x * y).sum(axis=1))
     cross = np.stack([x[:, i - 2] * y[:, i - 1] - x[:, i - 1] * y[:, i - 2] for i in range(3)], 1)
-    assert holds(balls.times("nij,nj->ni", balls.crossed(a), b), cross)
+    assert holds(balls.einsum("nij,nj->ni", balls.cross_matrix(a), b), cross)
     assert (exact(a.size) >= abs(x)).all()
     assert (exact(a.low) <= x).all()
-    assert (exact(balls.length(a.at)) ** 2 >= (exact(a.at) ** 2).sum(axis=1)).all()
+    assert (exact(balls.bound_length(a.at)) ** 2 >= (exact(a.at) ** 2).sum(axis=1)).all()
 
 
 @pytest.mark.parametrize("bent", [0.0, 1.0])
@@ -65,18 +65,18 @@ def test_losses_to_second_order(rng, bent):
     value, slopes = rng.normal(size=(COUNT, 1)), rng.normal(size=(COUNT, 1, 2))
     second, half = bent * rng.normal(size=(COUNT, 1, 2, 2)), rng.uniform(0, 1, (COUNT, 2))
     second = np.triu(second) + np.triu(second, 1).swapaxes(2, 3)
-    form, rest = Form(Balls(value), Balls(slopes), Balls(second)), rng.uniform(0, 0.1, (COUNT, 1))
+    form, rest = DerivativeEnclosure(BallArray(value), BallArray(slopes), BallArray(second)), rng.uniform(0, 0.1, (COUNT, 1))
     s, h = abs(exact(slopes[:, 0])), exact(half)
     pair = abs(exact(second[:, 0, 0, 1])) * h[:, 0] * h[:, 1]
     sides = []
-    for sign, found in zip((1, -1), form.loss(half), strict=True):
+    for sign, found in zip((1, -1), form.bound_change(half), strict=True):
         own = sign * exact(np.diagonal(second[:, 0], axis1=1, axis2=2))
         inside = s < own * h
         parts = np.where(inside, s**2 / np.where(inside, 2 * own, 1), s * h - own * h**2 / 2)
         sides.append(parts.sum(axis=1) + pair)
         assert (exact(found[:, 0]) >= sides[-1]).all()
     truth = np.maximum(exact(value[:, 0]) + sides[1], sides[0] - exact(value[:, 0])) + exact(rest[:, 0])
-    assert (exact(form.most(half, rest)[:, 0]) >= truth).all()
+    assert (exact(form.bound_magnitude(half, rest)[:, 0]) >= truth).all()
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])
@@ -103,11 +103,11 @@ def test_lengths_of_links(rng):
 def test_what_is_behind_the_second_order(rng):
     """The angle by which two chains turn at most, and its cube."""
     chain = make_chain(0.7, 0.4, slides=(False, True))
-    joints = [exactly(rng.normal(size=COUNT)) for _ in range(4)]
+    joints = [enclose_values(rng.normal(size=COUNT)) for _ in range(4)]
     with flint.ctx.workprec(64):
-        error = Error("pose", chain, joints[:2], chain, joints[2:])
+        error = TaskErrorEnclosure("pose", chain, joints[:2], chain, joints[2:])
     far = rng.uniform(0, 1, (COUNT, 4))
-    rest, angle = error.rest(far)
+    rest, angle = error.bound_remainder(far)
     truth = exact(far[:, 0]) + exact(far[:, 3])  # the other chain's joints come backwards
     assert (exact(angle) >= truth).all()
     assert (exact(rest[:, 3]) >= truth**3 / 6).all()
@@ -121,8 +121,8 @@ def test_manipulability_that_is_found(rng):
         frames = [written.place(np.eye(3), [0.0, 0, 0])] + [written.place(quarter, [x, 0.0, 0]) for x in links]
         arm = written.Chain(frames[:-1], frames[-1], [[-4.0, 4.0]] * 4).stored()
         document = {"joint_box": [["-0x1p+0", "0x1p+0"]] * 4, "arm": arm, "task": "planar-pose"}
-        leaves = bounds.Wrenches(document | {"threshold": "0x1p-1", "locks": [0, 2]})
-        low, high = leaves.occurs(["0x0p+0"] * 4)
+        leaves = bounds.CeilingVerifier(document | {"threshold": "0x1p-1", "locks": [0, 2]})
+        low, high = leaves.enclose_attained(["0x0p+0"] * 4)
         steps = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]]) * links[:, None]
         places = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
         lever = places[-1] - places[:-1]
@@ -140,19 +140,19 @@ def test_manipulability_that_is_found(rng):
 @pytest.mark.parametrize("radius", [0.0, 1e-17, 1e-3])
 def test_joints_at_their_limits(rng, beyond, side, radius):
     """Joints that go up to some roundings from a limit; what is accepted lies within, and some roundings are enough."""
-    q, far = Balls(rng.normal(size=(COUNT, 1)), np.full((COUNT, 1), radius)), rng.uniform(0, 1, (COUNT, 1))
+    q, far = BallArray(rng.normal(size=(COUNT, 1)), np.full((COUNT, 1), radius)), rng.uniform(0, 1, (COUNT, 1))
     sign = 2 * side - 1
-    ends = exact(q.at) + sign * (exact(q.off) + exact(far))
+    ends = exact(q.center) + sign * (exact(q.radius) + exact(far))
     cells = object.__new__(Inclusion)
     accepted = 0
     for k in range(COUNT):
         limits = np.array([[-np.inf, np.inf]])
-        limits[0, side] = float(ends[k, 0]) - sign * beyond * 2.0**-53 * (abs(q.at[k, 0]) + far[k, 0])
-        cells.far = far[[k]]
-        within = cells.within(q[[k]], limits, [0])[0]
+        limits[0, side] = float(ends[k, 0]) - sign * beyond * 2.0**-53 * (abs(q.center[k, 0]) + far[k, 0])
+        cells.joint_travel = far[[k]]
+        within = cells.is_within_limits(q[[k]], limits, [0])[0]
         accepted += within
         if within:
             assert sign * ends[k, 0] <= sign * Fraction(float(limits[0, side]))
     assert accepted in {-8: [COUNT], 8: [0]}.get(beyond, range(COUNT + 1))
-    cells.far = far
-    assert cells.within(q, np.array([[8.0, 9.0]]), []).all()  # joints that are not free have their values
+    cells.joint_travel = far
+    assert cells.is_within_limits(q, np.array([[8.0, 9.0]]), []).all()  # joints that are not free have their values

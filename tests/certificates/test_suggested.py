@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.assessment.suggested import region_claim
+from holdfast.assessment.suggested import make_region_claim
 from holdfast.errors import InputError
 
 
 def test_every_pose_of_the_region_is_a_target(panda):
     region = hf.Region.box([0.5, 0.1, 0.5], [0.05, 0.04, 0], [0.2, 0.1, np.pi], [0.02, 0.04, 0.06], order="abdi")
     task = hf.indices.relative_manipulability(panda, "pose").task
-    claim = region_claim(panda, region, task, 0)
+    claim = make_region_claim(panda, region, task, 0)
     for pose in region.poses(next(region.blocks(0, 1))[:50]):
         roll, pitch, yaw = (
             np.arctan2(pose[2, 1], pose[2, 2]) % (2 * np.pi),
@@ -25,7 +25,7 @@ def test_every_pose_of_the_region_is_a_target(panda):
         assert (target <= claim.box[:, 1] + 1e-9).all()
     np.testing.assert_allclose(np.diff(claim.box)[:, 0], [0.05, 0.04, 0, 0.06, 0.04, 0.02], atol=1e-12)
     with pytest.raises(InputError, match="not reached"):
-        region_claim(panda, region, task, 3)
+        make_region_claim(panda, region, task, 3)
 
 
 def test_a_sample_of_positions(panda):

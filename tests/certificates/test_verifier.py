@@ -122,16 +122,16 @@ def tightness(rng, chain, q, task, half, *, lock, angle, where, rotation=None, s
         chain, task, np.column_stack([np.subtract(where, half), np.add(where, half)]), [q], locked=lock, angle=angle,
         rotation=rotation,
     )  # fmt: skip
-    leaves = targets.Leaves(document)
+    leaves = targets.ReachVerifier(document)
     counts = np.round(q * 2**24).astype(int) * (np.arange(n) != lock)
     widths = np.array([float(w) / 2 for w in leaves.width])
     with balls.flint.ctx.workprec(64), np.errstate(all="ignore"):
-        found, _ = leaves.included([(((0, 0),) * len(leaves.width), counts)])
-        matrix = leaves.section(found.error)[0]
+        found, _ = leaves.enclose_leaves([(((0, 0),) * len(leaves.width), counts)])
+        matrix = leaves.choose_section(found.error)[0]
         w = np.concatenate([widths, rng.uniform(0.1, 1, found.m) * np.max(half) if section is None else section])
-        found.w[:] = w
-        found.closed()
-    e, far = found.most, found.far
+        found.half_widths[:] = w
+        found.update_bounds()
+    e, far = found.excess, found.joint_travel
     ends = rng.choice([-1.0, 1.0], (300, len(w))) * np.where(rng.random((300, len(w))) < 0.7, 1, rng.random((300, len(w))))
     tight = 0.0
     for step in ends * w:
@@ -306,12 +306,14 @@ def test_random_bytes_of_payloads(locked, tmp_path, rng):
         data[rng.integers(len(data))] ^= rng.integers(1, 256)
         forged[key] = written.packed(bytes(data))
         try:
-            parts = [(t, verifier.volume([cell])) for t, cell in verifier.cells(written.unpacked(forged["tree"]), 4)]
+            parts = [
+                (t, verifier.compute_volume([cell])) for t, cell in verifier.iterate_cells(written.unpacked(forged["tree"]), 4)
+            ]
             share = sum((v for t, v in parts if t == 0), Fraction(0))
             text = [f"{v.numerator}/2^{v.denominator.bit_length() - 1}" for v in (share, Fraction(0), 1 - share)]
             forged["volumes"] = dict(zip(("proved", "refuted", "undecided"), text, strict=True))
             verdict = bend(written.repaired(forged), tmp_path)
-        except verifier.Refused:
+        except verifier.CertificateRejected:
             noticed[key] += 1
             continue
         noticed[key] += verdict.rejected > 0
@@ -330,8 +332,8 @@ def test_random_bytes_of_the_file(locked, tmp_path, rng):
         changed[rng.integers(len(text))] ^= 1 << rng.integers(8)
         path.write_bytes(bytes(changed))
         try:
-            found = verifier.load(path)
-        except verifier.Refused:
+            found = verifier.load_certificate(path)
+        except verifier.CertificateRejected:
             continue
         left = [{k: v for k, v in file.items() if k not in verifier.FOR_PEOPLE} for file in (found, locked)]
         assert left[0] == left[1]
@@ -400,7 +402,7 @@ def test_forged_with_digests_repaired(locked, tmp_path, forge):
     forge(forged)
     try:
         verdict = bend(written.repaired(forged), tmp_path)
-    except verifier.Refused:
+    except verifier.CertificateRejected:
         return
     assert verdict.rejected > 0
     assert verdict.undecided > 0
@@ -470,15 +472,15 @@ def test_a_bad_file_gets_one_sentence(locked, tmp_path, forge, said):
     forge(bad)
     if "is not what" not in said:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(files, "sentence", lambda d: "a claim")
-            patch.setattr(verifier, "sentence", lambda d: "a claim")
-            patch.setattr(targets, "MOST_LEAVES", 1000)
+            patch.setattr(files, "claim_sentence", lambda d: "a claim")
+            patch.setattr(verifier, "claim_sentence", lambda d: "a claim")
+            patch.setattr(targets, "MAX_LEAVES", 1000)
             with contextlib.suppress(KeyError, ValueError, OverflowError):
                 bad = written.repaired(bad)
-            with pytest.raises(verifier.Refused, match=re.escape(said)) as caught:
+            with pytest.raises(verifier.CertificateRejected, match=re.escape(said)) as caught:
                 bend(bad, tmp_path)
     else:
-        with pytest.raises(verifier.Refused, match=re.escape(said)) as caught:
+        with pytest.raises(verifier.CertificateRejected, match=re.escape(said)) as caught:
             bend(bad, tmp_path)
     assert "\n" not in str(caught.value)
 
@@ -498,15 +500,15 @@ def test_a_bad_file_gets_one_sentence(locked, tmp_path, forge, said):
 def test_no_certificate_at_all(tmp_path, content, said):
     path = tmp_path / "a.certificate"
     path.write_bytes(content)
-    with pytest.raises(verifier.Refused, match=said):
+    with pytest.raises(verifier.CertificateRejected, match=said):
         verifier.verify(path)
 
 
 def test_no_file_and_no_flint(tmp_path, monkeypatch):
-    with pytest.raises(verifier.Refused, match="cannot read none"):
+    with pytest.raises(verifier.CertificateRejected, match="cannot read none"):
         verifier.verify(tmp_path / "none")
     monkeypatch.setattr(balls, "flint", None)
-    with pytest.raises(verifier.Refused, match=re.escape("pip install 'holdfast[certify]'")):
+    with pytest.raises(verifier.CertificateRejected, match=re.escape("pip install 'holdfast[certify]'")):
         verifier.verify(tmp_path / "none")
 
 
@@ -536,7 +538,7 @@ def test_a_bundle(bundle):
     assert whole(verdict)
     assert [part.leaves for part in verdict.parts] == [4, 16, 16]
     assert sum(told) == verdict.leaves == 36
-    assert verdict.tolerant == 1
+    assert verdict.tolerant_fraction == 1
     assert "any one of joint1, joint3" in verdict.document["claim"]
 
 
@@ -549,7 +551,7 @@ def test_a_bundle_with_a_part_that_is_rejected(bundle, tmp_path):
     part["centres"] = written.packed(data.tobytes())
     written.stored(written.repaired(part), tmp_path / "joint1.certificate")
     whole_file = json.loads((tmp_path / "all.certificate").read_text())
-    with pytest.raises(verifier.Refused, match="not the part"):
+    with pytest.raises(verifier.CertificateRejected, match="not the part"):
         verifier.verify(tmp_path / "all.certificate")
     whole_file["parts"][1]["digest"] = part["digest"]
     verdict = bend(written.repaired(whole_file), tmp_path)
@@ -581,7 +583,7 @@ def test_a_bundle_with_a_part_that_is_rejected(bundle, tmp_path):
 def test_a_forged_bundle_is_refused(bundle, forge):
     forged = json.loads((bundle / "all.certificate").read_text())
     forge(forged)
-    with pytest.raises(verifier.Refused):
+    with pytest.raises(verifier.CertificateRejected):
         bend(written.repaired(forged), bundle)
 
 
@@ -596,16 +598,16 @@ def test_what_overlapping_cells_cover(rng):
         for cell in cells:
             grid[tuple(slice(k << (4 - d), (k + 1) << (4 - d)) for k, d in cell)] = True
         exact = Fraction(int(grid.sum()), 16**3)
-        assert verifier.covered(cells, [10**6]) == exact
-        assert verifier.covered(cells, [50]) >= exact
+        assert verifier.compute_covered_volume(cells, [10**6]) == exact
+        assert verifier.compute_covered_volume(cells, [50]) >= exact
 
 
 def test_a_sample_is_said_to_be_one(locked, tmp_path):
     path = written.stored(locked, tmp_path / "a.certificate")
     verdict = verifier.verify(path, sample=3)
     assert (verdict.accepted, verdict.leaves) == (3, 8)
-    assert "sampled, not verified" in verdict.sentence
-    assert "not verified" not in verifier.verify(path).sentence
+    assert "sampled, not verified" in verdict.summary
+    assert "not verified" not in verifier.verify(path).summary
 
 
 def test_two_processes_find_the_same(locked, tmp_path):

@@ -117,9 +117,9 @@ def reached(chain: Chain, q: Array, task: str, target: Array, *, free: Sequence[
 
 def repaired(document: dict[str, Any]) -> dict[str, Any]:
     """With digests and claim made anew, as a forger would."""
-    document["arm_digest"] = verifier.digest(document["arm"])
-    document["claim"] = verifier.sentence(document)
-    document["digest"] = verifier.digest(document)
+    document["arm_digest"] = verifier.compute_digest(document["arm"])
+    document["claim"] = verifier.claim_sentence(document)
+    document["digest"] = verifier.compute_digest(document)
     return document
 
 

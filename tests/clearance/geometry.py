@@ -239,13 +239,13 @@ class InFcl:
     def __init__(self, cell: hf.Cell, clearance: hf.Clearance) -> None:
         import fcl
 
-        from holdfast.clearance.exact.bodies import of_solid
+        from holdfast.clearance.exact.bodies import body_from_solid
         from holdfast.clearance.exact.engines import Fcl
-        from holdfast.clearance.exact.meetings import parts_of
+        from holdfast.clearance.exact.meetings import arm_bodies
 
         self.arm, self.engine = clearance.arm, Fcl()
-        self.parts = [part for part in parts_of(clearance.arm, clearance.capsules) if part.link >= 0]
-        self.made = [self.engine.make(part.body) for part in self.parts]
+        self.parts = [part for part in arm_bodies(clearance.arm, clearance.capsules) if part.link >= 0]
+        self.made = [self.engine.make_body(part.body) for part in self.parts]
         self.things = []
         for solid in cell:
             if isinstance(solid, HalfSpace):
@@ -253,9 +253,9 @@ class InFcl:
                 plane = fcl.Halfspace(normal, float(normal @ solid.pose[:3, 3]))
                 self.things.append(fcl.CollisionObject(plane, fcl.Transform()))
                 continue
-            body = of_solid(solid)
-            self.things.append(self.engine.make(body))
-            self.engine.place(self.things[-1], body.pose[:3, :3], body.pose[:3, 3])
+            body = body_from_solid(solid)
+            self.things.append(self.engine.make_body(body))
+            self.engine.place_body(self.things[-1], body.pose[:3, :3], body.pose[:3, 3])
 
     def touches(self, q: np.ndarray) -> np.ndarray:
         """(N,) whether anything touches."""
@@ -263,6 +263,6 @@ class InFcl:
         for k in range(len(q)):
             for part, body in zip(self.parts, self.made, strict=True):
                 at = frames[k, part.link + 1] @ part.body.pose
-                self.engine.place(body, np.ascontiguousarray(at[:3, :3]), at[:3, 3])
-            found[k] = any(self.engine.hits(body, thing) for body in self.made for thing in self.things)
+                self.engine.place_body(body, np.ascontiguousarray(at[:3, :3]), at[:3, 3])
+            found[k] = any(self.engine.bodies_touch(body, thing) for body in self.made for thing in self.things)
         return found

@@ -8,7 +8,7 @@ import pytest
 import holdfast as hf
 from holdfast.arm.configurations import finite_limits
 from holdfast.cell import Box, Mesh, Points, Sphere, field
-from holdfast.probability.sobol_sequence import sobol
+from holdfast.probability.sobol_sequence import sobol_points
 
 
 def at(*xyz: float) -> np.ndarray:
@@ -35,7 +35,7 @@ BOX = [
 
 @pytest.fixture
 def cell(monkeypatch):
-    monkeypatch.setattr(field, "_NODES", 5_000)
+    monkeypatch.setattr(field, "_MAX_NODES", 5_000)
     corners = np.array([[x, y, z] for x in (0, 0.2) for y in (0, 0.2) for z in (0, 0.2)])
     block = Mesh(
         "block", (corners, [[0, 1, 3], [0, 3, 2], [0, 4, 5], [0, 5, 1], [0, 2, 6]]), solid="hull", pose=at(0.5, 0, 0.4)
@@ -52,7 +52,7 @@ def test_what_touches_is_told_by_name_and_counted(cell):
     assert "panda_joint4 & hood" in found.always
     assert not found.ok
     low, high = finite_limits(arm)
-    q = low + (high - low) * sobol(512, arm.n)
+    q = low + (high - low) * sobol_points(512, arm.n)
     open_ = hf.Cell(cell.objects, may_touch=[("table", "base"), ("hood", "base")])
     clearance = hf.Clearance(arm, cell=open_, itself=False)
     hits = clearance.by_pair(q) < 0
@@ -86,11 +86,11 @@ def test_nothing_is_said_of_a_cell_whose_files_changed(tmp_path):
 
 def test_batches_of_close_objects_agree_with_single_ones(rng, monkeypatch):
     """Of a batch only the spheres and objects that may be nearest are read; of a single configuration all of them are."""
-    monkeypatch.setattr(field, "_NODES", 5_000)
+    monkeypatch.setattr(field, "_MAX_NODES", 5_000)
     corners = np.array([[x, y, z] for x in (-0.2, 0.2) for y in (-0.03, 0.03) for z in (-0.1, 0.1)])
     plates = [Mesh(f"plate{k}", (corners, BOX), solid="hull", pose=at(0.45, 0.08 * k, 0.5)) for k in range(-3, 4)]
     objects = hf.Clearance(hf.arms.load("panda"), cell=hf.Cell(plates)).obstacles
     q = rng.uniform(*finite_limits(objects.arm), (400, objects.arm.n))
-    for measure in (objects.distances, objects.least):
+    for measure in (objects.pair_distances, objects.smallest_distance):
         singly = np.concatenate([measure(row[None]) for row in q])
         np.testing.assert_allclose(measure(q), singly, rtol=0, atol=1e-9)

@@ -10,11 +10,11 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.cell.solids import Box, Capsule, Cylinder, Sphere
-from holdfast.clearance.chains import spheres_of
-from holdfast.clearance.cover import SPHERES_TO, cover_of, fitted, shape_of
-from holdfast.clearance.shape import Shape, corners
+from holdfast.clearance.chains import make_sphere_cover
+from holdfast.clearance.cover import MAX_MEAN_EXCESS_M, choose_capsules, fit_capsules, make_cover
+from holdfast.clearance.shape import CollisionModel, corner_points
 from holdfast.errors import ArmError, InputError
 from oracles import random_pose
 
@@ -44,10 +44,10 @@ MODEL = """
 
 
 @pytest.fixture(scope="module")
-def panda() -> tuple[hf.Arm, Shape, hf.Capsules]:
+def panda() -> tuple[hf.Arm, CollisionModel, hf.Capsules]:
     arm = arms.load("panda")
-    shape = Shape.of(arm)
-    return arm, shape, cover_of(shape, arm)
+    shape = CollisionModel.from_arm(arm)
+    return arm, shape, make_cover(shape, arm)
 
 
 @pytest.fixture
@@ -79,7 +79,7 @@ def within(vertices: np.ndarray, rng: np.random.Generator, count: int = 300) -> 
 
 def test_every_hull_of_the_panda_lies_in_its_capsules_and_these_in_their_spheres(panda, rng):
     _, shape, capsules = panda
-    balls = spheres_of(capsules)
+    balls = make_sphere_cover(capsules)
     assert len(shape.missing) == 0
     assert {hull.link for hull in shape.hulls} == set(range(-1, 7))
     assert all(hull.convex for hull in shape.hulls)
@@ -87,13 +87,13 @@ def test_every_hull_of_the_panda_lies_in_its_capsules_and_these_in_their_spheres
         points = within(hull.vertices, rng)
         assert depths(points, capsules, hull.link).min() >= 0
         own = balls.link == hull.link
-        gap = np.linalg.norm(points[:, None] - balls.centre[own], axis=2) - balls.radius[own]
+        gap = np.linalg.norm(points[:, None] - balls.center[own], axis=2) - balls.radius[own]
         assert gap.min(axis=1).max() <= 0
 
 
 def test_the_cover_of_the_panda_is_as_tight_as_it_is_said_to_be(panda):
     _, _, capsules = panda
-    balls = spheres_of(capsules)
+    balls = make_sphere_cover(capsules)
     assert len(balls.radius) <= 60
     assert capsules.source.startswith("cover of the collision shapes of panda.urdf: ")
     assert f"{len(capsules)} capsules" in capsules.source
@@ -103,8 +103,8 @@ def test_the_cover_of_the_panda_is_as_tight_as_it_is_said_to_be(panda):
 
 def test_the_stored_cover_of_the_panda_is_what_a_fit_gives(panda):
     _, shape, capsules = panda
-    rows, _, _ = fitted(shape, SPHERES_TO)
-    assert shape.digest in json.loads(DATA.joinpath("covers.json").read_text())
+    rows, _, _ = fit_capsules(shape, MAX_MEAN_EXCESS_M)
+    assert shape.digest in json.loads(DATA_FOLDER.joinpath("covers.json").read_text())
     assert len(rows) == len(capsules)
     for part, (link, start, end, radius, _) in zip(capsules, sorted(rows, key=lambda row: row[0]), strict=True):
         assert part.link == link
@@ -186,21 +186,21 @@ def test_no_collision_of_the_links_with_each_other_is_missed(panda, rng):
 
 
 def test_primitives_are_covered_where_the_file_puts_them(three, rng):
-    shape = Shape.of(three)
+    shape = CollisionModel.from_arm(three)
     assert [(p.link, p.owner, p.kind) for p in shape.pieces] == [
         (-1, "foot", "box"),
         (0, "upper", "box"),
         (1, "lower", "cylinder"),
         (1, "tip", "sphere"),
     ]
-    capsules = shape_of(three)
+    capsules = choose_capsules(three)
     ball = [part for part in capsules if part.length == 0 and part.radius == 0.07]
     assert [part.start for part in ball] == [pytest.approx((0.3, 0, 0))]  # a sphere is its own cover
     turns = rng.uniform(-np.pi, np.pi, 500)
     rim = np.column_stack([0.05 * np.cos(turns), 0.05 * np.sin(turns), rng.choice([-0.15, 0.15], 500)])
     cylinder = shape.pieces[2]
     assert depths(rim @ cylinder.pose[:3, :3].T + cylinder.pose[:3, 3], capsules, 1).min() >= 0
-    np.testing.assert_allclose(np.ptp(corners(shape.pieces[2]), axis=0), [0.3, 0.1, 0.1], rtol=0.006)
+    np.testing.assert_allclose(np.ptp(corner_points(shape.pieces[2]), axis=0), [0.3, 0.1, 0.1], rtol=0.006)
     assert depths(shape.hulls[1].vertices, capsules, 0).min() >= 0
 
 
@@ -208,9 +208,9 @@ def test_the_same_arm_as_a_model_of_mujoco_has_the_same_cover(three, tmp_path):
     pytest.importorskip("mujoco")
     (tmp_path / "three.xml").write_text(MODEL)
     other = hf.Arm.from_mjcf(tmp_path / "three.xml")
-    shape = Shape.of(other)
+    shape = CollisionModel.from_arm(other)
     assert [(p.link, p.owner) for p in shape.pieces] == [(-1, "foot"), (0, "upper"), (1, "lower"), (1, "tip")]
-    for a, b in zip(shape_of(three), shape_of(other), strict=True):
+    for a, b in zip(choose_capsules(three), choose_capsules(other), strict=True):
         np.testing.assert_allclose([*a.start, *a.end, a.radius], [*b.start, *b.end, b.radius], atol=1e-4)
 
 
@@ -223,36 +223,42 @@ def test_what_hangs_on_the_chain_is_part_of_the_link_it_hangs_on(panda, rng):
         "panda_rightfinger",
     }
     open_, shut = (
-        np.concatenate([corners(p) for p in made.pieces if "finger" in p.owner])
-        for made in (Shape.of(arm, hold={"panda_finger_joint1": 0.04}), shape)
+        np.concatenate([corner_points(p) for p in made.pieces if "finger" in p.owner])
+        for made in (CollisionModel.from_arm(arm, hold={"panda_finger_joint1": 0.04}), shape)
     )
     # The second finger mimics the first; in the frame of the last joint both are turned by -45 deg.
     assert np.ptp(open_ @ [np.sqrt(0.5), np.sqrt(0.5), 0]) == pytest.approx(
         np.ptp(shut @ [np.sqrt(0.5), np.sqrt(0.5), 0]) + 0.08
     )
     with pytest.raises(ArmError, match="panda_finger_joint9"):
-        Shape.of(arm, hold={"panda_finger_joint9": 0.04})
+        CollisionModel.from_arm(arm, hold={"panda_finger_joint9": 0.04})
 
 
 def test_a_missing_mesh_gives_that_link_its_assumed_capsule_and_says_so(tmp_path):
     arm = write(tmp_path, "<mesh filename='package://nowhere/foot.stl'/>")
-    capsules = shape_of(arm)
+    capsules = choose_capsules(arm)
     assert "1 not read, such as package://nowhere/foot.stl: assumed capsules along base instead" in capsules.source
     assert [part.link for part in capsules if part.link == -1] == []  # this base has no length
     (tmp_path / "meshes").mkdir()
-    box = arms.builtin.DATA.joinpath("example-robot-data/robots/panda_description/meshes/collision/link0.stl").read_bytes()
+    box = arms.builtin.DATA_FOLDER.joinpath(
+        "example-robot-data/robots/panda_description/meshes/collision/link0.stl"
+    ).read_bytes()
     (tmp_path / "meshes" / "foot.stl").write_bytes(box)
     found = hf.Arm.from_urdf(tmp_path / "three.urdf", meshes=tmp_path / "meshes")
-    assert len(Shape.of(found).pieces[0].vertices) == 102
-    assert Shape.of(found).digest == Shape.of(arm, tmp_path / "meshes").digest != Shape.of(arm).digest
-    assert "not read" not in shape_of(found).source
+    assert len(CollisionModel.from_arm(found).pieces[0].vertices) == 102
+    assert (
+        CollisionModel.from_arm(found).digest
+        == CollisionModel.from_arm(arm, tmp_path / "meshes").digest
+        != CollisionModel.from_arm(arm).digest
+    )
+    assert "not read" not in choose_capsules(found).source
     (tmp_path / "meshes" / "foot.stl").write_bytes(box[:-20])
-    assert "cut off or damaged" in shape_of(found).source
+    assert "cut off or damaged" in choose_capsules(found).source
 
 
 def test_an_arm_from_no_file_has_assumed_capsules(flat4):
-    assert len(Shape.of(flat4)) == 0
-    assert shape_of(flat4) == hf.Capsules.along(flat4)
+    assert len(CollisionModel.from_arm(flat4)) == 0
+    assert choose_capsules(flat4) == hf.Capsules.along(flat4)
 
 
 def test_an_arm_that_is_not_that_of_its_file_is_refused(three):
@@ -262,7 +268,7 @@ def test_an_arm_that_is_not_that_of_its_file_is_refused(three):
     longer[2, 3] *= 2
     other = replace(three, joints=(three.joints[0], replace(three.joints[1], origin=longer)))
     with pytest.raises(ArmError, match="joint 'b' of 'three' is not as in the file of the arm"):
-        Shape.of(other)
+        CollisionModel.from_arm(other)
 
 
 def test_a_mesh_that_is_not_convex_is_cut_where_its_hull_is_hollow(tmp_path, rng):
@@ -272,9 +278,9 @@ def test_a_mesh_that_is_not_convex_is_cut_where_its_hull_is_hollow(tmp_path, rng
     bent = trimesh.util.concatenate(bars)
     bent.export(tmp_path / "bent.stl")
     arm = write(tmp_path, "<mesh filename='bent.stl'/>")
-    shape = Shape.of(arm)
-    assert not shape.hulls[0].convex
-    capsules = shape_of(arm)
+    shape = CollisionModel.from_arm(arm)
+    assert not shape.hulls[0].is_convex
+    capsules = choose_capsules(arm)
     foot = [part for part in capsules if part.link == -1]
     assert len(foot) >= 2
     points, _ = trimesh.sample.sample_surface(bent, 2000, seed=1)
@@ -284,7 +290,7 @@ def test_a_mesh_that_is_not_convex_is_cut_where_its_hull_is_hollow(tmp_path, rng
 
 def test_a_limit_that_is_no_length_is_refused(panda):
     with pytest.raises(InputError, match="spheres_to is 0 m"):
-        cover_of(panda[1], panda[0], 0.0)
+        make_cover(panda[1], panda[0], 0.0)
 
 
 def test_pairs_that_an_srdf_file_disables_are_not_checked(panda, tmp_path):
@@ -297,15 +303,15 @@ def test_pairs_that_an_srdf_file_disables_are_not_checked(panda, tmp_path):
     assert again == capsules
     assert hf.Clearance(arm, again).pair_names == names
     three = write(tmp_path, "<sphere radius='0.1'/>")
-    assert hf.Clearance(three, shape_of(three)).pair_names == ["base & b (1)", "base & b (2)"]
+    assert hf.Clearance(three, choose_capsules(three)).pair_names == ["base & b (1)", "base & b (2)"]
     pairs = "".join(f"<disable_collisions link1='{a}' link2='foot'/>" for a in ("lower", "tip"))
     (tmp_path / "three.srdf").write_text(f"<robot name='three'>{pairs}</robot>")
     three = hf.Arm.from_urdf(tmp_path / "three.urdf")
-    assert hf.Clearance(three, shape_of(three)).pair_names == []
+    assert hf.Clearance(three, choose_capsules(three)).pair_names == []
     elsewhere = tmp_path / "pairs.srdf"
     elsewhere.write_text("<robot name='three'><disable_collisions link1='foot' link2='tip'/></robot>")
     three = hf.Arm.from_urdf(tmp_path / "three.urdf", srdf=elsewhere)
-    assert len(hf.Clearance(three, shape_of(three)).pair_names) == 1
+    assert len(hf.Clearance(three, choose_capsules(three)).pair_names) == 1
 
 
 def test_what_is_held_moves_with_the_last_link(panda, rng):

@@ -8,9 +8,9 @@ from tests.clearance import geometry
 
 import holdfast as hf
 import oracles
-from holdfast.clearance.contacts import Contact, first_contacts
+from holdfast.clearance.contacts import Contact, find_first_contacts
 from holdfast.clearance.exact import engines
-from holdfast.present.clearance.contacts import contact_entries, contact_table
+from holdfast.present.clearance.contacts import list_contacts, tabulate_contacts
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def test_the_first_exact_contact_is_the_one_that_mujoco_sees(panda, rng):
             continue
         ends = np.stack([beside[0], end])
         time = np.array([0.0, 1.0])
-        contacts = first_contacts(clearance, time, ends)
+        contacts = find_first_contacts(clearance, time, ends)
         instants = np.linspace(0, 1, count + 1)
         seen = mujoco.touches(ends[0] + instants[:, None] * (ends[1] - ends[0]))
         exact = min((c.exact_time for c in contacts), default=np.inf)
@@ -54,7 +54,7 @@ def test_of_two_links_the_bodies_are_asked(rng):
     assert len(folded)
     for end in folded:
         ends = np.stack([arm.states["home"], end])
-        contacts = first_contacts(clearance, np.array([0.0, 1.0]), ends)
+        contacts = find_first_contacts(clearance, np.array([0.0, 1.0]), ends)
         exact = min(c.exact_time for c in contacts)
         assert 0 < exact <= 1
         sides = ends[0] + (exact + np.array([-1e-4, 1e-6]))[:, None] * (ends[1] - ends[0])
@@ -66,11 +66,11 @@ def test_without_a_library_nothing_is_said_of_it(panda, monkeypatch):
     clearance, _ = panda
     monkeypatch.setattr(engines, "find_spec", lambda name: None)
     ends = np.stack([clearance.arm.states["home"], clearance.arm.states["home"] + [0, 1.5, 0, 0, 0, 0, 0]])
-    contacts = first_contacts(clearance, np.array([0.0, 1.0]), ends)
+    contacts = find_first_contacts(clearance, np.array([0.0, 1.0]), ends)
     assert contacts
     assert all(c.exact_time is None for c in contacts)
     assert contacts[0].confirmation() == ""
-    assert "exactly at" not in contact_table(contacts).head
+    assert "exactly at" not in tabulate_contacts(contacts).head
 
 
 def test_words():
@@ -82,7 +82,7 @@ def test_words():
         "at 1 s a touches b, by the bound; exactly, it does not",
     ]
     assert told[2].sentence("cycles") == "in cycle 2 a touches b, exactly"
-    entries = contact_entries(told)
+    entries = list_contacts(told)
     assert [e.get("exact") for e in entries] == [None, True, True, False]
     assert [e.get("exact_time_s") for e in entries] == [None, 1.0, 1.25, None]
-    assert [row[3] for row in contact_table(told).rows] == ["", "1", "1.25", "does not touch"]
+    assert [row[3] for row in tabulate_contacts(told).rows] == ["", "1", "1.25", "does not touch"]

@@ -8,9 +8,9 @@ from tests.clearance.geometry import pose
 import holdfast as hf
 from holdfast.cell import Box, Mesh, Points, Sphere
 from holdfast.clearance.capsules import Capsule
-from holdfast.clearance.cover import shape_of
+from holdfast.clearance.cover import choose_capsules
 from holdfast.clearance.exact import engines
-from holdfast.clearance.exact.bodies import of_capsule, of_solid
+from holdfast.clearance.exact.bodies import body_from_capsule, body_from_solid
 
 pytest.importorskip("fcl")
 CONTACT = 1e-5  # m: nearer than this the libraries may differ
@@ -19,7 +19,7 @@ CONTACT = 1e-5  # m: nearer than this the libraries may differ
 @pytest.fixture(scope="module")
 def panda():
     arm = hf.arms.load("panda")
-    return arm, shape_of(arm)
+    return arm, choose_capsules(arm)
 
 
 def drawn(arm, count, seed=0):
@@ -69,7 +69,7 @@ def test_the_bound_is_below_the_exact_distance(panda):
     assert (bound <= exact + 1e-9).all()
     assert not clearance.sign(q)[exact == 0].any()
     assert (exact - bound)[exact > 0].mean() <= 0.012
-    assert len(clearance.obstacles.balls.link) <= 60
+    assert len(clearance.obstacles.spheres.link) <= 60
 
 
 def test_the_arm_with_itself_is_that_of_pinocchio_with_the_srdf(panda):
@@ -125,7 +125,7 @@ def test_what_is_wholly_within_a_mesh_touches_it(bar):
     above = Mesh("thick", (vertices, faces), pose=pose(0, 0, -2.6))  # between the walls, 0.1 m above the floor
     for solid, expected in ((inside, 0.0), (above, 0.05)):
         clearance = hf.Clearance(arm, capsules, hf.Cell([solid]), itself=False)
-        assert of_solid(solid).kind == "mesh"
+        assert body_from_solid(solid).kind == "mesh"
         assert clearance.sign([0.3]) == (expected > 0)
         np.testing.assert_allclose(clearance.exact([0.3]), expected, atol=1e-6)
 
@@ -149,18 +149,20 @@ def test_a_cloud_is_the_nearest_of_its_balls(panda, meshes, rng):
 
 def test_spheres_within_a_body_are_within_it(panda):
     arm, capsules = panda
-    from holdfast.clearance.exact.meetings import parts_of
+    from holdfast.clearance.exact.meetings import arm_bodies
 
-    bodies = [part.body for part in parts_of(arm, capsules)] + [of_capsule(Capsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))]
+    bodies = [part.body for part in arm_bodies(arm, capsules)] + [
+        body_from_capsule(Capsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))
+    ]
     kinds = set()
     for body in bodies:
         kinds.add(body.kind)
-        centres, radii = body.inside
+        centres, radii = body.inner_spheres
         assert len(radii)
-        if body.formula is not None:
-            assert (body.formula.signed_distance(centres) + radii <= 1e-12).all()
+        if body.exact_primitive is not None:
+            assert (body.exact_primitive.signed_distance(centres) + radii <= 1e-12).all()
         else:
-            normals, offsets = body.planes
+            normals, offsets = body.face_planes
             assert ((centres @ normals.T - offsets).max(axis=1) + radii <= 1e-12).all()
     assert kinds == {"convex", "box", "capsule"}
 

@@ -7,7 +7,7 @@ from tests import oracles
 
 import holdfast as hf
 from holdfast.cell import Box, Capsule, Cylinder, HalfSpace, Sphere
-from holdfast.clearance.objects.one_row import OneRow
+from holdfast.clearance.objects.one_row import SingleConfigurationClearance
 
 
 def at(x: float, y: float, z: float, turn=None) -> np.ndarray:
@@ -34,12 +34,12 @@ def random_cell(rng, count: int = 9) -> hf.Cell:
 
 def covered(arm, capsules, cell, q):
     """(N, L K) distances of the spheres' centres by NumPy, less the radii."""
-    from holdfast.clearance.chains import spheres_of
+    from holdfast.clearance.chains import make_sphere_cover
 
-    balls, frames = spheres_of(capsules), arm.frames(q)
+    balls, frames = make_sphere_cover(capsules), arm.frames(q)
     links = sorted({int(x) for x in balls.link if x >= 0})
     out = np.full((len(q), len(links), len(cell)), np.inf)
-    for link, centre, radius in zip(balls.link, balls.centre, balls.radius, strict=True):
+    for link, centre, radius in zip(balls.link, balls.center, balls.radius, strict=True):
         if link >= 0:
             at = frames[:, link + 1, :3, :3] @ centre + frames[:, link + 1, :3, 3]
             for k, solid in enumerate(cell):
@@ -62,14 +62,14 @@ def test_distances_are_those_of_the_spheres(rng, scene):
     expected = covered(arm, capsules, cell, q)
     np.testing.assert_allclose(clearance.by_pair(q), expected, atol=1e-12)
     np.testing.assert_allclose(clearance(q), expected.min(axis=1), atol=1e-12)
-    np.testing.assert_allclose(clearance.room(q), (expected - clearance.margins).min(axis=1), atol=1e-12)
+    np.testing.assert_allclose(clearance.margin_left(q), (expected - clearance.margins).min(axis=1), atol=1e-12)
 
 
 def test_no_rows_have_no_distances(scene):
     clearance = hf.Clearance(*scene)
     nothing = np.zeros((0, clearance.arm.n))
     assert clearance.by_pair(nothing).shape == (0, len(clearance.pair_names))
-    assert clearance.room(nothing).shape == (0,)
+    assert clearance.margin_left(nothing).shape == (0,)
     assert clearance.gradient(nothing).shape == (0, clearance.arm.n)
 
 
@@ -79,7 +79,8 @@ def test_gradient_agrees_with_differences(rng, scene):
     q = rng.uniform(arm.lower, arm.upper, (300, arm.n))
     step = 1e-6
     slope = np.stack(
-        [(clearance.room(q + step * e) - clearance.room(q - step * e)) / (2 * step) for e in np.eye(arm.n)], axis=1
+        [(clearance.margin_left(q + step * e) - clearance.margin_left(q - step * e)) / (2 * step) for e in np.eye(arm.n)],
+        axis=1,
     )
     error = np.abs(slope - clearance.gradient(q)).max(axis=1)
     assert np.quantile(error, 0.97) < 1e-6  # the rest are where two pairs tie within the step, or at an edge
@@ -90,7 +91,7 @@ def test_no_distance_from_an_object_changes_faster_than_its_bound(rng, types):
     arm = oracles.random_arm(rng, types=types, limits=2.0)
     clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))
     low, high = (np.where(arm.prismatic, np.clip(x, -1, 1), x) for x in (arm.lower, arm.upper))
-    bound = clearance.changes(low, high)
+    bound = clearance.lipschitz_bounds(low, high)
     a, b = (rng.uniform(low, high, (2000, arm.n)) for _ in range(2))
     b = a + 10 ** rng.uniform(-3, 0, (2000, 1)) * (b - a)
     change = np.abs(clearance.by_pair(a) - clearance.by_pair(b))
@@ -121,9 +122,9 @@ def test_a_changed_cell_compiles_nothing(rng, scene):
     arm, capsules, cell = scene
     first = hf.Clearance(arm, capsules, cell, itself=False)
     second = hf.Clearance(arm, capsules, random_cell(rng, 3), itself=False)
-    made = first.obstacles._formulas._distance_kernel.made_of
+    made = first.obstacles._formula_objects._distance_kernel.source_digest
     assert made is not None
-    assert made == second.obstacles._formulas._distance_kernel.made_of
+    assert made == second.obstacles._formula_objects._distance_kernel.source_digest
 
 
 def test_one_row_after_the_other_has_the_same_bits(rng):
@@ -131,7 +132,7 @@ def test_one_row_after_the_other_has_the_same_bits(rng):
     q = rng.uniform(arm.lower, arm.upper, (30, arm.n))
     clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))
     rooms, slopes = clearance.nearest(q)
-    one = OneRow(clearance)
+    one = SingleConfigurationClearance(clearance)
     for row, room, slope in zip(q, rooms, slopes, strict=True):
         found = one(row)
         assert found[0] == room
@@ -163,9 +164,9 @@ def test_a_pose_that_is_never_clear_is_so_wherever_its_last_joint_is(rng, types)
     low, high = max(arm.lower[-1], -np.pi), min(arm.upper[-1], np.pi)
     best = room_of_the_end(clearance, poses, np.linspace(low, high, 60)).max(axis=1)
     margin = float(np.quantile(best, 0.7))
-    found = clearance.obstacles.never_clear(poses, margin)
+    found = clearance.obstacles.never_collision_free(poses, margin)
     # A sphere goes no farther between two of the angles than half of what the joint does between them.
-    far = 1.0 if types[-1] == "P" else np.linalg.norm(clearance.obstacles.balls.centre, axis=1).max() + 0.7
+    far = 1.0 if types[-1] == "P" else np.linalg.norm(clearance.obstacles.spheres.center, axis=1).max() + 0.7
     assert not (found & (best >= margin)).any()
     assert found[best < margin - far * (high - low) / 48 - 2e-5].all()
     assert 0 < found.sum() < 120
@@ -178,5 +179,5 @@ def test_nothing_is_said_of_a_pose_where_there_is_nothing_to_say_it_by(rng):
     cloud = hf.cell.Points("scan", points=rng.normal(size=(20, 3)) + 4, radius=0.01)
     for capsules, cell in ((first, random_cell(rng)), (hf.Capsules.along(arm, 0.1), hf.Cell([cloud]))):
         seen = hf.Clearance(arm, capsules, cell, itself=False).obstacles
-        assert not seen.never_clear(poses, 10.0).any()
-        assert seen.never_clear(poses[:0], 10.0).shape == (0,)
+        assert not seen.never_collision_free(poses, 10.0).any()
+        assert seen.never_collision_free(poses[:0], 10.0).shape == (0,)

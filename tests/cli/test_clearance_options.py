@@ -12,8 +12,8 @@ import pytest
 import holdfast as hf
 from holdfast import Capsules, Clearance, arms
 from holdfast.cli.declaration import as_typer
-from holdfast.cli.groups import Apart
-from holdfast.cli.program import COMMANDS
+from holdfast.cli.groups import ClearanceOptions
+from holdfast.cli.program import COMMAND_MODULES
 from holdfast.errors import InputError
 
 CLOSE = "box: {center: [0.2, 0.1, 0], size: [0.5, 0.5, 0]}\n"
@@ -197,23 +197,23 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
     file, meshes = tmp_path / "own.urdf", tmp_path / "meshes"
     file.write_text(f"<robot name='own'>{links}{joints}</robot>")
     meshes.mkdir()
-    given = arms.builtin.DATA.joinpath("example-robot-data/robots/panda_description/meshes/collision")
+    given = arms.builtin.DATA_FOLDER.joinpath("example-robot-data/robots/panda_description/meshes/collision")
     for name in names:
         (meshes / f"{name}.stl").write_bytes(given.joinpath(f"{name}.stl").read_bytes())
     arm = arms.resolve(str(file))
     assert (
-        Apart(clearance=True)
-        .read(arm)
+        ClearanceOptions(clearance=True)
+        .build_clearance(arm)
         .capsules.describe(arm)
         .endswith(" along each link (package://gone/link0.stl was not read)")
     )
-    there = Apart(clearance=True, meshes=meshes)
-    found = there.read(arm)
+    there = ClearanceOptions(clearance=True, meshes=meshes)
+    found = there.build_clearance(arm)
     assert found.capsules.describe(arm).startswith("cover of the collision shapes of own.urdf: ")
     with pytest.raises(InputError, match="cannot be found or is not a folder"):
-        Apart(clearance=True, meshes=tmp_path / "none").read(arm)
+        ClearanceOptions(clearance=True, meshes=tmp_path / "none").build_clearance(arm)
     with pytest.raises(InputError, match="'planar-3r' is from no URDF file"):
-        there.read(arms.load("planar-3r"))
+        there.build_clearance(arms.load("planar-3r"))
 
 
 CALLS = {
@@ -233,7 +233,7 @@ CALLS = {
 
 
 def test_every_command_with_a_cell_takes_the_folder_of_meshes():
-    for command, module in COMMANDS.items():
+    for command, module in COMMAND_MODULES.items():
         name, _, function = module.partition(":")
         made = getattr(import_module(f"holdfast.cli.{name}"), function or "command")
         assert (command in CALLS) == (callable(made) and "cell" in inspect.signature(as_typer(made)).parameters), command

@@ -13,7 +13,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import arms, load
-from holdfast.cli.program import COMMANDS
+from holdfast.cli.program import COMMAND_MODULES
 
 HOME9 = "0 30 0 90 0 18 0 36 0"
 RHO9 = (0.61245, 0.12725, 0.67622, 0.47972, 0.66629, 0.76427, 0.79161, 0.41179, 0.31151)
@@ -29,7 +29,7 @@ def box(tmp_path):
 # ---- what there is -------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", COMMAND_MODULES)
 def test_every_command_has_help(command, cli):
     for flag in ("--help", "-h"):
         code, out, err = cli(command, flag)

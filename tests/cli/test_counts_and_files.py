@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.assessment.bins import Counts
-from holdfast.engine import Study, Threads
+from holdfast.assessment.bins import IndexCounts
+from holdfast.engine import Study, ThreadRunner
 from holdfast.indices import by_name
 from holdfast.studies import study_file
 from holdfast.studies.template import choose_chunk
@@ -21,7 +21,7 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
     )
     asked = study_file.read(path)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells)
-    study.run(asked.cells, Threads(1))
+    study.run(asked.cells, ThreadRunner(1))
     counted = hf.load(tmp_path / "out")
     rows = hf.assess(counted.arm, counted.region, counted.index, poses=1100, seed=5, restarts=5, optimise=True)
     assert (counted.poses, counted.complete, counted.kept) == (1100, True, False)
@@ -29,8 +29,10 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
     np.testing.assert_array_equal(counted.optimised_worst_counts, rows.optimised_worst_counts)
     for optimised in (False, True):
         for name in ("lowest", "highest", "mean", "reached", "unreached", "singular"):
-            assert getattr(counted.of(optimised), name) == pytest.approx(getattr(rows.of(optimised), name), rel=1e-12), name
-        edges = counted.of(optimised).edges[5:-2:97]
+            assert getattr(counted.distribution_of(optimised), name) == pytest.approx(
+                getattr(rows.distribution_of(optimised), name), rel=1e-12
+            ), name
+        edges = counted.distribution_of(optimised).edges[5:-2:97]
         np.testing.assert_array_equal(counted.cdf(edges, optimised), rows.cdf(edges, optimised))
     curves = counted.plot("cdf").axes[0].get_lines()[:2]
     for curve, optimised in zip(curves, (True, False), strict=True):
@@ -43,7 +45,7 @@ def test_a_study_with_counts_of_few_poses_has_that_many(tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text("{poses: 40, chunk: 1024, arms: [planar-3r], assess: {restarts: 2, keep: counts}}")
     asked = study_file.read(path)
-    Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells).run(asked.cells, Threads(1))
+    Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells).run(asked.cells, ThreadRunner(1))
     counted = hf.load(tmp_path / "out")
     assert (counted.poses, counted.distribution.samples, counted.complete) == (40, 40, True)
 
@@ -53,7 +55,7 @@ def test_counts_of_values_are_those_of_each_value(name, rng):
     """Bins without a bound go from 2^-40 to 2^40, 64 to a factor of two; those below a bound are 4,096 of the same width."""
     index = by_name(name, hf.arms.load("planar-3r"), "planar")
     values = 2.0 ** rng.uniform(0, 38, 3000) if index.bound is None else index.bound * rng.random(3000)
-    counts = Counts(index)
+    counts = IndexCounts(index)
     for part in np.split(values, [500, 501, 2200]):
         counts.add(part, unreached=2, singular=1)
     found = counts.finish()

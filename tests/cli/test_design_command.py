@@ -11,7 +11,7 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.engine.memory import FILE
+from holdfast.engine.memory import MEMORY_FILE
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -41,7 +41,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     values = [d["guaranteed"] for d in found["front"]]
     assert reaches == sorted(reaches)
     assert values == sorted(values, reverse=True)
-    assert {f.name for f in out.iterdir()} == {"report.html", "best-arm.yaml", "designs.csv", "region.yaml", FILE}
+    assert {f.name for f in out.iterdir()} == {"report.html", "best-arm.yaml", "designs.csv", "region.yaml", MEMORY_FILE}
 
     best = arms.resolve(str(out / "best-arm.yaml"))
     q = np.random.default_rng(1).uniform(-1, 1, (5, 3))
@@ -62,7 +62,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     for words in ("What to build", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--fresh 60"):
         assert words in page, words
     # A search that lost its last parts makes only those, with the same bits; one that is complete is not made again.
-    memory = out / FILE
+    memory = out / MEMORY_FILE
     before = memory.read_bytes()
     memory.write_bytes(b"\n".join(before.splitlines()[:-2]) + b"\n" + before.splitlines()[-2][:30])
     assert ask("design", *SEARCH, "--region", region, "--out", out)["best"] == found["best"]

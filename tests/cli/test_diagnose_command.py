@@ -12,7 +12,7 @@ from holdfast.faults import Log
 
 
 def test_from_records_to_a_page(cli, tmp_path):
-    faults = hf.faults.Faults([hf.faults.locked("panda_joint4", onset=0.7)]).save(tmp_path / "faults.yaml")
+    faults = hf.faults.FaultModel([hf.faults.locked("panda_joint4", onset=0.7)]).save(tmp_path / "faults.yaml")
     assert cli("rehearse", "panda", "--records", 3, "--duration", 2, "--out", tmp_path / "healthy")[0] == 0
     assert cli("rehearse", "panda", "--duration", 1, "--faults", faults, "--seed", 9, "--out", tmp_path / "run")[0] == 0
     logs, known, log = sorted((tmp_path / "healthy").glob("*.npz")), tmp_path / "bounds.json", tmp_path / "run" / "000000.npz"
@@ -47,7 +47,7 @@ def test_a_lock_is_found_by_a_self_motion(cli, tmp_path, monkeypatch):
     assert json.loads(out)["not_shown"] == []
     fault = [hf.faults.FaultEvent("locked", "panda_joint6", 0.0)]
     motion = np.stack([np.interp(np.arange(1200) / 1000, np.arange(len(q)) / 100, column) for column in q.T], axis=1)
-    hf.diagnosis.rehearse(arm, motion=motion, faults=fault, seed=3).save("run.npz")
+    hf.diagnosis.simulate_log(arm, motion=motion, faults=fault, seed=3).save("run.npz")
     code, out, _ = cli("probe", "panda", "--record", "run.npz", "--suspects", "2,panda_joint6")
     assert code == 3
     assert "panda_joint6 is locked: decided after" in out

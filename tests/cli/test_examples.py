@@ -16,9 +16,9 @@ import typer
 
 from holdfast.cli import groups
 from holdfast.cli.declaration import as_typer
-from holdfast.cli.program import COMMANDS
-from holdfast.present.printing import plain
-from holdfast.present.results import printed, printed_each
+from holdfast.cli.program import COMMAND_MODULES
+from holdfast.present.printing import to_json_types
+from holdfast.present.results import print_result, print_results
 
 # ---- what an example needs beside the command ----------------------------------------------------------------------------
 
@@ -99,7 +99,7 @@ QUICK |= {
 
 def examples():
     """Each command with its function and the examples in its docstring."""
-    for name, place in COMMANDS.items():
+    for name, place in COMMAND_MODULES.items():
         module, _, function = place.partition(":")
         made = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
         parts = [("", made)]
@@ -139,19 +139,19 @@ def carry_out(name, cli, monkeypatch, folder):
 
     def seen(result, files=(), **more):
         with contextlib.redirect_stdout(io.StringIO()) as read:
-            printed(result, False, files, **more)
+            print_result(result, False, files, **more)
         assert read.getvalue().strip()
         found.append((result, more))
 
     def both(result, as_json, files=(), **more):
         assert as_json
         seen(result, files, **more)
-        printed(result, True, files, **more)
+        print_result(result, True, files, **more)
 
     def both_each(results, as_json):
         for result in results:
             seen(result)
-        printed_each(results, as_json)
+        print_results(results, as_json)
 
     for place in (module, groups):
         monkeypatch.setattr(place, "printed", both, raising=False)
@@ -160,7 +160,7 @@ def carry_out(name, cli, monkeypatch, folder):
     assert code == 0, err
     ((result, asked),) = found
     asked.pop("listed", None)
-    expected = json.loads(json.dumps(plain(result.to_dict(**asked))))
+    expected = json.loads(json.dumps(to_json_types(result.to_dict(**asked))))
     assert {key: value for key, value in json.loads(out).items() if key in expected} == expected
 
 

@@ -16,7 +16,7 @@ CALL += ["--law", "damped:0.02", "--gain", "2", "--speed-limit", "0.25"]
 
 
 def test_the_command_prints_what_the_library_draws(cli, tmp_path):
-    path = hf.faults.Faults([hf.faults.weak(gain=(0.2, 0.7), probability=0.5)], seed=1).save(tmp_path / "faults.yaml")
+    path = hf.faults.FaultModel([hf.faults.weak(gain=(0.2, 0.7), probability=0.5)], seed=1).save(tmp_path / "faults.yaml")
     arguments = ["faults", "draw", str(path), "--arm", "planar-3r", "--episodes", "4", "--seed", "9"]
     shown = json.loads(cli(*arguments, "--json")[1])
     batch = hf.faults.load(path).seeded(9).batch(hf.arms.load("planar-3r"), episodes=4)
@@ -31,7 +31,7 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     (tmp_path / "faults.yaml").write_text("faults: [{kind: locked, joints: [panda_joint4], onset: 0.4}]\n", encoding="utf-8")
     panda = hf.arms.load("panda")
     friction = {"coulomb": [0.5] * 7, "viscous": [0.3] * 7}
-    hf.diagnosis.calibrate(panda, [hf.diagnosis.rehearse(panda, 1.0, body=0)], factor=3, **friction).to_json("bounds.json")
+    hf.diagnosis.calibrate(panda, [hf.diagnosis.simulate_log(panda, 1.0, robot=0)], factor=3, **friction).to_json("bounds.json")
     found = ask(*CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--out", "chain")
     assert (found["ok"], found["react"], list(found["braked"])) == (True, "chain", ["panda_joint4"])
     assert found["noticed_s"] > 0.4

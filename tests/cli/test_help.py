@@ -13,15 +13,15 @@ import pytest
 import typer
 
 from holdfast import arms
-from holdfast.cli.program import assembled, main
-from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
+from holdfast.cli.program import build_app, main
+from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
 
 STORED = Path(__file__).parent / "help"
 
 
 def pages(capsys):
     """Each page under the words that show it."""
-    program = typer.main.get_command(assembled())
+    program = typer.main.get_command(build_app())
     groups = {name: getattr(command, "commands", {}) for name, command in program.commands.items()}
     for path in [[], *([name] for name in groups), *([name, part] for name, parts in groups.items() for part in parts)]:
         words = [*path, "--help"]
@@ -69,10 +69,10 @@ def test_a_shell_is_offered_names(offered):
     assert offered("holdfast", "best") == ["best-law"]
     assert offered("holdfast", "study", "me") == ["merge"]
     assert offered("holdfast", "index", "pa") == [name for name in arms.names() if name.startswith("pa")] != []
-    assert offered("holdfast", "assess", "panda", "--index", "") == list(INDICES)
+    assert offered("holdfast", "assess", "panda", "--index", "") == list(INDEX_REGISTRY)
     assert offered("holdfast", "simulate", "panda", "--law", "fail") == ["failure-tolerant"]
-    assert set(offered("holdfast", "best-law", "panda", "--law", "")) == set(LAWS)
-    assert offered("holdfast", "susceptibility", "panda", "--measure", "") == list(SUSCEPTIBILITIES)
+    assert set(offered("holdfast", "best-law", "panda", "--law", "")) == set(LAW_REGISTRY)
+    assert offered("holdfast", "susceptibility", "panda", "--measure", "") == list(SUSCEPTIBILITY_REGISTRY)
     assert offered("holdfast", "workspace", "panda", "--task", "planar-") == ["planar-pose"]
     assert offered("holdfast", "workspace", "panda", "--out", "res") == []  # the shell knows the folders
     assert "--optimise" in offered("holdfast", "assess", "panda", "--o")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from holdfast import cli as package
-from holdfast.cli.program import COMMANDS, PANELS, assembled
+from holdfast.cli.program import COMMAND_MODULES, PANEL_TITLES, build_app
 
 # What is slow to import. The list of each command is exact: what it no longer loads is taken from it and stays away.
 HEAVY = {"scipy", "scipy.stats", "matplotlib", "jinja2", "xarray", "zarr", "pydantic", "mujoco"}
@@ -86,7 +86,7 @@ def test_a_command_imports_what_it_uses(arguments, heavy, monkeypatch):
     loads_only(found, heavy)
     assert "casadi" not in found or not {"--help", "--version"} & set(arguments)
     if not arguments[0].startswith("-"):
-        module = {name: f"holdfast.cli.{place.partition(':')[0]}" for name, place in COMMANDS.items()}
+        module = {name: f"holdfast.cli.{place.partition(':')[0]}" for name, place in COMMAND_MODULES.items()}
         assert found & set(module.values()) == {module[arguments[0]]}
 
 
@@ -126,16 +126,16 @@ def test_the_library_waits_for_what_is_asked():
 def test_the_help_lists_every_command_in_its_order_and_panel(cli):
     lines = cli("--help")[1].splitlines()
     shown = [found[1] for line in lines if (found := re.match("│ ([a-z][a-z-]+) ", line))]
-    assert shown == list(COMMANDS)
-    panels = [words for line in lines if (words := line.strip("╭╮─ ")) in PANELS.values()]
-    assert panels == list(PANELS.values())
-    folders = [place.partition(".")[0] for place in COMMANDS.values()]
-    assert folders == sorted(folders, key=list(PANELS).index)
+    assert shown == list(COMMAND_MODULES)
+    panels = [words for line in lines if (words := line.strip("╭╮─ ")) in PANEL_TITLES.values()]
+    assert panels == list(PANEL_TITLES.values())
+    folders = [place.partition(".")[0] for place in COMMAND_MODULES.values()]
+    assert folders == sorted(folders, key=list(PANEL_TITLES).index)
 
 
 def test_every_command_is_in_the_table():
-    places = {place.partition(":")[0] for place in COMMANDS.values()}
-    for panel in PANELS:
+    places = {place.partition(":")[0] for place in COMMAND_MODULES.values()}
+    for panel in PANEL_TITLES:
         for file in sorted((Path(package.__file__).parent / panel).glob("*.py")):
             defined = {getattr(node, "name", "") for node in ast.parse(file.read_text(encoding="utf-8")).body}
             if "command" in defined and f"{panel}.{file.stem}" not in places:
@@ -144,9 +144,9 @@ def test_every_command_is_in_the_table():
                 )
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", COMMAND_MODULES)
 def test_a_command_is_found_alone(name):
-    one = assembled(name)
+    one = build_app(name)
     assert [each.name for each in [*one.registered_commands, *one.registered_groups]] == [name]
 
 

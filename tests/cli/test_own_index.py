@@ -120,7 +120,7 @@ def test_a_sweep_of_designs_resumes_until_the_function_changes(file, cli):
 def test_the_studio_offers_it(file, monkeypatch, cli):
     from holdfast.arm.task import as_task
     from holdfast.studio import server
-    from holdfast.studio.scene.machine import Machine
+    from holdfast.studio.scene.machine import CompiledArm
 
     asked = {}
 
@@ -130,8 +130,8 @@ def test_the_studio_offers_it(file, monkeypatch, cli):
 
     monkeypatch.setattr(server, "serve", serve)
     assert cli("studio", "planar-3r", "--index", NAME, "--objective", NAME)[0] == 0
-    machine, q = Machine(asked["model"], as_task(asked["model"], "planar")), [0.3, 0.7, -0.5]
-    better, worse = machine.objectives(asked["state"].objective)
+    machine, q = CompiledArm(asked["model"], as_task(asked["model"], "planar")), [0.3, 0.7, -0.5]
+    better, worse = machine.get_objectives(asked["state"].objective)
     assert better.evaluate(q).value == pytest.approx(least_by_numpy(asked["model"], np.array(q)), rel=1e-9)
     assert worse.better == "smaller"
 

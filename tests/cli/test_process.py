@@ -55,10 +55,10 @@ def start(folder, joints, poses):
 def goes_on(folder, poses):
     """The library goes on where the program stopped, and the rows are those of a run without a stop."""
     left = Store.open(folder)
-    assert 0 < len(left.done) < len(left.chunks)
+    assert 0 < len(left.committed_chunks) < len(left.chunks)
     part = load(folder)
     assert not part.complete
-    assert part.distribution.samples == sum(b - a for k, (a, b) in enumerate(left.chunks) if k in left.done)
+    assert part.distribution.samples == sum(b - a for k, (a, b) in enumerate(left.chunks) if k in left.committed_chunks)
     whole = hf.assess(arms.load("planar-3r"), load(folder).region, task="planar", poses=poses, seed=3, store=folder)
     assert whole.complete
     rows = whole.dataset

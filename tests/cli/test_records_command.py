@@ -9,7 +9,7 @@ import holdfast as hf
 
 
 def test_a_submission_is_held_against_the_current_record(tmp_path, cli):
-    text = hf.designs.record("pose-9R-k2-001").text.rpartition("digest:")[0]
+    text = hf.designs.record_design("pose-9R-k2-001").text.rpartition("digest:")[0]
     file = tmp_path / "mine.yaml"
     file.write_text(text.replace("id: pose-9R-k2-001", "id: mine"), encoding="utf-8")
     code, out, _ = cli("records", "check", str(file))
@@ -57,7 +57,7 @@ def test_a_search_for_a_new_record(tmp_path, cli):
     code, out, _ = cli("records", "new", str(arm), "--task", "planar", "--failures", "2", "--name", "mine", "--by", "A: user")
     assert code == 0
     file.write_text(out, encoding="utf-8")
-    record = hf.designs.record(str(file))
+    record = hf.designs.record_design(str(file))
     assert (record.id, record.data.found.by) == ("mine", "A: user")
     model = hf.arms.resolve(str(arm))
     index = hf.indices.relative_manipulability(model, "planar", 2)
@@ -91,7 +91,7 @@ def test_arms_are_judged_on_the_command_line(tmp_path, cli):
         "0.3",
     )
     found = json.loads(cli(*words, "--json")[1])
-    mine = hf.designs.judge(
+    mine = hf.designs.compare_arms(
         hf.arms.load("planar-3r"), task="planar", measures=["fraction-above"], samples=500, thresholds=[0.3]
     )
     assert found["columns"][0]["values"] == mine.values[:, 0].tolist()
@@ -127,7 +127,7 @@ def test_a_record_as_urdf_and_the_book_as_a_folder(tmp_path, cli):
     assert code == 0
     file = tmp_path / "arm.urdf"
     file.write_text(out, encoding="utf-8")
-    record = hf.designs.record("pose-9R-k2-001")
+    record = hf.designs.record_design("pose-9R-k2-001")
     assert hf.indices.relative_manipulability(hf.Arm.from_urdf(file), "pose", 2)(record.q) == pytest.approx(record.data.value)
     assert "is a null space alone" in cli("records", "show", "jacobian-9-6-2-001", "--urdf")[2]
     book = tmp_path / "book"
@@ -135,12 +135,12 @@ def test_a_record_as_urdf_and_the_book_as_a_folder(tmp_path, cli):
     page = (book / "records.html").read_text(encoding="utf-8")
     for kind in ("yaml", "urdf"):
         assert f'href="pose-9R-k2-001.{kind}"' in page
-    assert hf.designs.record(str(book / "pose-9R-k2-001.yaml")).id == "pose-9R-k2-001"
+    assert hf.designs.record_design(str(book / "pose-9R-k2-001.yaml")).id == "pose-9R-k2-001"
 
 
 def test_arms_from_files_of_numbers(tmp_path, cli):
     file = tmp_path / "null.csv"
-    np.savetxt(file, hf.ceilings.look_up(n=4, m=2, k=1).null_space, delimiter=",")
+    np.savetxt(file, hf.ceilings.upper_bound(n=4, m=2, k=1).null_space, delimiter=",")
     code, out, _ = cli(
         "synthesise", str(file), "--null-space", "--task", "planar", "--starts", "1", "--out", str(tmp_path / "a")
     )

@@ -16,12 +16,12 @@ import pytest
 import yaml
 
 import holdfast as hf
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import InputError
-from holdfast.kernels import pool, set_threads
+from holdfast.kernels import set_threads, shared_pool
 from holdfast.regions.region import Region, default_region
 from holdfast.studies import read
-from holdfast.studies.results import assessed
+from holdfast.studies.results import read_assessment
 from sealing import read_unsealed_study
 
 TEXT = """
@@ -52,7 +52,7 @@ def folder(tmp_path_factory):
     study = Study.create(place / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     set_threads(2)
     try:
-        assert study.run(asked.cells, Threads(2, pool())) == {}
+        assert study.run(asked.cells, ThreadRunner(2, shared_pool())) == {}
     finally:
         set_threads(None)
     return study.path
@@ -60,7 +60,7 @@ def folder(tmp_path_factory):
 
 def bits(folder):
     study = Study.open(folder)
-    return {(c["name"], n): e.digest for k, c in enumerate(study.cells) for n, e in study.entries(k).items()}
+    return {(c["name"], n): e.digest for k, c in enumerate(study.cells) for n, e in study.cell_entries(k).items()}
 
 
 def test_a_new_file_runs_and_says_what_it_would_do(cli, ask, refused, tmp_path, monkeypatch):
@@ -116,10 +116,10 @@ def test_a_cell_is_the_assessment_of_the_same_options(folder, tmp_path):
     path.write_text("{poses: 1100, chunk: 1024, seed: 5, arms: [planar-3r], assess: {restarts: 5}}")
     asked = read(path)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    study.run(asked.cells, Threads(1))
+    study.run(asked.cells, ThreadRunner(1))
     arm = hf.arms.load("planar-3r")
     run = hf.assess(arm, default_region(arm), task="planar", poses=1100, seed=5, restarts=5)
-    found = hf.load(study.folder(0))
+    found = hf.load(study.cell_folder(0))
     for name in run.dataset:
         assert found.dataset[name].values.tobytes() == run.dataset[name].values.tobytes(), name
     assert found.complete
@@ -157,8 +157,8 @@ def both_ways(folder, size, block):
         path.write_text(f"{{{size}, seed: 5, arms: [planar-3r], assess: {{{block}, keep: {keep}}}}}")
         asked = read(path)
         study = Study.create(folder / keep, asked.name, asked.seed, cells=asked.cells, source=asked.text)
-        study.run(asked.cells, Threads(1))
-        found.append([assessed(study, k) for k in range(len(asked.cells))])
+        study.run(asked.cells, ThreadRunner(1))
+        found.append([read_assessment(study, k) for k in range(len(asked.cells))])
     return found
 
 
@@ -319,7 +319,7 @@ def test_an_unfinished_study_reports_what_is_there(ask, refused, file, tmp_path)
     asked = read(file)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert "nothing of" in refused("study", "report", study.path)
-    study.run(asked.cells, Threads(1), stop=lambda: len(bits(study.path)) > 1)
+    study.run(asked.cells, ThreadRunner(1), stop=lambda: len(bits(study.path)) > 1)
     ask("study", "report", study.path)
     assert "Not complete" in (study.path / "report.html").read_text()
 

@@ -11,13 +11,13 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast import susceptibility as sus
-from holdfast.registry import SUSCEPTIBILITIES
+from holdfast.registry import SUSCEPTIBILITY_REGISTRY
 
 HOME = "0 -45 0 -135 0 90 45"
 IN_RADIANS = "0 -0.8 0 -2.4 0 1.6 0.8"
 
 
-@pytest.mark.parametrize("name", SUSCEPTIBILITIES)
+@pytest.mark.parametrize("name", SUSCEPTIBILITY_REGISTRY)
 def test_it_is_the_library(name, ask):
     arm = arms.load("panda")
     q = np.radians([float(x) for x in HOME.split()])

@@ -14,10 +14,10 @@ import pytest
 from holdfast.present.teleop.allocation import write_allocation
 from holdfast.present.teleop.bank import bank_figure
 from holdfast.teleop.analysis import Analysis
-from holdfast.teleop.bank.selection import binning
-from holdfast.teleop.bank.tasks import task_bank
+from holdfast.teleop.bank.selection import bin_tasks
+from holdfast.teleop.bank.tasks import make_task_bank
 from holdfast.teleop.protocol.protocol import Training, read_protocol
-from holdfast.teleop.records.file import alone
+from holdfast.teleop.records.file import lock_records_folder
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.tables import bank_table, computer_table, tool_paths
 
@@ -110,10 +110,10 @@ def test_tasks_refuses(refused, more, sentence):
 def test_figure_names_what_has_no_place(rng):
     from holdfast import arms
 
-    bank = task_bank(arms.load("planar-3r"), 6, seed=1)
+    bank = make_task_bank(arms.load("planar-3r"), 6, seed=1)
     lost = replace(bank, cpm=bank.cpm.copy(), end=bank.end.copy())
     lost.cpm[2, 4], lost.end[2, 4] = np.nan, 1
-    figure = bank_figure(lost, binning(lost), np.array([0, 9]), special=np.array([11, 4]))
+    figure = bank_figure(lost, bin_tasks(lost), np.array([0, 9]), special=np.array([11, 4]))
     axes = figure.axes[0]
     assert {t.get_text() for t in axes.texts} >= {"1", "2", "3"}
     assert "4" not in {t.get_text() for t in axes.texts}
@@ -164,7 +164,7 @@ def test_subjects_are_listed_dropped_and_deleted(cli, refused, copy, monkeypatch
     assert code == 0
     assert "2 simulated subjects" in text
     assert "dropped out, and not part of any number: S02" in text
-    with alone(copy):
+    with lock_records_folder(copy):
         assert "is served by another program already" in refused("teleop", "subjects", copy, "--delete", "S01")
     code, text, _ = cli("teleop", "subjects", copy, "--delete", "S01")
     assert code == 0
@@ -180,7 +180,7 @@ def test_paths_are_those_of_the_records(experiment):
     with Records.open(experiment) as records:
         path = tool_paths(records)
         entry = next(e for e in records.entries("S02") if e.task == 2 and e.scenario == 3)
-        np.testing.assert_array_equal(path("S02", 3, 4), records.trials([entry]).path(0))
+        np.testing.assert_array_equal(path("S02", 3, 4), records.read_trials([entry]).path(0))
         machine = path(None, 3, 4)
         assert len(machine) - 1 == computer_table(records.protocol).query("task == 3 and scenario == 4")["M1"].item()
         assert path("S02", 9, 1) is None
@@ -204,7 +204,7 @@ def test_protocol_is_described_and_copied(cli, refused, tmp_path):
     assert (code, err) == (0, "")
     assert "60 cycles/s" in text
     assert "0.3 m/s" in text
-    assert read_protocol(tmp_path / "mine.yaml").text() == read_protocol("goel2003-smooth").text()
+    assert read_protocol(tmp_path / "mine.yaml").to_yaml() == read_protocol("goel2003-smooth").to_yaml()
     assert "exists already" in refused("teleop", "protocol", "--write", tmp_path / "mine.yaml")
 
 
@@ -213,9 +213,9 @@ def test_allocation_is_that_of_the_sessions(cli, tiny, tmp_path):
     code, text, _ = cli("teleop", "allocation", tiny, "--subjects", "2")
     assert code == 0
     line = text.splitlines()[2].split()
-    assert [w.split(":")[0] for w in line[2:]] == [str(t + 1) for t in protocol.order()[1]]
+    assert [w.split(":")[0] for w in line[2:]] == [str(t + 1) for t in protocol.task_order()[1]]
     said = [int(s) for w in line[2:] for s in w.split(":")[1].split("/")]
-    assert said == (protocol.session(1, 1)[:, 1] + 1).tolist()
+    assert said == (protocol.session_order(1, 1)[:, 1] + 1).tolist()
     code, text, _ = cli("teleop", "allocation", tiny, "--out", tmp_path / "sheet.html")
     assert code == 0
     page = (tmp_path / "sheet.html").read_text(encoding="utf-8")

@@ -16,11 +16,11 @@ def served(monkeypatch):
     calls = []
 
     def serve(options, host, port, ready):
-        app.prepare(options.folder, options.protocol)
+        app.open_or_create(options.folder, options.protocol)
         calls.append((options, host, port))
         ready(port or 4711)
 
-    monkeypatch.setattr(app, "serve", serve)
+    monkeypatch.setattr(app, "serve_experiment", serve)
     return calls
 
 
@@ -32,7 +32,7 @@ def test_a_new_folder_begins_an_experiment(cli, served, tmp_path):
     assert "station:      http://127.0.0.1:4711/\n" in text
     assert f"experimenter: http://127.0.0.1:4711/experimenter?key={options.guard.key}\n" in text
     with Records.open(tmp_path / "experiment") as records:
-        assert records.protocol.text() == read_protocol().text()
+        assert records.protocol.to_yaml() == read_protocol().to_yaml()
     again = cli("teleop", "serve", "--data", tmp_path / "experiment", "--protocol", "goel2003")
     assert again[0] == 0
     assert served[1][0].guard.key != options.guard.key
@@ -114,8 +114,8 @@ def test_without_the_extra_it_says_what_to_install(refused, tmp_path, monkeypatc
 def test_texts_are_copied_to_translate(cli, refused, tmp_path, monkeypatch):
     english = tmp_path / "en.yaml"
     english.write_text("title: x\nforms:\n- {name: consent, title: x, text: x, submit: x, questions: []}\n")
-    monkeypatch.setattr(texts, "ENGLISH", english)
-    monkeypatch.setattr(texts.read, "__defaults__", (None, english))
+    monkeypatch.setattr(texts, "ENGLISH_FILE", english)
+    monkeypatch.setattr(texts.load_texts, "__defaults__", (None, english))
     code, text, _ = cli("teleop", "texts")
     assert (code, text) == (0, "1 texts in English; forms: consent\n")
     assert cli("teleop", "texts", "--write", tmp_path / "de.yaml")[0] == 0

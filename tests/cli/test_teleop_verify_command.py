@@ -9,7 +9,7 @@ import pytest
 
 import flips
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.verification import verify
+from holdfast.teleop.records.verification import verify_records
 
 BITS = int(os.environ.get("HOLDFAST_FLIPS", "240"))
 
@@ -41,7 +41,10 @@ def test_a_changed_bit_of_data_is_found(experiment, tmp_path, rng, cli):
 def test_sound_records(cli, experiment):
     code, out, err = cli("teleop", "verify", experiment)
     assert (code, err) == (0, "")
-    assert out == f"sound: 6 trials, {verify(experiment).links} digests; all together {verify(experiment).whole}\n"
+    assert (
+        out == f"sound: 6 trials, {verify_records(experiment).links} digests; all together "
+        f"{verify_records(experiment).overall_digest}\n"
+    )
 
 
 def test_the_first_damaged_trial_is_named_first(cli, experiment, tmp_path):
@@ -57,7 +60,7 @@ def test_a_backup_is_sound_and_whole(cli, refused, experiment, tmp_path):
     code, out, _ = cli("teleop", "backup", experiment, tmp_path / "safe" / "copy")
     assert code == 0
     assert "sound: 6 trials" in out
-    assert verify(tmp_path / "safe" / "copy").whole == verify(experiment).whole
+    assert verify_records(tmp_path / "safe" / "copy").overall_digest == verify_records(experiment).overall_digest
     assert sorted(f.name for f in (tmp_path / "safe").iterdir()) == ["copy"]
     assert sorted(f.name for f in (tmp_path / "safe" / "copy").iterdir()) == ["protocol.yaml", "records.sqlite"]
     assert "exists already" in refused("teleop", "backup", experiment, tmp_path / "safe")
@@ -74,14 +77,14 @@ def test_a_backup_of_a_damaged_folder_is_refused(refused, experiment, tmp_path):
 
 
 def test_a_backup_while_somebody_writes(experiment, tmp_path, rng):
-    from holdfast.teleop.records.copies import backup
+    from holdfast.teleop.records.copies import copy_experiment
 
     flips.copied(experiment, tmp_path / "live")
-    with Records.open(tmp_path / "live") as records, records.together():
-        before = verify(tmp_path / "live").whole
+    with Records.open(tmp_path / "live") as records, records.transaction():
+        before = verify_records(tmp_path / "live").overall_digest
         records.set_note("S01", "not yet")
-        assert verify(tmp_path / "live").whole == before
-        backup(tmp_path / "live", tmp_path / "copy")
+        assert verify_records(tmp_path / "live").overall_digest == before
+        copy_experiment(tmp_path / "live", tmp_path / "copy")
         flips.trial(records, "S02", rng)
-    assert verify(tmp_path / "copy").whole == before
-    assert verify(tmp_path / "live").whole != before
+    assert verify_records(tmp_path / "copy").overall_digest == before
+    assert verify_records(tmp_path / "live").overall_digest != before

@@ -96,7 +96,9 @@ def test_the_peak_error_that_is_written_down_once_is_the_one_of_every_call():
     squares, c, *products, columns = (ca.vertsplit(x) for x in sizes)
     s, missing = ca.SX.sym("s"), ca.SX.sym("missing")
     error = damping_search._PeakError(squares, c, products, columns, missing)
-    one, other = (Program("error", [s, missing, *sizes], [ca.vertcat(*found)]) for found in (error(s), error._written(s)))
+    one, other = (
+        Program("error", [s, missing, *sizes], [ca.vertcat(*found)]) for found in (error(s), error._build_expressions(s))
+    )
     assert one.digest == other.digest
 
 
@@ -104,7 +106,7 @@ def search_in_c(folder, m, n, allowed):
     """What the search in C tells of J (m, n) and v (m,): rates (n,), damping, largest damping and whether one is allowed."""
     source, library = folder / "search.c", folder / f"search{m}{n}.so"
     call = "void call(const double *j, const double *v, double *out)"
-    text = damping_search.in_c(m, n, allowed)
+    text = damping_search.generate_c_search(m, n, allowed)
     ends = f"{call};\n{call} {{ damped_inverse(j, v, out, out + {n}, out + {n + 1}, out + {n + 2}); }}\n"
     source.write_text(f"#include <math.h>\n{text}\n{ends}")
     flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off", "-fsanitize=undefined"]
@@ -141,7 +143,7 @@ def test_in_c_it_finds_what_the_kernel_finds(m, n, rng, tmp_path):
     run = search_in_c(tmp_path, m, n, allowed)
     j, v = ca.SX.sym("j", m, n), ca.SX.sym("v", m)
     size = ca.sqrt(ca.sumsqr(v))
-    found = damping_search.search(j, v / size, allowed)
+    found = damping_search.search_damping(j, v / size, allowed)
     told = [size * ca.vertcat(*found.rates), found.damping, found.largest, found.feasible]
     kernel = ca.Function("search", [j, v], [ca.vertcat(*told)], {"cse": True})
     others = 0

@@ -9,8 +9,8 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.indices import Opposite, susceptibility
-from holdfast.motion.events import Course, Curvature, find_events
+from holdfast.indices import NegatedObjective, susceptibility
+from holdfast.motion.events import Curvature, MotionHistory, find_events
 
 
 @pytest.fixture(scope="module")
@@ -129,7 +129,7 @@ def test_curvature_is_the_second_derivative_along_the_self_motion(planar, torque
         assert matrices[k, 0, 0] == pytest.approx(second, rel=1e-2, abs=1e-2 * np.abs(matrices).max())
     expected = [abs(along(x) @ oracles.slope(torque, x)) for x in q]
     np.testing.assert_allclose(slope, expected, rtol=1e-5, atol=1e-8)
-    upside = Curvature(Opposite(torque), task)
+    upside = Curvature(NegatedObjective(torque), task)
     np.testing.assert_allclose(upside.smallest(q), -matrices[:, 0, 0], rtol=1e-6)
 
 
@@ -138,7 +138,7 @@ def calm(torque):
     """A motion on which nothing happens."""
     time = np.linspace(0, 10, 2001)
     one = np.ones_like(time)
-    return Course(time, 2 + np.sin(time), one, one, one, one, 0 * one, {"joint1": 0 * one > 1})
+    return MotionHistory(time, 2 + np.sin(time), one, one, one, one, 0 * one, {"joint1": 0 * one > 1})
 
 
 def told(torque, course, **options):

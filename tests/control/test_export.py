@@ -19,10 +19,10 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.arm.kinematics import joint_symbols
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.errors import InputError, StoreError
 from holdfast.kernels.program import Program
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -81,10 +81,10 @@ def interpreted(law, q, v):
 
 
 @needs_compiler
-@pytest.mark.parametrize("slug", LAWS)
+@pytest.mark.parametrize("slug", LAW_REGISTRY)
 def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
     arm = hf.arms.load("planar-3r")
-    law, jit = (hf.control.by_name(oracles.example(LAWS, slug, arm), arm, task="planar") for _ in range(2))
+    law, jit = (hf.control.by_name(oracles.example(LAW_REGISTRY, slug, arm), arm, task="planar") for _ in range(2))
     others = 3 if slug == "failure-tolerant" else 0
     files = list(law.export_c(tmp_path / "new" / "folder"))
     name = slug.replace("-", "_")
@@ -119,7 +119,7 @@ def test_what_has_no_answer_stops_the_arm(tmp_path):
 
 def pinocchio_jacobian(task):
     """The task Jacobian of the Panda's flange by Pinocchio, in the frame of the task."""
-    file = str(DATA.joinpath("panda.urdf"))
+    file = str(DATA_FOLDER.joinpath("panda.urdf"))
     full = pin.buildModelFromUrdf(file)
     model = pin.buildReducedModel(full, [i for i, x in enumerate(full.names) if "finger" in x], pin.neutral(full))
     data, frame = model.createData(), model.getFrameId("panda_link8")
@@ -145,12 +145,12 @@ TASKS = [("planar-3r", "planar", 2), ("panda", "position", 3), ("panda", "pointi
 
 @needs_compiler
 @pytest.mark.parametrize(("name", "task", "m"), TASKS)
-@pytest.mark.parametrize("slug", LAWS)
+@pytest.mark.parametrize("slug", LAW_REGISTRY)
 def test_c_agrees_with_numpy_formulas_over_a_jacobian_of_pinocchio(slug, name, task, m, rng, tmp_path):
     """Nothing of holdfast on the other side: the Jacobian is Pinocchio's, or a plane's, and the laws are formulas in NumPy."""
-    panda = hf.Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8")
+    panda = hf.Arm.from_urdf(str(DATA_FOLDER.joinpath("panda.urdf")), tip="panda_link8")
     arm = panda if name == "panda" else hf.arms.load(name)
-    law = hf.control.by_name(oracles.example(LAWS, slug, arm, task), arm, task=task)
+    law = hf.control.by_name(oracles.example(LAW_REGISTRY, slug, arm, task), arm, task=task)
     jacobian = pinocchio_jacobian(law.task) if name == "panda" else planar_jacobian
     others = 3 if slug == "failure-tolerant" else 0
     call = compiled(*list(law.export_c(tmp_path, "law"))[:2], m, arm.n, others, "-O0")

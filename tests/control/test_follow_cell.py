@@ -12,7 +12,7 @@ import holdfast as hf
 from holdfast.cell import Box, Cell, Sphere
 from holdfast.clearance import Capsule, Capsules, Clearance
 from holdfast.motion import tracking
-from holdfast.motion.integration import _step_kernel, keep_limits
+from holdfast.motion.integration import _step_kernel, enforce_limits
 
 MARGIN = 0.01  # m
 # Few capsules, and the same for every test of an arm: what they compile takes the time here.
@@ -24,7 +24,7 @@ START = np.array([-0.6, -0.5, 0, -2.2, 0, 1.7, 0.8])
 def fewer_steps():
     """A quarter of them: what is kept does not depend on it, to the digits below."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(tracking, "_STEPS", 5000)
+        patch.setattr(tracking, "_MIN_CONTROL_STEPS", 5000)
         yield
 
 
@@ -146,10 +146,10 @@ def test_the_best_motion_drops_configurations_that_are_not_clear():
     cell = Cell([Sphere("ball", 0.1, pose=cells.placed(*at))], margin=MARGIN)
     clearance = Clearance(arm, ENDS, cell, itself=False)
     told = hf.follow(arm, line, clearance=clearance, **wish)
-    assert clearance.room(free.best_path).min() < 0
+    assert clearance.margin_left(free.best_path).min() < 0
     found = np.isfinite(told.best_path).all(axis=1)
     assert found.any()
-    assert clearance.room(told.best_path[found]).min() >= -1e-12  # every sample is a pose of the grid
+    assert clearance.margin_left(told.best_path[found]).min() >= -1e-12  # every sample is a pose of the grid
     assert (told.best_value >= free.best_value - 1e-9).all()
 
 
@@ -168,7 +168,7 @@ def test_two_rows_are_enough_where_a_third_thing_is_in_the_way(rng):
     law = hf.motion.GradientProjection(arm, objective, 3.0, task="planar", period=None)
     kernel = _step_kernel(law, step, False, 1.0, True)
     columns, out = np.zeros((3 + 19 + 8, kernel.lanes)), np.zeros((9, kernel.lanes))
-    once, third = kernel.bound(columns, out), 0
+    once, third = kernel.bind_arrays(columns, out), 0
     for _ in range(300):
         q = rng.uniform(-2, 2, 3)
         columns[:3] = q[:, None]
@@ -182,7 +182,7 @@ def test_two_rows_are_enough_where_a_third_thing_is_in_the_way(rng):
         limits = np.column_stack([slopes, slopes @ (free + rng.normal() * null) - rng.exponential(0.3, 5)])
         a, b = slopes @ null, limits[:, 3] - slopes @ free
         low, high = (b / a)[a > 0].max(initial=-np.inf), (b / a)[a < 0].min(initial=np.inf)
-        keep_limits(once, columns, out, limits)
+        enforce_limits(once, columns, out, limits)
         two = np.array([(b / a)[:2][a[:2] > 0].max(initial=-np.inf), (b / a)[:2][a[:2] < 0].min(initial=np.inf)])
         if low > high or two[0] > two[1] or np.abs(a).min() < 0.1:
             continue

@@ -12,7 +12,7 @@ import holdfast as hf
 import oracles
 from holdfast.control import by_name
 from holdfast.errors import InputError, TaskError
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 
 LENGTH = 0.3
 
@@ -21,7 +21,7 @@ def laws_of(arm, task, rng):
     """Every registered law with the settings of its example, and a full matrix of weights."""
     root = rng.normal(size=(arm.n, arm.n))
     full = hf.control.weighted(arm, root @ root.T + np.eye(arm.n), task)
-    return [full, *(LAWS.make(label, arm, task=task) for label in LAWS.labels(arm, task))]
+    return [full, *(LAW_REGISTRY.make(label, arm, task=task) for label in LAW_REGISTRY.labels(arm, task))]
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +123,7 @@ def test_a_hand_that_does_not_move_has_a_right_angle_and_a_flag():
 
 
 def test_by_name(planar4):
-    for label in LAWS.labels(planar4, "planar"):
+    for label in LAW_REGISTRY.labels(planar4, "planar"):
         law = by_name(label, planar4, task="planar", gain=2.0, speed_limit=0.1)
         assert (law.slug, law.gain, law.speed_limit, law.task.name) == (label.partition(":")[0], 2.0, 0.1, "planar")
         assert law.name in repr(law)

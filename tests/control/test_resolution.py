@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 
 import holdfast as hf
 import oracles
-from holdfast.indices import Opposite, RelativeManipulability, susceptibility
+from holdfast.indices import NegatedObjective, RelativeManipulability, susceptibility
 from holdfast.motion import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.status import Status
 
@@ -74,12 +74,12 @@ def test_gradient_projection_is_the_formula(cases, case, rng):
     assert (found.task == 1).all()
     step = law.prepare()(q[3], twist[3])
     np.testing.assert_array_equal(step, found.rates[3])
-    np.testing.assert_array_equal(law.step.others, (found.self_motion[3], found.task[3], found.damping[3]))
+    np.testing.assert_array_equal(law.step.extra_outputs, (found.self_motion[3], found.task[3], found.damping[3]))
 
 
 def test_an_objective_wanted_the_other_way_moves_the_other_way(cases, rng):
     arm, task, objective = cases["flat"]
-    law, back = (GradientProjection(arm, o, GAIN, task=task, period=None) for o in (objective, Opposite(objective)))
+    law, back = (GradientProjection(arm, o, GAIN, task=task, period=None) for o in (objective, NegatedObjective(objective)))
     q, _, _ = states(arm, law.task, rng, 5)
     np.testing.assert_allclose(law.rates(q, np.zeros(6)[None].repeat(5, 0)).rates, -back.rates(q, np.zeros((5, 6))).rates)
 

@@ -22,7 +22,7 @@ def test_a_step_has_the_bits_of_the_rates(measure, rng):
     law.prepare()
     for k in range(300):
         np.testing.assert_array_equal(law.step(q[k], twist[k]), rates.rates[k])
-        np.testing.assert_array_equal(law.step.others, [rates.self_motion[k], rates.task[k], rates.damping[k]])
+        np.testing.assert_array_equal(law.step.extra_outputs, [rates.self_motion[k], rates.task[k], rates.damping[k]])
 
 
 def test_a_step_takes_what_numpy_takes(rng):

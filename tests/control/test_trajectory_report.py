@@ -14,7 +14,7 @@ import oracles
 from holdfast.indices import RelativeManipulability, susceptibility
 from holdfast.paths import TimedPath, Trapezoid, line
 from holdfast.present.motion.trajectory import build
-from holdfast.present.stick_figure import views_of
+from holdfast.present.stick_figure import choose_views
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -90,7 +90,7 @@ def test_an_arm_in_space_without_inertia(rng, tmp_path):
 def test_a_plane_is_seen_from_its_front(rng):
     arm = oracles.with_bodies(oracles.planar_arm(rng, 4), rng)
     normal = oracles.plane(arm)
-    (view,) = views_of(arm, np.zeros((1, 6, 3)))
+    (view,) = choose_views(arm, np.zeros((1, 6, 3)))
     assert abs(view.right @ normal) < 1e-9
     assert abs(view.up @ normal) < 1e-9
     assert view.up @ -arm.gravity > 0

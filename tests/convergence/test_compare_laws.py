@@ -15,7 +15,7 @@ import holdfast as hf
 import oracles
 from holdfast.cell import Sphere
 from holdfast.convergence import detours
-from holdfast.convergence.detours import healthy_cost
+from holdfast.convergence.detours import measure_healthy_cost
 from holdfast.present.convergence import law_comparison as compare_laws_report
 from holdfast.report import page
 from holdfast.simulation import Reason, batch
@@ -267,8 +267,8 @@ def test_a_motion_whose_steps_lead_nowhere_is_not_tried_again_for_each_piece(mon
     law = hf.control.pseudoinverse(arm, "planar")
     q0 = np.random.default_rng(5).uniform(-2, 2, (40, 3))
     goals = arm.forward_kinematics(np.random.default_rng(6).uniform(-2, 2, (40, 3)))
-    whole = healthy_cost(law, q0, goals, False, 0.1)
-    monkeypatch.setattr(batch, "MOST_STEPS", 40)
+    whole = measure_healthy_cost(law, q0, goals, False, 0.1)
+    monkeypatch.setattr(batch, "MAX_STEPS", 40)
     asked = []
 
     def told(law, q, *others, **options):
@@ -277,7 +277,7 @@ def test_a_motion_whose_steps_lead_nowhere_is_not_tried_again_for_each_piece(mon
         return runs
 
     monkeypatch.setattr(detours, "simulate", told)
-    short = healthy_cost(law, q0, goals, False, 0.1)
+    short = measure_healthy_cost(law, q0, goals, False, 0.1)
     rows, out_of_steps = np.array(asked).T
     assert 0 < out_of_steps.sum() < len(q0)
     np.testing.assert_array_equal(rows[1:], rows[:-1] - out_of_steps[:-1])

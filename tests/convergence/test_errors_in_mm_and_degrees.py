@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.equilibria import Kind
-from holdfast.words import number
+from holdfast.words import format_number
 
 
 @pytest.fixture(scope="module")
@@ -79,4 +79,4 @@ def test_stationary_points_have_distance_and_angle_apart(arm, tmp_path):
     holds = points.attracting & (points.kind != Kind.SOLUTION)
     k = int(np.argmin(np.where(holds, np.hypot(distance, angle), np.inf)))
     assert holds[k]
-    assert f"{number(1000 * distance[k])} mm and {number(np.rad2deg(angle[k]))}°" in page.replace("\u00a0", " ")
+    assert f"{format_number(1000 * distance[k])} mm and {format_number(np.rad2deg(angle[k]))}°" in page.replace("\u00a0", " ")

@@ -11,7 +11,7 @@ import holdfast as hf
 import oracles
 from cards import check_card
 from holdfast.cli.program import main
-from holdfast.convergence.analysis import Beginnings
+from holdfast.convergence.analysis import StartConfigurations
 from holdfast.convergence.places import read_places
 
 
@@ -41,7 +41,9 @@ def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
     goals, starts, cells = np.array([[1.5, 1.5], [-0.7, 1.9]]), np.array([[2.0, -1.4], [0.7, 2.1]]), 50
     found = hf.target_measures(three, goals, starts, configurations=5, points=0, cells=cells)
     check_card(found)
-    owner, q0 = Beginnings(three, read_places(three.arm, three.task, starts, np.random.default_rng(0)), 5, "brute", 0).of(0, 2)
+    owner, q0 = StartConfigurations(
+        three, read_places(three.arm, three.task, starts, np.random.default_rng(0)), 5, "brute", 0
+    ).find_block(0, 2)
     np.testing.assert_allclose(oracles.planar_hand([1, 1, 1], q0), starts[owner], atol=1e-8)
     for g, goal in enumerate(goals):
         inside = np.zeros((len(q0), cells, 4), dtype=bool)

@@ -12,10 +12,10 @@ from scipy.integrate import solve_ivp
 import holdfast as hf
 from cards import check_card
 from holdfast.control import damped, pseudoinverse
-from holdfast.convergence.analysis import Job, _sinks
+from holdfast.convergence.analysis import TargetAnalysis, _find_sinks
 from holdfast.convergence.healthy_motion import HealthyPaths
-from holdfast.convergence.places import configurations_at, lattice, read_places
-from holdfast.convergence.slow_endings import arriving
+from holdfast.convergence.places import configurations_at, make_lattice, read_places
+from holdfast.convergence.slow_endings import is_near_attracting_solution
 from holdfast.present.convergence import origins as workspace_output
 from sealing import read_unsealed
 
@@ -60,7 +60,7 @@ def test_a_notebook_shows_its_maps(small):
 
 
 def test_the_lattice_has_the_points_of_the_paper(arm, law):
-    places = lattice(arm, law.task)
+    places = make_lattice(arm, law.task)
     assert len(places) == 2032
     assert np.diff(places.axes[0]) == pytest.approx(6 / 51)
     assert (np.linalg.norm(places.points, axis=1) <= 3 + 1e-9).all()
@@ -117,11 +117,11 @@ def test_the_whole_way_counts_the_part_outside(law):
 
 def test_a_limit_cycle_is_simulated_by_the_procedure(law, rng):
     """Reachable, no sink, and still no convergence: joint 2 at 168.30 deg, target (0.9, 0)."""
-    from holdfast.convergence.measures import within
+    from holdfast.convergence.measures import is_in_arcs
 
-    arcs = _sinks(law, read_places(law.arm, law.task, [0.9, 0], rng).poses[0])
+    arcs = _find_sinks(law, read_places(law.arm, law.task, [0.9, 0], rng).poses[0])
     angles = np.deg2rad([168.0, 168.3, 168.5, -168.3, 100.0, 150.0])
-    assert list(within(angles, arcs[1], True)) == [True, True, True, True, False, False]
+    assert list(is_in_arcs(angles, arcs[1], True)) == [True, True, True, True, False, False]
 
 
 def test_runs_ended_by_the_time_limit_are_told_by_the_solution_beside_them(law, rng):
@@ -131,7 +131,7 @@ def test_runs_ended_by_the_time_limit_are_told_by_the_solution_beside_them(law, 
     runs = hf.simulate(law, q, pose, locked=np.full(3, 1), time_limit=300.0)
     slow = np.flatnonzero(runs.outcome == "undecided")
     assert 0 in slow
-    found = arriving(law, runs.q_final[:2], pose, np.full(2, 1))
+    found = is_near_attracting_solution(law, runs.q_final[:2], pose, np.full(2, 1))
     assert list(found) == [True, False]
     longer = hf.simulate(law, q[:2], pose, locked=np.full(2, 1), time_limit=3e5)
     assert longer.error[0] < 1e-4
@@ -145,7 +145,7 @@ def test_healthy_motions_against_scipy(arm, damping, rng):
     q0 = rng.uniform(low, high, (3, arm.n))
     goal = arm.forward_kinematics(rng.uniform(low, high, arm.n))
     cells = 12
-    found = np.stack(list(HealthyPaths(law).cells(q0, np.broadcast_to(goal, (3, 4, 4)), cells)))
+    found = np.stack(list(HealthyPaths(law).follow_cells(q0, np.broadcast_to(goal, (3, 4, 4)), cells)))
     rows = law.task.rows[:, :3]
     at = (np.arange(cells) + 0.5) / cells
     for k, start in enumerate(q0):
@@ -187,8 +187,8 @@ def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", progress=stop, **options)
     analysed = []
-    analyse = Job.analyse
-    monkeypatch.setattr(Job, "analyse", lambda job, *rows: analysed.append(rows[-1]) or analyse(job, *rows))
+    analyse = TargetAnalysis.analyse
+    monkeypatch.setattr(TargetAnalysis, "analyse", lambda job, *rows: analysed.append(rows[-1]) or analyse(job, *rows))
     again = hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **options)
     assert sum(analysed) == len(again.places) - 6
     alone = hf.workspace(law, [1.5, 1.5], **options)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from holdfast.convergence.measures import Measures, averaged, spaced, within
+from holdfast.convergence.measures import Measures, is_in_arcs, mean_by_row, select_spaced
 from holdfast.report.places import binned
 
 
@@ -32,15 +32,15 @@ def test_measures_beside_a_loop(rng):
 )
 def test_arcs_hold_modulo_whole_turns(low, size, share, turns, beyond):
     inside = low + share * size + 2 * np.pi * turns
-    assert within(np.array([inside]), [(low, low + size)], True)[0]
+    assert is_in_arcs(np.array([inside]), [(low, low + size)], True)[0]
     outside = low + size + beyond * (2 * np.pi - size)
     if outside - low - size > 1e-8 and outside < low + 2 * np.pi - 1e-8:
-        assert not within(np.array([outside + 2 * np.pi * turns]), [(low, low + size)], True)[0]
+        assert not is_in_arcs(np.array([outside + 2 * np.pi * turns]), [(low, low + size)], True)[0]
 
 
 def test_arcs_of_sliding_joints_do_not_come_round():
-    assert list(within(np.array([0.1, 0.1 + 2 * np.pi, -0.3]), [(0.0, 0.2), (-0.4, -0.25)], False)) == [True, False, True]
-    assert not within(np.array([1.0]), [], True).any()
+    assert list(is_in_arcs(np.array([0.1, 0.1 + 2 * np.pi, -0.3]), [(0.0, 0.2), (-0.4, -0.25)], False)) == [True, False, True]
+    assert not is_in_arcs(np.array([1.0]), [], True).any()
 
 
 def test_spaced_points_are_flagged_and_spread(rng):
@@ -50,7 +50,7 @@ def test_spaced_points_are_flagged_and_spread(rng):
     flags[7:9, 4] = True
     count = np.full(20, 6)
     count[5] = 0
-    row, cell = spaced(flags, count)
+    row, cell = select_spaced(flags, count)
     assert flags[cell, row].all()
     chosen = np.bincount(row, minlength=20)
     assert (chosen == np.minimum(count, flags.sum(axis=0))).all()
@@ -61,7 +61,7 @@ def test_spaced_points_are_flagged_and_spread(rng):
 
 
 def test_averages_leave_nan_out():
-    found = averaged(np.array([1.0, np.nan, 0.0, np.nan]), np.array([0, 0, 0, 2]), 3)
+    found = mean_by_row(np.array([1.0, np.nan, 0.0, np.nan]), np.array([0, 0, 0, 2]), 3)
     assert found[0] == 0.5
     assert np.isnan(found[1:]).all()
 

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 import holdfast as hf
 import oracles
 from holdfast.control import pseudoinverse
-from holdfast.convergence.analysis import Beginnings
+from holdfast.convergence.analysis import StartConfigurations
 from holdfast.convergence.origins import mean_intervals
 from holdfast.convergence.places import read_places
 
@@ -45,7 +45,7 @@ def test_a_spatial_arm_beside_plain_simulations(sampled, spatial, goal):
     """The healthy motion by scipy, reach by inverse kinematics with the joint locked, the end by single simulations."""
     law, arm = spatial, spatial.arm
     places = read_places(arm, law.task, 6, np.random.default_rng(4))
-    owner, q0 = Beginnings(law, places, 3, "sampled", 4).of(0, 6)
+    owner, q0 = StartConfigurations(law, places, 3, "sampled", 4).find_block(0, 6)
     assert arm.forward_kinematics(q0)[:, :3, 3] == pytest.approx(places.points[owner], abs=1e-8)
 
     def rates(_, q):
@@ -169,4 +169,4 @@ def test_targets_of_a_spatial_arm_are_analyses_of_their_own(spatial, goal):
         np.testing.assert_array_equal(found.target_intervals()[name][0], one.intervals()[name])
         assert np.isnan(found.values[name][1]).all()
         np.testing.assert_array_equal(found.means()[name], one.means()[name])
-    assert set(found._presented("drawings")) == {"reach-top", "reach-side", "finish-top", "finish-side"}
+    assert set(found._present("drawings")) == {"reach-top", "reach-side", "finish-top", "finish-side"}

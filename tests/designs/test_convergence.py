@@ -15,11 +15,11 @@ import holdfast as hf
 import oracles
 from cards import check_card
 from holdfast.convergence.places import read_places
-from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
-from holdfast.designs.failures import Failures
-from holdfast.engine.memory import BEFORE, FILE
+from holdfast.designs import DesignJoints, LawOfDesigns, PlanarStationarySets, design_for_convergence, design_space
+from holdfast.designs.failures import FailureTrials
+from holdfast.engine.memory import LEGACY_MEMORY_FILE, MEMORY_FILE
 from holdfast.simulation import Reason
-from holdfast.words import percent
+from holdfast.words import format_percent
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -71,7 +71,7 @@ def test_sinks_are_those_that_tracing_finds_for_one_target():
     arm = hf.Arm.from_dh([hf.DH(a=x, alpha=0.0) for x in lengths]).without_limits
     law = hf.control.pseudoinverse(arm, "planar")
     r = 1.3
-    at, in_reach, held = PlanarRest(law).locked(np.array(lengths), r, angles=180)[0]
+    at, in_reach, held = PlanarStationarySets(law).analyse_distance(np.array(lengths), r, angles=180)[0]
     arcs = hf.stationary_points(law, [r, 0.0], {0: None}).sink_arcs
     bounds = hf.joint_bounds(arm, [r, 0.0], "planar")[0]
 
@@ -87,11 +87,11 @@ def test_sinks_are_those_that_tracing_finds_for_one_target():
 def test_what_is_predicted_to_be_free_arrives(lengths, rng):
     lengths = np.array(lengths)
     law = planar()
-    rest, joints = PlanarRest(law), DesignJoints.of(design_space(law.arm, LENGTHS))
+    rest, joints = PlanarStationarySets(law), DesignJoints.of(design_space(law.arm, LENGTHS))
     r = 1.7
     rows = [
         (k, at, held)
-        for k, (angles, in_reach, stuck) in enumerate(rest.locked(lengths, r))
+        for k, (angles, in_reach, stuck) in enumerate(rest.analyse_distance(lengths, r))
         for at, reached, held in zip(angles, in_reach, stuck, strict=True)
         if reached
     ]
@@ -112,7 +112,7 @@ def test_what_is_predicted_to_be_free_arrives(lengths, rng):
 
 def test_equal_links_are_guaranteed_and_unequal_ones_are_not():
     law = planar()
-    rest = PlanarRest(law)
+    rest = PlanarStationarySets(law)
     found = rest.radial(np.array([[1.3, 0.85, 0.85], [1.0, 1.0, 1.0], [1.0, 1.2, 0.8], [0.3, 1.0, 1.7]]), np.linspace(0, 3, 31))
     share = (found.area * found.guaranteed).sum(axis=1)
     assert share[0] == pytest.approx(1.0)
@@ -128,7 +128,7 @@ def test_equal_links_are_guaranteed_and_unequal_ones_are_not():
 
 def test_search_keeps_its_bounds_and_finds_what_is_guaranteed():
     vary, options = {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, {"designs": 4, "keep_reach": True, "seed": 3}
-    found = design_for_convergence(planar(), vary, climbs=1, **options)
+    found = design_for_convergence(planar(), vary, local_searches=1, **options)
     check_card(found)
     np.testing.assert_allclose(found.values.sum(axis=1), 3.0)
     assert (found.values >= 0.5 - 1e-9).all()
@@ -138,7 +138,7 @@ def test_search_keeps_its_bounds_and_finds_what_is_guaranteed():
     assert found.measures["guaranteed"][found.best] > found.measures["guaranteed"][0]
     assert found.radial().guaranteed.shape == (1, 40)
     assert np.linalg.norm(found.arm().forward_kinematics(np.zeros(3))[:3, 3]) == pytest.approx(3.0)
-    again = design_for_convergence(planar(), vary, climbs=0, **options)
+    again = design_for_convergence(planar(), vary, local_searches=0, **options)
     np.testing.assert_array_equal(found.values[: len(again.values)], again.values)
     for name, values in again.measures.items():
         np.testing.assert_array_equal(found.measures[name][: len(values)], values)
@@ -148,7 +148,7 @@ def test_search_keeps_its_bounds_and_finds_what_is_guaranteed():
 def test_sampled_search(tmp_path):
     law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
     found = hf.design_for_convergence(
-        law, {"a2": (0.5, 1.5), "a3": (0.5, 1.5)}, 4, designs=4, climbs=0, failures=1, exact=False, seed=2
+        law, {"a2": (0.5, 1.5), "a3": (0.5, 1.5)}, 4, designs=4, local_searches=0, failures=1, exact=False, seed=2
     )
     assert not found.exact
     assert found.checked is not None
@@ -166,7 +166,7 @@ def test_sampled_search(tmp_path):
     words = unescape(re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)).replace("\u00a0", " ")
     assert "simulation: 4 targets, 1 failures of each joint" in words
     for share in (found.checked[1].value, found.measures["converged"][found.best], found.measures["reached"][0]):
-        assert percent(float(share)) in words
+        assert format_percent(float(share)) in words
 
 
 def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
@@ -175,8 +175,10 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
     options = {"designs": 8, "climbs": 1, "failures": 1, "exact": False, "seed": 4}
     whole = design_for_convergence(law, vary, 3, **options)
     looked = []
-    real = Failures.of
-    monkeypatch.setattr(Failures, "of", lambda self, values: (looked.append(len(values)), real(self, values))[1])
+    real = FailureTrials.simulate_designs
+    monkeypatch.setattr(
+        FailureTrials, "simulate_designs", lambda self, values: (looked.append(len(values)), real(self, values))[1]
+    )
 
     def stop(done, _):
         if done > 16:
@@ -201,12 +203,12 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
     with pytest.raises(hf.StoreError, match="its law is"):
         design_for_convergence(near, vary, 3, **options, store=tmp_path)
     # A search of holdfast 0.1, whose lines have no checksums and whose law has six digits.
-    plan, *lines = [line.rpartition(b" ")[0] for line in (tmp_path / FILE).read_bytes().splitlines()]
+    plan, *lines = [line.rpartition(b" ")[0] for line in (tmp_path / MEMORY_FILE).read_bytes().splitlines()]
     data = json.loads(plan)
     task = [law.task.rows.tolist(), law.task.frame, law.task.length]
     data["search"] |= {"law": [law.label, law.describe()], "gain": None, "speed_limit": None, "task": task}
     (tmp_path / "before").mkdir()
-    (tmp_path / "before" / BEFORE).write_bytes(b"\n".join([json.dumps(data).encode(), *lines, b""]))
+    (tmp_path / "before" / LEGACY_MEMORY_FILE).write_bytes(b"\n".join([json.dumps(data).encode(), *lines, b""]))
     looked.clear()
     assert design_for_convergence(law, vary, 3, **options, store=tmp_path / "before").checked == whole.checked
     assert not looked
@@ -215,12 +217,14 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
 
 
 def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
-    found = design_for_convergence(planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, designs=4, climbs=0, keep_reach=True)
+    found = design_for_convergence(
+        planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, designs=4, local_searches=0, keep_reach=True
+    )
     assert list(found.figures()) == ["parameters"]
     text = found.report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(text)
     words = unescape(text).replace("\u00a0", " ")
-    assert f"The best design has guaranteed {percent(float(found.measures['guaranteed'][found.best]))}" in words
+    assert f"The best design has guaranteed {format_percent(float(found.measures['guaranteed'][found.best]))}" in words
     assert "--maximise convergence --law pseudoinverse" in text
     assert "--keep-reach" in text
 
@@ -230,10 +234,12 @@ def test_arrivals_of_designs_by_runs_of_scipy():
     law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
     joints = DesignJoints.of(design_space(law.arm, LENGTHS))
     goals = np.array([[1.4, 0.6], [-0.5, 1.1], [9.0, 0.0]])
-    failures = Failures(LawOfDesigns(law, joints), read_places(law.arm, law.task, goals, np.random.default_rng(0)).poses, 2, 7)
+    failures = FailureTrials(
+        LawOfDesigns(law, joints), read_places(law.arm, law.task, goals, np.random.default_rng(0)).poses, 2, 7
+    )
     designs = np.array([[1.0, 1.0, 1.0], [0.5, 1.2, 1.6]])
-    found = failures.of(designs)
-    at, known = failures._configurations(designs)
+    found = failures.simulate_designs(designs)
+    at, known = failures._find_target_configurations(designs)
     assert known[:, :2].all()
     assert not known[:, 2].any()
     arrived = np.zeros((2, 2, 2, 3))
@@ -244,8 +250,8 @@ def test_arrivals_of_designs_by_runs_of_scipy():
         run = oracles.planar_run(designs[d], 0.1, q0, goals[t], j, 500.0, 1e-3)
         arrived[d, t, c, j] = run.t_events[0].size
     np.testing.assert_array_equal(found.converged[:, :2], arrived)
-    np.testing.assert_allclose(found.overall, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
-    np.testing.assert_allclose(found.reached, 2 / 3)
+    np.testing.assert_allclose(found.mean_fraction, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
+    np.testing.assert_allclose(found.reached_fraction, 2 / 3)
 
 
 @pytest.mark.parametrize(
@@ -267,6 +273,6 @@ def test_bad_input_is_told_in_a_sentence(options, said):
 
 def test_laws_and_arms_without_exact_sets_are_told():
     with pytest.raises(hf.InputError, match="failure-tolerant"):
-        PlanarRest(hf.control.failure_tolerant(hf.arms.load("planar-3r"), "planar"))
+        PlanarStationarySets(hf.control.failure_tolerant(hf.arms.load("planar-3r"), "planar"))
     with pytest.raises(hf.InputError, match="planar arm of three"):
-        PlanarRest(hf.control.pseudoinverse(hf.arms.load("panda"), "position"))
+        PlanarStationarySets(hf.control.pseudoinverse(hf.arms.load("panda"), "position"))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.engine.memory import BEFORE, FILE, Memory
+from holdfast.engine.memory import LEGACY_MEMORY_FILE, MEMORY_FILE, SearchMemory
 
 PLAN = {"arm": "abc", "seed": 3, "vary": ["a3=0..1m"]}
 
@@ -25,10 +25,10 @@ def parts(rng: np.random.Generator) -> dict[str, np.ndarray]:
 
 def test_parts_come_back_bit_for_bit(tmp_path: Path, rng: np.random.Generator) -> None:
     made = parts(rng)
-    first = Memory(tmp_path / "new" / "run", PLAN)
-    assert first.part("screen 1", lambda: made) is made
-    again = Memory(tmp_path / "new" / "run", PLAN)
-    found = again.part("screen 1", lambda: pytest.fail("it is remembered"))
+    first = SearchMemory(tmp_path / "new" / "run", PLAN)
+    assert first.recall_or_compute("screen 1", lambda: made) is made
+    again = SearchMemory(tmp_path / "new" / "run", PLAN)
+    found = again.recall_or_compute("screen 1", lambda: pytest.fail("it is remembered"))
     for name, values in made.items():
         assert found[name].dtype == values.dtype
         assert found[name].shape == values.shape
@@ -39,62 +39,64 @@ def test_parts_come_back_bit_for_bit(tmp_path: Path, rng: np.random.Generator) -
 @pytest.mark.parametrize("lost", [1, 7, 40])
 def test_a_line_cut_short_is_made_again(tmp_path: Path, rng: np.random.Generator, lost: int) -> None:
     made = parts(rng)
-    memory = Memory(tmp_path, PLAN)
+    memory = SearchMemory(tmp_path, PLAN)
     for k in range(3):
-        memory.part(f"screen {k}", lambda: made)
-    file = tmp_path / FILE
+        memory.recall_or_compute(f"screen {k}", lambda: made)
+    file = tmp_path / MEMORY_FILE
     file.write_bytes(file.read_bytes()[:-lost])
     asked = []
-    again = Memory(tmp_path, PLAN)
+    again = SearchMemory(tmp_path, PLAN)
     for k in range(3):
-        again.part(f"screen {k}", lambda k=k: asked.append(k) or made)
+        again.recall_or_compute(f"screen {k}", lambda k=k: asked.append(k) or made)
     assert asked == [2]
-    whole = Memory(tmp_path, PLAN)
+    whole = SearchMemory(tmp_path, PLAN)
     for k in range(3):
-        whole.part(f"screen {k}", lambda: pytest.fail("it is remembered"))
+        whole.recall_or_compute(f"screen {k}", lambda: pytest.fail("it is remembered"))
 
 
 def test_a_part_that_is_not_as_it_was_is_made_again(tmp_path: Path, rng: np.random.Generator) -> None:
     made = {"value": rng.uniform(0.1, 0.9, 5)}
-    Memory(tmp_path, PLAN).part("one", lambda: made)
-    first, second = (tmp_path / FILE).read_bytes().splitlines(keepends=True)
+    SearchMemory(tmp_path, PLAN).recall_or_compute("one", lambda: made)
+    first, second = (tmp_path / MEMORY_FILE).read_bytes().splitlines(keepends=True)
     at = second.index(b"0.") + 3
-    (tmp_path / FILE).write_bytes(first + second[:at] + (b"1" if second[at:][:1] != b"1" else b"2") + second[at + 1 :])
-    again = Memory(tmp_path, PLAN)
-    assert again.part("one", lambda: made) is made
-    np.testing.assert_array_equal(Memory(tmp_path, PLAN).part("one", lambda: pytest.fail("remembered"))["value"], made["value"])
+    (tmp_path / MEMORY_FILE).write_bytes(first + second[:at] + (b"1" if second[at:][:1] != b"1" else b"2") + second[at + 1 :])
+    again = SearchMemory(tmp_path, PLAN)
+    assert again.recall_or_compute("one", lambda: made) is made
+    np.testing.assert_array_equal(
+        SearchMemory(tmp_path, PLAN).recall_or_compute("one", lambda: pytest.fail("remembered"))["value"], made["value"]
+    )
 
 
 def test_a_search_of_holdfast_0_1_is_resumed_in_its_file(tmp_path: Path, rng: np.random.Generator) -> None:
     lines = [{"search": PLAN}, {"part": "one", "arrays": {"x": ["float64", [2], [1.5, -0.25]]}}]
-    (tmp_path / BEFORE).write_text("".join(json.dumps(line) + "\n" for line in lines) + '{"part": "tw')
+    (tmp_path / LEGACY_MEMORY_FILE).write_text("".join(json.dumps(line) + "\n" for line in lines) + '{"part": "tw')
     made = parts(rng)
     for _ in range(2):
-        memory = Memory(tmp_path, PLAN)
-        np.testing.assert_array_equal(memory.part("one", lambda: pytest.fail("remembered"))["x"], [1.5, -0.25])
-        found = memory.part("two", lambda: made)
+        memory = SearchMemory(tmp_path, PLAN)
+        np.testing.assert_array_equal(memory.recall_or_compute("one", lambda: pytest.fail("remembered"))["x"], [1.5, -0.25])
+        found = memory.recall_or_compute("two", lambda: made)
     np.testing.assert_array_equal(found["value"], made["value"])
-    assert [file.name for file in tmp_path.iterdir()] == [BEFORE]
+    assert [file.name for file in tmp_path.iterdir()] == [LEGACY_MEMORY_FILE]
 
 
 def test_refusals(tmp_path: Path) -> None:
-    Memory(tmp_path / "run", PLAN)
+    SearchMemory(tmp_path / "run", PLAN)
     with pytest.raises(hf.StoreError, match="holds another search: its seed is 3, asked for is 4; give another folder"):
-        Memory(tmp_path / "run", {**PLAN, "seed": 4})
-    (tmp_path / "run" / FILE).write_text("{]\n")
+        SearchMemory(tmp_path / "run", {**PLAN, "seed": 4})
+    (tmp_path / "run" / MEMORY_FILE).write_text("{]\n")
     with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):
-        Memory(tmp_path / "run", PLAN)
+        SearchMemory(tmp_path / "run", PLAN)
     for part in (
         *('["int64", [1], [1' + "0" * 30 + "]]", '["float64", [1], [1' + "0" * 400 + "]]", '["float32", [1], [1e308]]'),
         *('["a", [1], ["x"]]', '["O", [1], [{}]]', '["S2000000000", [1], ["x"]]', "[" * 100_000 + "]" * 100_000),
     ):
         line = json.dumps({"search": PLAN}) + '\n{"part": "one", "arrays": {"x": ' + part + "}}\n"
-        (tmp_path / "run" / BEFORE).write_text(line)
+        (tmp_path / "run" / LEGACY_MEMORY_FILE).write_text(line)
         with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):
-            Memory(tmp_path / "run", PLAN)
+            SearchMemory(tmp_path / "run", PLAN)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "thesis.txt").write_text("do not touch")
     with pytest.raises(hf.StoreError, match="holds no search; give a new or empty folder"):
-        Memory(tmp_path / "other", PLAN)
+        SearchMemory(tmp_path / "other", PLAN)
     with pytest.raises(hf.StoreError, match="cannot write to"):
-        Memory(tmp_path / "other" / "thesis.txt" / "run", PLAN)
+        SearchMemory(tmp_path / "other" / "thesis.txt" / "run", PLAN)

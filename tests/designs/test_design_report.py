@@ -13,7 +13,7 @@ import pytest
 import holdfast as hf
 from cards import check_card
 from holdfast import arms
-from holdfast.designs import Check, Checked, design_space, parse_vary
+from holdfast.designs import HeldOutCheck, HeldOutResult, design_space, parse_vary
 from holdfast.indices import by_name
 from holdfast.present.designs import page as report
 from holdfast.probability import Distribution
@@ -25,10 +25,12 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 
-def checked(rng: np.random.Generator, shift: float, lost: int = 0) -> Checked:
+def checked(rng: np.random.Generator, shift: float, lost: int = 0) -> HeldOutResult:
     values = np.sort(shift + 0.1 * rng.random(200 - lost))
     low = float(values[10 - lost]) if lost < 10 else 0.0
-    return Checked(Distribution.of(values, "larger", lost), Interval(value=low, low=0.9 * low, high=1.1 * low, confidence=0.95))
+    return HeldOutResult(
+        Distribution.of(values, "larger", lost), Interval(value=low, low=0.9 * low, high=1.1 * low, confidence=0.95)
+    )
 
 
 @pytest.fixture
@@ -45,7 +47,7 @@ def found(rng) -> hf.Designs:
         reached=np.array([1.0, 1.0, 0.9, 1.0]),
         front=np.array([3, 1]),
         best=3,
-        checked=Check(checked(rng, 0.2), checked(rng, 0.38), 0.01),
+        checked=HeldOutCheck(checked(rng, 0.2), checked(rng, 0.38), 0.01),
         index=by_name("relative-manipulability", arm, "planar"),
         region=hf.Region.box([1.5, 0.6, 0], [0.8, 0.8, 0], name="a bench"),
         level=0.95,
@@ -83,7 +85,7 @@ def test_the_page_says_what_to_build(found):
 
 
 def test_the_command_is_the_search(found):
-    line, remark = report.command(found)
+    line, remark = report.format_command(found)
     words = shlex.split(line.replace("\\\n", " "))
     assert words[:3] == ["holdfast", "design", "planar-3r"]
     assert remark == ""
@@ -102,8 +104,8 @@ def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
     assert same.headline.startswith("No design was found that keeps more than the given arm: at 95 % of the poses")
     assert "Before and after" not in [s.title for _, s in report.build(same).parts]
-    none = Checked(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
-    lost = replace(found, checked=Check(none, none, 0.0))
+    none = HeldOutResult(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
+    lost = replace(found, checked=HeldOutCheck(none, none, 0.0))
     assert "keeps any relative manipulability" in lost.headline
     page = render(report.build(lost)).replace("\u00a0", " ")
     check(page)
@@ -112,7 +114,7 @@ def test_nothing_better_and_nothing_at_all(found, rng):
 
 def test_a_design_that_guarantees_as_much_and_reaches_farther_is_not_nothing(found, rng):
     alike = replace(
-        found, guaranteed=np.array([0.4, 0.25, 0.1, 0.4]), checked=Check(checked(rng, 0.38), checked(rng, 0.38), 0.0)
+        found, guaranteed=np.array([0.4, 0.25, 0.1, 0.4]), checked=HeldOutCheck(checked(rng, 0.38), checked(rng, 0.38), 0.0)
     )
     line = alike.headline
     assert line.startswith("No design keeps more than the given arm, but the best one keeps as much, 0.38")
@@ -127,21 +129,21 @@ def test_the_headline_says_what_the_front_has_for_a_little_less(found):
 
 
 def test_a_gain_that_does_not_last_is_no_gain(found, rng):
-    flattered = replace(found, checked=Check(checked(rng, 0.3), checked(rng, 0.25), 0.15))
+    flattered = replace(found, checked=HeldOutCheck(checked(rng, 0.3), checked(rng, 0.25), 0.15))
     assert flattered.headline.startswith("No gain that lasts was found: on the 64 poses of the search the best design")
 
 
 def test_poses_that_only_the_best_design_loses_are_said(found, rng):
-    page = render(report.build(replace(found, checked=Check(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0)))).replace(
-        "\u00a0", " "
-    )
+    page = render(
+        report.build(replace(found, checked=HeldOutCheck(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0)))
+    ).replace("\u00a0", " ")
     assert "does not reach 4.0 % of the poses of the region, the given arm 0 %" in page
 
 
 def test_files_of_a_list_of_poses(found, rng, tmp_path):
     poses = np.tile(np.eye(4), (5, 1, 1))
     poses[:, :2, 3] = rng.uniform(0.5, 1.5, (5, 2))
-    listed = replace(found, region=hf.Region("poses", (), (), name="a job", listed=PoseList.of(poses)))
+    listed = replace(found, region=hf.Region("poses", (), (), name="a job", listed=PoseList.from_matrices(poses)))
     names = {f.name for f in listed.save(tmp_path / "out")}
     assert names == {"report.html", "best-arm.yaml", "designs.csv", "region.yaml", "poses.csv"}
     again = hf.Region.load(tmp_path / "out" / "region.yaml")

@@ -12,9 +12,9 @@ import oracles
 from holdfast.designs import design_space
 from holdfast.designs.evaluation import Evaluator
 from holdfast.designs.family import Family
-from holdfast.designs.quantile import guaranteed, shares
-from holdfast.designs.reach import Reaches
-from holdfast.designs.search import _Search, pareto
+from holdfast.designs.quantile import compute_lower_quantile, compute_quantile_weights
+from holdfast.designs.reach import ReachEvaluator
+from holdfast.designs.search import _DesignSearch, find_pareto_front
 from holdfast.errors import InputError
 from holdfast.probability.distribution import Distribution
 
@@ -26,25 +26,27 @@ def test_guaranteed_is_the_quantile_of_the_distribution(rng, level):
     value = rng.random((4, 60))
     value[:, :5] = 0.0
     weights = rng.integers(1, 5, 60).astype(float)
-    for row, plain, weighted in zip(value, guaranteed(value, level), guaranteed(value, level, weights), strict=True):
+    for row, plain, weighted in zip(
+        value, compute_lower_quantile(value, level), compute_lower_quantile(value, level, weights), strict=True
+    ):
         assert plain == Distribution.of(row, "larger").quantile(1 - level)
         assert weighted == Distribution.of(row, "larger", weights=weights).quantile(1 - level)
 
 
 def test_smooth_quantile_is_that_of_harrell_and_davis(rng):
     value = rng.normal(size=(3, 81))
-    share = shares(value, 0.95)
+    share = compute_quantile_weights(value, 0.95)
     np.testing.assert_allclose(share.sum(axis=1), 1.0)
     ours = (share * value).sum(axis=1)
     np.testing.assert_allclose(ours, np.ravel(mstats.hdquantiles(value.T, prob=[0.05], axis=0)), rtol=1e-10)
     twice = np.repeat(value, 2, axis=1)
-    assert np.abs(shares(value, 0.95, np.full(81, 2.0)) - share).max() < 1e-12
-    assert (shares(twice, 0.95) * twice).sum(axis=1) == pytest.approx(ours, abs=0.3)
+    assert np.abs(compute_quantile_weights(value, 0.95, np.full(81, 2.0)) - share).max() < 1e-12
+    assert (compute_quantile_weights(twice, 0.95) * twice).sum(axis=1) == pytest.approx(ours, abs=0.3)
 
 
 def test_front_is_what_no_other_design_beats(rng):
     reach, value = rng.integers(0, 12, 60) / 4.0, rng.integers(0, 12, 60) / 4.0
-    front = pareto(reach, value)
+    front = find_pareto_front(reach, value)
     assert (np.diff(reach[front]) > 0).all()
     assert (np.diff(value[front]) < 0).all()
     beaten = [
@@ -66,7 +68,7 @@ def test_reach_of_a_stretched_arm_is_the_sum_of_its_links():
     space = design_space(arm, {"a1": (0.5, 1.5), "a3": (0.3, 1.0)})
     family = Family(space, task="planar")
     values = space.draw(4)
-    reach, slope = Reaches(family)(values, Evaluator(family, np.eye(4)[None]).finite_limits(values))
+    reach, slope = ReachEvaluator(family)(values, Evaluator(family, np.eye(4)[None]).finite_limits(values))
     np.testing.assert_allclose(reach, values.sum(axis=1) + 0.8, rtol=1e-10)
     np.testing.assert_allclose(slope, 1.0, rtol=1e-7)
 
@@ -75,7 +77,7 @@ def test_reach_within_limits_against_a_bounded_optimiser(rng):
     arm = oracles.random_arm(rng, types="RRPRR", limits=1.0)
     space = design_space(arm, {"d2": (-3.0, 3.0), "tool.x": (-1.0, 1.0), "upper4": (0.3, 1.5)})
     family = Family(space, task="position")
-    values, reaches, limits = space.draw(2), Reaches(family), Evaluator(family, np.eye(4)[None]).finite_limits
+    values, reaches, limits = space.draw(2), ReachEvaluator(family), Evaluator(family, np.eye(4)[None]).finite_limits
     reach, slope = reaches(values, limits(values))
     for x, ours in zip(values, reach, strict=True):
         one = space.arm_of(x)
@@ -150,7 +152,7 @@ def test_no_design_guarantees_as_much_as_the_best_and_reaches_farther(searched):
 def test_what_the_search_reports_is_what_the_arms_are_worth(searched, planar3):
     arm = searched.arm()
     run = hf.assess(arm, searched.region, hf.indices.relative_manipulability(arm, "planar"), poses=100, seed=9, optimise=True)
-    assert float(run.of(True).quantile(0.05, reachable_only=False)) == pytest.approx(np.sqrt(1 / 3), abs=2e-3)
+    assert float(run.distribution_of(True).quantile(0.05, reachable_only=False)) == pytest.approx(np.sqrt(1 / 3), abs=2e-3)
     np.testing.assert_array_equal(searched.values[0], searched.space.start)
     assert searched.start_reach == searched.reach[0]
     assert len(searched.values) == 1 + searched.screened + searched.climbs
@@ -178,15 +180,15 @@ def test_the_same_seed_gives_the_same_bits_with_one_thread_and_after_a_stop(
 
 
 def test_the_slope_that_climbs_is_that_of_the_smooth_quantile(space3, family3, region3):
-    search = _Search(family3, region3, 0.75, 32, 0)
+    search = _DesignSearch(family3, region3, 0.75, 32, 0)
     x = np.array([0.9, 0.9, 0.7, 1.4, -1.5])
     found = search.evaluator(x[None])
-    value, slope = search.smooth(found)
+    value, slope = search.evaluate_smooth_quantile(found)
     direction, h = np.array([0.5, -0.2, 0.3, 0.4, 0.3]), 1e-6
     sides = []
     for sign in (1, -1):
-        moved = search.evaluator._searched((x + sign * h * direction)[None], found.kept, 0)
-        sides.append(search.smooth(moved)[0])
+        moved = search.evaluator._search_configurations((x + sign * h * direction)[None], found.kept, 0)
+        sides.append(search.evaluate_smooth_quantile(moved)[0])
     assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(float(slope @ direction), rel=1e-3, abs=1e-4)
     assert value <= np.sqrt(1 / 3)
 

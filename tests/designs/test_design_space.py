@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.designs import DesignSpace, Parameter, design_space, parse_vary
+from holdfast.designs import DesignParameter, DesignSpace, design_space, parse_vary
 
 EVERYTHING = {
     "a2": (-0.3, 0.5), "alpha3": (-3.2, 3.2), "d1": (-1.0, 1.0), "theta4": (-3.2, 3.2), "lower2": (-3.0, -0.5),
@@ -100,14 +100,14 @@ def test_what_text_means(text: str, lower: float, upper: float, unit: str, rng: 
     arm = five(rng)
     p = parse_vary(text, arm)
     assert (p.lower, p.upper, p.unit) == (pytest.approx(lower), pytest.approx(upper), unit)
-    again = parse_vary(p.written, arm)
+    again = parse_vary(p.option_text, arm)
     assert (again.lower, again.upper) == pytest.approx((p.lower, p.upper), abs=1e-9)
 
 
 def test_limits_of_sliding_joints_are_lengths_however_they_are_given(rng: np.random.Generator) -> None:
-    for vary in ({"upper5": (0.3, 0.6)}, ["upper5=300..600mm"], [Parameter("upper5", 0.3, 0.6)]):
+    for vary in ({"upper5": (0.3, 0.6)}, ["upper5=300..600mm"], [DesignParameter("upper5", 0.3, 0.6)]):
         space = design_space(five(rng), vary)
-        assert space.parameters == (Parameter("upper5", 0.3, 0.6, unit="m"),)
+        assert space.parameters == (DesignParameter("upper5", 0.3, 0.6, unit="m"),)
         assert design_space(five(rng), space) is space
 
 
@@ -188,8 +188,8 @@ def test_masses_of_other_shapes_are_left_out() -> None:
     made = design_space(panda, ["d3=200..400mm"]).arm_of([0.35])
     assert made.links[2] is None
     assert made.joints[0].velocity == panda.joints[0].velocity
-    assert DesignSpace(panda, (Parameter("d3", 0.2, 0.4),)).names == ("d3",)
-    assert replace(Parameter("d3", 0.2, 0.4), upper=0.5).upper == 0.5
+    assert DesignSpace(panda, (DesignParameter("d3", 0.2, 0.4),)).names == ("d3",)
+    assert replace(DesignParameter("d3", 0.2, 0.4), upper=0.5).upper == 0.5
 
 
 def test_masses_stay_where_the_links_keep_their_shape(rng: np.random.Generator) -> None:

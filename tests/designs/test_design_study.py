@@ -11,13 +11,13 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.designs import design_space
-from holdfast.designs.search import region_poses
-from holdfast.engine import Study, Threads
+from holdfast.designs.search import sample_comparison_poses
+from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import InputError
 from holdfast.indices import by_name
 from holdfast.present.studies import page as report
 from holdfast.studies import read
-from holdfast.studies.results import swept
+from holdfast.studies.results import read_design_sweep
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -42,13 +42,13 @@ def study(tmp_path_factory):
     (place / "links.yaml").write_text(TEXT)
     asked = read(place / "links.yaml")
     made = Study.create(place / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    assert made.run(asked.cells, Threads(1)) == {}
+    assert made.run(asked.cells, ThreadRunner(1)) == {}
     return made
 
 
 def test_a_sweep_is_the_given_arm_and_designs_over_the_bounds(study):
     assert [c["labels"]["job"] for c in study.cells] == ["assess", "designs"]
-    found = swept(study, 1)
+    found = read_design_sweep(study, 1)
     space = design_space(arms.load("planar-3r"), {"a1": (0.6, 1.4), "a2": (0.6, 1.4), "lower2": (-np.pi, -np.pi / 2)})
     np.testing.assert_allclose(found.values, np.concatenate([space.start[None], space.draw(13, 2)]), atol=1e-15)
     assert found.start == 0
@@ -57,9 +57,9 @@ def test_a_sweep_is_the_given_arm_and_designs_over_the_bounds(study):
 
 def test_rows_are_what_optimise_finds(study):
     """A design by itself, pose by pose, with the library's own optimiser."""
-    found = swept(study, 1)
+    found = read_design_sweep(study, 1)
     space = design_space(arms.load("planar-3r"), {"a1": (0.6, 1.4), "a2": (0.6, 1.4), "lower2": (-np.pi, -np.pi / 2)})
-    poses, weights = region_poses(hf.Region.from_dict(found.plan["region"]), 12, 2)
+    poses, weights = sample_comparison_poses(hf.Region.from_dict(found.plan["region"]), 12, 2)
     assert weights is None
     k = 5
     arm = space.arm_of(found.values[k])
@@ -76,8 +76,8 @@ def test_chunks_are_the_same_bits_however_they_are_computed(study, tmp_path):
     asked = read(tmp_path / "links.yaml")
     cell = asked.cells[1]
     cell.job.prepare(False)
-    again = cell.job.run(cell.part(1, asked.seed))
-    whole = swept(study, 1)
+    again = cell.job.run(cell.chunk_at(1, asked.seed))
+    whole = read_design_sweep(study, 1)
     for name in ("guaranteed", "median", "reached", "reach"):
         assert np.array_equal(again[name], getattr(whole, name)[6:12])
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.designs.evolution.annuli import ring_area
-from holdfast.designs.evolution.strategy import evolved
-from holdfast.designs.evolution.sweeps import Sweeps
+from holdfast.designs.evolution.annuli import compute_ring_area
+from holdfast.designs.evolution.strategy import minimise_by_evolution
+from holdfast.designs.evolution.sweeps import SelfMotionTracer
 from holdfast.designs.family import Family
-from holdfast.reach.closed_form import ThreeLinks, area
+from holdfast.reach.closed_form import ThreeLinks, workspace_area
 
 FULL = [-np.pi, np.pi]
 LENGTHS = {"a1": (0.05, 2.9), "a2": (0.05, 2.9), "a3": (0.05, 2.9)}
@@ -25,8 +25,14 @@ def test_the_strategy_finds_the_bottom_of_a_long_valley(rng):
         return ((x - 0.3) @ turn) ** 2 @ 10.0 ** np.arange(6)
 
     told = []
-    x, least = evolved(
-        cost, np.zeros(6), np.ones(6), population=16, generations=400, rng=rng, tell=lambda c: told.append(c) or c < 1e-12
+    x, least = minimise_by_evolution(
+        cost,
+        np.zeros(6),
+        np.ones(6),
+        population=16,
+        generations=400,
+        rng=rng,
+        on_generation=lambda c: told.append(c) or c < 1e-12,
     )
     assert least == pytest.approx(cost(x[None])[0])
     assert least < 1e-12
@@ -39,9 +45,9 @@ def test_rings_are_the_closed_form_of_three_joints(rng):
     lengths = np.column_stack([rng.uniform(0.2, 0.6, count), rng.uniform(0.8, 1.4, (count, 2))])
     middle, half = rng.uniform(-2.5, 2.5, count), rng.uniform(0, 0.4, count)
     limits = np.stack([middle - half, middle + half], axis=1)
-    found = ring_area(lengths, limits[:, None], 401)
+    found = compute_ring_area(lengths, limits[:, None], 401)
     exact = [
-        area(ThreeLinks(each, np.zeros(2), np.zeros(3), np.ones(3)), np.array([[FULL, FULL, pair]]), 400)[0]
+        workspace_area(ThreeLinks(each, np.zeros(2), np.zeros(3), np.ones(3)), np.array([[FULL, FULL, pair]]), 400)[0]
         for each, pair in zip(lengths, limits, strict=True)
     ]
     assert (found > 0).sum() > 20
@@ -80,7 +86,7 @@ def test_rings_of_four_joints_are_what_sampling_finds(rng):
         ([0.3, 1.1, 0.5, 1.1], [[-2.0, -1.0], [1.0, 2.0]]),
     ):
         lengths, limits = np.array(lengths), np.array(limits)
-        found = float(ring_area(lengths[None], limits[None], 41)[0])
+        found = float(compute_ring_area(lengths[None], limits[None], 41)[0])
         assert found > 1
         assert found == pytest.approx(sampled_area(lengths, limits), rel=0.08)
 
@@ -106,22 +112,22 @@ def test_no_random_links_and_limits_are_above_the_bound(rng):
     lengths = rng.dirichlet(np.ones(3), 3000) * 3
     limits = np.sort(rng.uniform(-3, 3, (3000, 1, 2)), axis=2)
     limits[::2, :, 1] = limits[::2, :, 0] + 1e-3
-    found = ring_area(lengths, limits, 41)
+    found = compute_ring_area(lengths, limits, 41)
     assert 7 < found.max() <= 3 * np.pi
 
 
 def test_a_full_self_motion_of_four_joints_is_found():
-    record = hf.designs.record("self-motion-position-4R-001")
+    record = hf.designs.record_design("self-motion-position-4R-001")
     vary = {
         f"{kind}{k}": (-w, w)
         for k in (1, 2, 3, 4)
         for kind, w in (("a", 1.0), ("d", 1.0), ("alpha", 3.0))
         if (kind, k) != ("d", 1)
     }
-    sweeps = Sweeps(Family(hf.designs.design_space(record.arm, vary), task="position"))
+    sweeps = SelfMotionTracer(Family(hf.designs.design_space(record.arm, vary), task="position"))
     start = sweeps.family.space.start[None]
     swept = sweeps(np.vstack([start, start]), np.vstack([record.q, record.q + 0.02]), 0.05)
-    assert swept.closed.all()
+    assert swept.is_closed.all()
     assert abs(swept.winding).tolist() == [[1, 2, 1, 1]] * 2
     found = hf.designs.design_for_self_motion(record.arm, vary, task="position", seed=2)
     assert found.value == pytest.approx(4)

@@ -12,8 +12,8 @@ import oracles
 
 @pytest.fixture(scope="module")
 def judged():
-    arms = [hf.arms.load("planar-3r"), hf.designs.record("workspace-planar-3R-001").arm]
-    return hf.designs.judge(arms, task="planar", thresholds=(0.2, 0.4), level=0.8, poses=60, samples=3000, seed=5)
+    arms = [hf.arms.load("planar-3r"), hf.designs.record_design("workspace-planar-3R-001").arm]
+    return hf.designs.compare_arms(arms, task="planar", thresholds=(0.2, 0.4), level=0.8, poses=60, samples=3000, seed=5)
 
 
 def column(judged, measure):
@@ -53,8 +53,8 @@ def test_the_workspace_that_every_lock_leaves(judged):
     (k,) = column(judged, "tolerant-workspace")
     assert judged.columns[k].samples == 0  # exact
     assert judged.values[0, k] == 0
-    four = hf.designs.record("workspace-planar-4R-least-15-001").arm
-    found = hf.designs.judge(four, task="planar", measures=["tolerant-workspace"], points=60)
+    four = hf.designs.record_design("workspace-planar-4R-least-15-001").arm
+    found = hf.designs.compare_arms(four, task="planar", measures=["tolerant-workspace"], points=60)
     assert found.columns[0].samples == 60
     assert found.low[0, 0] < 0.7**2 < found.high[0, 0]
     assert found.high[0, 0] - found.low[0, 0] < 0.4
@@ -78,8 +78,8 @@ def test_what_cannot_be_judged(pa10):
         ({"level": 1.0}, "a level between 0 and 1"),
     ):
         with pytest.raises(hf.InputError, match=said):
-            hf.designs.judge(arm, task="planar", **options)
+            hf.designs.compare_arms(arm, task="planar", **options)
     with pytest.raises(hf.InputError, match="no arm to judge"):
-        hf.designs.judge([])
+        hf.designs.compare_arms([])
     with pytest.raises(hf.TaskError, match="needs one degree of redundancy; here it is 3"):
-        hf.designs.judge(pa10, measures=["self-motion-size"])
+        hf.designs.compare_arms(pa10, measures=["self-motion-size"])

@@ -5,10 +5,10 @@ import pytest
 import yaml
 
 import holdfast as hf
-from holdfast.designs.book.entries import digest_of, of_content
-from holdfast.designs.book.workspaces import area_by_grid, area_in_closed_form
-from holdfast.designs.judging.orders import distinct_orders
-from holdfast.designs.synthesis.axes import axes_of, poses_of
+from holdfast.designs.book.entries import digest_record_text, parse_record
+from holdfast.designs.book.workspaces import compute_exact_area, estimate_area_by_grid
+from holdfast.designs.judging.orders import find_distinct_orders
+from holdfast.designs.synthesis.axes import find_joint_axes, find_pose_jacobians
 
 ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
 
@@ -34,7 +34,7 @@ def left(arm, task, k):
     ],
 )
 def test_a_ceiling_is_realised_by_a_revolute_arm(task, n, m, k):
-    c = hf.ceilings.look_up(n=n, m=m, k=k)
+    c = hf.ceilings.upper_bound(n=n, m=m, k=k)
     exact = hf.designs.synthesise(c, task=task, starts=4, seed=1, decimals=16)
     assert max(exact.losses) < 1e-9
     assert left(exact.arms[0], task, k) == pytest.approx(c.best_known, rel=1e-9)
@@ -46,8 +46,8 @@ def test_a_ceiling_is_realised_by_a_revolute_arm(task, n, m, k):
 
 
 def test_lines_of_poses_are_found_from_nearly_every_start():
-    null = hf.ceilings.look_up(n=7, m=6).null_space
-    found, residual = poses_of(null, starts=20, seed=0)
+    null = hf.ceilings.upper_bound(n=7, m=6).null_space
+    found, residual = find_pose_jacobians(null, starts=20, seed=0)
     assert residual < 1e-12
     assert len(found) >= 15
     for j in found:
@@ -72,7 +72,7 @@ def test_what_is_no_jacobian_of_an_arm_is_refused(pa10_7):
         (j[[0, 1, 2, 3, 4, 4]], "dependent"),
     ):
         with pytest.raises(hf.InputError, match=said):
-            axes_of(wrong)
+            find_joint_axes(wrong)
     with pytest.raises(hf.InputError, match="has 3 rows; task 'pose' has 6"):
         hf.designs.synthesise(jacobian=j[:3])
     with pytest.raises(hf.InputError, match="give one of"):
@@ -80,7 +80,7 @@ def test_what_is_no_jacobian_of_an_arm_is_refused(pa10_7):
     with pytest.raises(hf.InputError, match="not orthonormal"):
         hf.designs.synthesise(null_space=np.ones((7, 1)))
     with pytest.raises(hf.InputError, match="of task 'pose' with 6 rows"):
-        hf.designs.synthesise(hf.ceilings.look_up(n=5, m=3, k=2))
+        hf.designs.synthesise(hf.ceilings.upper_bound(n=5, m=3, k=2))
 
 
 # ---- orders ------------------------------------------------------------------------------------------------------------
@@ -88,8 +88,8 @@ def test_what_is_no_jacobian_of_an_arm_is_refused(pa10_7):
 
 def test_orders_are_judged_as_the_index_judges_their_arms(pa10_7):
     """A few orders: the same draws through the index of the arm that is made for each of them."""
-    (j,), _ = poses_of(hf.ceilings.look_up(n=7, m=6).null_space, starts=1, seed=2)
-    found = hf.designs.judge_orders(j, samples=300, at_most=3, seed=5)
+    (j,), _ = find_pose_jacobians(hf.ceilings.upper_bound(n=7, m=6).null_space, starts=1, seed=2)
+    found = hf.designs.compare_joint_orders(j, samples=300, at_most=3, seed=5)
     assert found.at_home == pytest.approx(7**-0.5, rel=1e-9)
     draws = np.random.default_rng(5)
     draws.permutation(np.zeros((2520, 7)))  # the orders are drawn first
@@ -108,7 +108,7 @@ def least(jacobian):
 
 def test_a_reversed_order_is_the_same_arm_read_from_the_tool(rng):
     """At the angles of the first in reverse and the other way round both have the same value."""
-    (j,), _ = poses_of(hf.ceilings.look_up(n=7, m=6).null_space, starts=1, seed=2)
+    (j,), _ = find_pose_jacobians(hf.ceilings.upper_bound(n=7, m=6).null_space, starts=1, seed=2)
     one, other = (hf.designs.synthesise(jacobian=x, decimals=16).arms[0] for x in (j, j[:, ::-1]))
     for q in rng.uniform(-np.pi, np.pi, (20, 7)):
         assert least(one.jacobian(q)) == pytest.approx(least(other.jacobian(-q[::-1])), abs=1e-10)
@@ -119,13 +119,15 @@ def test_orders_that_a_symmetry_makes_the_same_are_judged_once(rng, pa10_7):
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     up = np.array([[0, 0, 1.0]] * 4) * rng.choice([-1, 1], (4, 1))
     # Paths through the corners of a square, up to its symmetries: by the sides, and with one or two diagonals.
-    assert len(distinct_orders(up @ turn.T, corners @ turn.T + rng.normal(size=3))) == 3
+    assert len(find_distinct_orders(up @ turn.T, corners @ turn.T + rng.normal(size=3))) == 3
     w = rng.normal(size=(5, 3))
-    assert len(distinct_orders(w / np.linalg.norm(w, axis=1, keepdims=True), rng.normal(size=(5, 3)))) == 60
+    assert len(find_distinct_orders(w / np.linalg.norm(w, axis=1, keepdims=True), rng.normal(size=(5, 3)))) == 60
 
 
 def test_the_front_of_orders_is_that_of_fresh_samples(rng, pa10_7):
-    found = hf.designs.judge_orders(pa10_7.jacobian(rng.uniform(-1, 1, 7)), samples=100, at_most=40, thresholds=(0.1, 0.2))
+    found = hf.designs.compare_joint_orders(
+        pa10_7.jacobian(rng.uniform(-1, 1, 7)), samples=100, at_most=40, thresholds=(0.1, 0.2)
+    )
     assert (np.diff(found.lengths[found.front]) > 0).all()
     assert (np.diff(found.fresh) > 0).all()
     assert len(found.front) == len(found.fresh) >= 1
@@ -133,9 +135,9 @@ def test_the_front_of_orders_is_that_of_fresh_samples(rng, pa10_7):
 
 def test_orders_that_cannot_be_judged(pa10):
     with pytest.raises(hf.InputError, match="say how many with at_most"):
-        hf.designs.judge_orders(pa10.jacobian(np.full(9, 0.3)))
+        hf.designs.compare_joint_orders(pa10.jacobian(np.full(9, 0.3)))
     with pytest.raises(hf.InputError, match="of 6 rows"):
-        hf.designs.judge_orders(np.eye(3))
+        hf.designs.compare_joint_orders(np.eye(3))
 
 
 # ---- the record book ---------------------------------------------------------------------------------------------------
@@ -143,7 +145,7 @@ def test_orders_that_cannot_be_judged(pa10):
 
 @pytest.fixture(scope="module")
 def book():
-    return hf.designs.records()
+    return hf.designs.record_designs()
 
 
 def test_a_changed_digit_is_found(book, tmp_path):
@@ -163,7 +165,7 @@ def test_a_changed_digit_is_found(book, tmp_path):
                 new["null_space"][4][1] += 1e-7
             file = tmp_path / "changed.yaml"
             file.write_text(yaml.safe_dump(new), encoding="utf-8")
-            assert not hf.designs.record(str(file)).check().ok, (name, change)
+            assert not hf.designs.record_design(str(file)).check().ok, (name, change)
 
 
 def test_every_changed_digit_of_a_file_is_found(book, rng):
@@ -171,14 +173,14 @@ def test_every_changed_digit_of_a_file_is_found(book, rng):
     files = [r for r in book.values() if r.arm is not None]
     assert len(files) == 36
     for record in files:
-        assert record.data.digest == digest_of(record.text)
-        assert digest_of(record.text.replace(", ", ",  ")) == record.data.digest
+        assert record.data.digest == digest_record_text(record.text)
+        assert digest_record_text(record.text.replace(", ", ",  ")) == record.data.digest
         digits = [k for k, c in enumerate(record.text[: record.text.index("digest:")]) if c.isdigit()]
         for k in rng.choice(digits, 20):
             changed = record.text[:k] + str((int(record.text[k]) + 1) % 10) + record.text[k + 1 :]
-            assert digest_of(changed) != record.data.digest
+            assert digest_record_text(changed) != record.data.digest
     text = book["panda-pose-k1-001"].text.replace("at: [0.0,", "at: [0.1,")
-    failed = [said for said, holds in of_content(yaml.safe_load(text), text, "changed").check().claims if not holds]
+    failed = [said for said, holds in parse_record(yaml.safe_load(text), text, "changed").check().claims if not holds]
     assert len(failed) == 1
     assert "digest" in failed[0]
 
@@ -187,14 +189,14 @@ def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_libra
     """Widths of the last joint's range, and what they cost: section 9 of the specification; the library samples the plane."""
     b = 2 * np.arccos(0.6)
     for width, area in ((0.001, 9.4185), (0.02, 9.2983), (0.05, 9.1059), (0.1, 8.7783), (0.2, 8.1013)):
-        assert area_in_closed_form([0.5, 1.25, 1.25], (b - width, b)) == pytest.approx(area, abs=6e-5)
+        assert compute_exact_area([0.5, 1.25, 1.25], (b - width, b)) == pytest.approx(area, abs=6e-5)
     limits = np.array([[-np.pi, np.pi], [b - 0.2, b]])
-    assert area_by_grid([0.5, 1.25, 1.25], limits) == pytest.approx(8.1013, rel=2e-3)
+    assert estimate_area_by_grid([0.5, 1.25, 1.25], limits) == pytest.approx(8.1013, rel=2e-3)
     record = book["workspace-planar-3R-001"]
     for last in ((b - 0.2, b), (-0.3, 0.4), (2.9, 3.4)):
         pairs = np.array([[-np.pi, np.pi], [-np.pi, np.pi], last])
         found = hf.tolerant_workspace(record.arm, "planar", pairs).size
-        assert area_in_closed_form([0.5, 1.25, 1.25], last) == pytest.approx(found, rel=1e-4)
+        assert compute_exact_area([0.5, 1.25, 1.25], last) == pytest.approx(found, rel=1e-4)
     changed = yaml.safe_load(record.text)
     del changed["digest"]
     for key, value, said in (
@@ -204,12 +206,12 @@ def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_libra
     ):
         file = tmp_path / "changed.yaml"
         file.write_text(yaml.safe_dump(changed | {key: value}), encoding="utf-8")
-        check = hf.designs.record(str(file)).check()
+        check = hf.designs.record_design(str(file)).check()
         assert any(said in claim for claim, holds in check.claims if not holds)
     for value in (0.0, -1.0):  # every quantity of the book is positive
         file.write_text(yaml.safe_dump(changed | {"value": value}), encoding="utf-8")
         with pytest.raises(hf.InputError, match="value"):
-            hf.designs.record(str(file))
+            hf.designs.record_design(str(file))
     assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in ("00", "05", 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
 
 
@@ -227,10 +229,10 @@ def test_the_best_configurations_of_arms_that_are_sold_hold(book):
     for at, value, said in ((3, 1e-6, "value"), (5, 1.0, "within its limits")):
         q = list(changed["at"])
         q[at] += value
-        record = of_content(changed | {"at": q}, "", "changed")
+        record = parse_record(changed | {"at": q}, "", "changed")
         assert any(said in claim for claim, holds in record.check().claims if not holds)
     with pytest.raises(hf.InputError, match="there is no built-in arm 'pandas'"):
-        of_content(changed | {"class": changed["class"] | {"of": "pandas"}}, "", "changed")
+        parse_record(changed | {"class": changed["class"] | {"of": "pandas"}}, "", "changed")
 
 
 def test_a_record_in_mujoco(book):

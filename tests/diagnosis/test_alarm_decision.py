@@ -7,8 +7,8 @@ import pytest
 
 import holdfast as hf
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.decision import Decision
-from holdfast.diagnosis.kinds import Kinds
+from holdfast.diagnosis.decision import AlarmDecision
+from holdfast.diagnosis.kinds import FaultClassifier
 from holdfast.diagnosis.sensors import Sensors
 
 
@@ -25,7 +25,7 @@ def decision(panda):
     arrays = {"torque": unseen, "change": unseen, "tracking": 0.01 * same, "coulomb": same, "viscous": same, "scales": same}
     bounds = Bounds(fingerprint="", joints=panda.joint_names, speed=same, **numbers, **arrays)
     settings = {"time": 0.9, "level": np.zeros(7), "joints": np.ones(7, dtype=bool), "torques": False}
-    return Decision(panda, bounds, Sensors(position=0.5e-3, angle=2e-3), **settings, tool=True, tool_alone=True)
+    return AlarmDecision(panda, bounds, Sensors(position=0.5e-3, angle=2e-3), **settings, tool=True, tool_alone=True)
 
 
 def test_the_next_joint_is_judged_by_least_squares(panda, decision, rng):
@@ -59,9 +59,9 @@ def test_a_record_that_ends_with_its_alarm_names_the_joint_with_the_largest_resi
 def test_the_uncertainty_of_a_loss_is_reached_by_the_worst_residual(sign):
     """A residual that is off by as much as that of a healthy arm can be, always against the torque or always with it."""
     torque, largest, loss = 4.0 + np.sin(np.arange(100.0)), 0.6, 0.5
-    kinds = Kinds(0, coulomb=0.05, bounds=(2.0, 0.01), largest=largest, noise=2e-5, torques=True)
+    kinds = FaultClassifier(0, coulomb=0.05, bounds=(2.0, 0.01), largest=largest, noise=2e-5, torques=True)
     for k, given in enumerate(torque.tolist()):
-        kinds.add(3e-4 * k - 1e-3, 3e-4 * k, 1.0, (-loss * given + sign * largest, given, 0.0))
-    found = kinds.named("rad", ())
+        kinds.add_cycle(3e-4 * k - 1e-3, 3e-4 * k, 1.0, (-loss * given + sign * largest, given, 0.0))
+    found = kinds.classify("rad", ())
     assert abs(found["loss"] - loss) == pytest.approx(found["uncertainty"], rel=1e-12)
     assert found["uncertainty"] == pytest.approx(0.15, abs=0.01)

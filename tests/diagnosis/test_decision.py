@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.diagnosis.kinds import Kinds
+from holdfast.diagnosis.kinds import FaultClassifier
 
 CYCLES, ONSET, EVERY, SAMPLES = 400, 100, 10, 12
 CERTAIN = 2 * np.log(1e6)  # squared deviations: the next joint is a million times less likely
@@ -129,10 +129,10 @@ def test_the_stated_uncertainty_covers_200_losses():
         healthy = rng.uniform(-largest, largest) * np.cos(rng.uniform(0, 60) * time + rng.uniform(0, 6))
         if k == 0:
             healthy = largest * np.sign(torque)
-        kinds = Kinds(0, coulomb=0.5, bounds=(2.0, 0.01), largest=largest, noise=2e-5, torques=True)
+        kinds = FaultClassifier(0, coulomb=0.5, bounds=(2.0, 0.01), largest=largest, noise=2e-5, torques=True)
         for row, (given, error) in enumerate(zip(torque, healthy, strict=True)):
-            kinds.add(3e-4 * row - 1e-3, 3e-4 * row, 1.0, (-loss * given + error, given, 0.0))
-        found = kinds.named("rad", ())
+            kinds.add_cycle(3e-4 * row - 1e-3, 3e-4 * row, 1.0, (-loss * given + error, given, 0.0))
+        found = kinds.classify("rad", ())
         assert found["kind"] in ("weak", "sluggish", "limp")
         error = abs(found["loss"] - loss)
         assert error <= found["uncertainty"] * (1 + 1e-9)

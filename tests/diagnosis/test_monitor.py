@@ -9,8 +9,8 @@ import pytest
 
 import holdfast as hf
 from cards import check_card
-from holdfast.arm.poses import pose_of
-from holdfast.diagnosis.kinds import Kinds
+from holdfast.arm.poses import pose_from_quaternion
+from holdfast.diagnosis.kinds import FaultClassifier
 from holdfast.errors import InputError
 from holdfast.faults import FaultEvent, Log
 
@@ -22,7 +22,7 @@ def panda():
 
 @pytest.fixture(scope="module")
 def healthy(panda):
-    return [hf.diagnosis.rehearse(panda, 2.5, seed=k) for k in range(5)]
+    return [hf.diagnosis.simulate_log(panda, 2.5, seed=k) for k in range(5)]
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ FAULTS = {
 @pytest.fixture(scope="module")
 def records(panda):
     return {
-        kind: hf.diagnosis.rehearse(panda, 1.6, seed=50, faults=[FaultEvent(kind, joint, 0.9, parameters=numbers)])
+        kind: hf.diagnosis.simulate_log(panda, 1.6, seed=50, faults=[FaultEvent(kind, joint, 0.9, parameters=numbers)])
         for kind, (joint, numbers, _) in FAULTS.items()
     }
 
@@ -78,9 +78,12 @@ def test_a_push_is_nobodys_fault(panda, bounds, healthy):
 
 def test_pushes_on_links_are_nobodys_fault(panda, bounds):
     """Of forces in MuJoCo on the elbow and the wrist no joint is blamed; several records at once are those one by one."""
-    pushes = [[hf.diagnosis.Push(panda.joint_names[k], (9.0, 12.0, 25.0), 0.8, end=1.2, point=(0, 0, 0.1))] for k in (4, 5, 6)]
-    logs = hf.diagnosis.rehearse_many(panda, 1.2, seeds=range(3), pushes=pushes)
-    alone = hf.diagnosis.rehearse(panda, 1.2, seed=2, pushes=pushes[2])
+    pushes = [
+        [hf.diagnosis.ExternalForce(panda.joint_names[k], (9.0, 12.0, 25.0), 0.8, end=1.2, point=(0, 0, 0.1))]
+        for k in (4, 5, 6)
+    ]
+    logs = hf.diagnosis.simulate_logs(panda, 1.2, seeds=range(3), external_forces=pushes)
+    alone = hf.diagnosis.simulate_log(panda, 1.2, seed=2, external_forces=pushes[2])
     for name in ("q", "tau", "x"):
         assert getattr(logs[2], name) == pytest.approx(getattr(alone, name), abs=1e-9, nan_ok=True)
     for log in logs:
@@ -88,7 +91,7 @@ def test_pushes_on_links_are_nobodys_fault(panda, bounds):
         assert said.time > 0.8
         assert (said.kind, said.joint) == ("contact", None)
     with pytest.raises(InputError, match="pushes are of 1 records and seeds of 2; give one for each"):
-        hf.diagnosis.rehearse_many(panda, 1.0, seeds=[1, 2], pushes=[[]])
+        hf.diagnosis.simulate_logs(panda, 1.0, seeds=[1, 2], external_forces=[[]])
 
 
 def test_a_push_that_one_joint_alone_feels(panda, bounds, healthy):
@@ -106,7 +109,7 @@ def test_a_push_that_one_joint_alone_feels(panda, bounds, healthy):
 
 def test_a_joint_that_is_let_go_is_blamed_despite_a_push(panda, bounds):
     """The force explains the torques of the first 20 ms better than one joint, but not where the joint is after 100 ms more."""
-    log = hf.diagnosis.rehearse(panda, 1.2, seed=77, faults=[FaultEvent("limp", "panda_joint4", 0.9)])
+    log = hf.diagnosis.simulate_log(panda, 1.2, seed=77, faults=[FaultEvent("limp", "panda_joint4", 0.9)])
     tau = log.tau.copy()
     tau[900:] -= np.einsum("tij,i->tj", panda.jacobian(log.q[900:])[:, :3], [0.0, 20.0, -10.0])
     log = dataclasses.replace(log, tau=tau)
@@ -119,10 +122,10 @@ def test_a_joint_that_is_let_go_is_blamed_despite_a_push(panda, bounds):
 
 def named(torque, residual, *, behind=1e-3, coulomb=0.5):
     """What is said of a joint that moves at 0.3 rad/s while its servo gives a torque, and that much is not explained."""
-    kinds = Kinds(0, coulomb=coulomb, bounds=(2.0, 0.01), largest=1.3, noise=2e-5, torques=True)
+    kinds = FaultClassifier(0, coulomb=coulomb, bounds=(2.0, 0.01), largest=1.3, noise=2e-5, torques=True)
     for k, (given, r) in enumerate(zip(torque.tolist(), residual.tolist(), strict=True)):
-        kinds.add(3e-4 * k - behind, 3e-4 * k, 1.0, (r, given, 0.0))
-    return kinds.named("rad", ())["kind"]
+        kinds.add_cycle(3e-4 * k - behind, 3e-4 * k, 1.0, (r, given, 0.0))
+    return kinds.classify("rad", ())["kind"]
 
 
 def test_what_follows_against_its_motor_is_pushed():
@@ -157,7 +160,7 @@ def test_a_loop_says_what_a_record_says(seen, panda, bounds, records):
         whole = monitor.run(log).verdict
         monitor.reset()
         there = np.flatnonzero(np.isfinite(log.x).all(axis=1)) if seen else []
-        poses = dict(zip(there, map(pose_of, log.x[there], log.quat[there]), strict=True)) if seen else {}
+        poses = dict(zip(there, map(pose_from_quaternion, log.x[there], log.quat[there]), strict=True)) if seen else {}
         rows = enumerate(zip(log.q, log.q_ref, log.tau, strict=True))
         told = [monitor.step(*row, pose=poses.get(k)) for k, row in rows]
         first = next(v for v in told if v.alarm)
@@ -174,7 +177,7 @@ def test_a_loop_says_what_a_record_says(seen, panda, bounds, records):
 def test_a_pose_that_comes_late_and_numbers_that_do_not_come(panda, bounds, records, healthy):
     """Late poses name the sensor that timely ones name; gaps of every length are nobody's fault, and said after 50 ms."""
     log, late = records["sensor_drift"], 9
-    poses = {k + late: pose_of(log.x[k], log.quat[k]) for k in np.flatnonzero(np.isfinite(log.x).all(axis=1))}
+    poses = {k + late: pose_from_quaternion(log.x[k], log.quat[k]) for k in np.flatnonzero(np.isfinite(log.x).all(axis=1))}
     monitor = hf.diagnosis.Monitor(panda, bounds, sensors=hf.diagnosis.Sensors(latency=0.009))
     rows = enumerate(zip(log.q, log.q_ref, log.tau, strict=True))
     told = [monitor.step(*row, pose=poses.get(k)) for k, row in rows]
@@ -199,7 +202,7 @@ def test_gaps_in_a_record_are_nobodys_fault(panda, bounds):
     So says the loop, whose residual after them is the same; rows that are not there are as rows of NaN.
     """
     fault = [FaultEvent("locked", "panda_joint4", 11.8)]
-    log = hf.diagnosis.rehearse(panda, 12.0, seed=1, faults=fault, pose=False)
+    log = hf.diagnosis.simulate_log(panda, 12.0, seed=1, faults=fault, pose=False)
     missing, long = np.zeros(len(log.t), dtype=bool), ((0.70, 0.76), (0.9, 1.4), (1.5, 11.5))
     for start, end in ((0.5, 0.52), *long):
         missing[round(1000 * start) : round(1000 * end)] = True
@@ -211,7 +214,7 @@ def test_gaps_in_a_record_are_nobodys_fault(panda, bounds):
     for record in (Log(**{**given, **holes}), Log(**{name: value[~missing] for name, value in given.items()})):
         found = hf.diagnosis.diagnose(panda, record, bounds)
         assert (found.verdict.joint, found.verdict.time) == ("panda_joint4", pytest.approx(11.8, abs=0.05))
-        assert found.signals.torque[-1] == pytest.approx(monitor._r, abs=1e-9)
+        assert found.signals.torque[-1] == pytest.approx(monitor._residual, abs=1e-9)
         assert (told.time, told.joint, told.kind) == (
             pytest.approx(found.verdict.time),
             found.verdict.joint,
@@ -242,7 +245,7 @@ def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):
 def test_a_motion_is_looked_at_beforehand(panda, bounds, records):
     """What is predicted is what happens: the delay within a factor 2, on a robot whose masses are off."""
     log, i = records["locked"], 3
-    seen = hf.diagnosis.observe(panda, log.q_ref, bounds=bounds)
+    seen = hf.diagnosis.predict_detection(panda, log.q_ref, bounds=bounds)
     assert seen.unseen == ()
     assert set(seen.alike) == {"panda_joint1", "panda_joint5", "panda_joint7"}
     assert np.isfinite(seen.delays[:, i]).all()
@@ -268,7 +271,7 @@ def test_false_alarms_are_counted_and_bounded(bounds, healthy):
 
 def test_masses_of_a_robot_are_found_from_its_records(panda):
     """What rehearse drew, of the links that gravity shows; and tighter bounds, with which another motion does not alarm."""
-    logs = [hf.diagnosis.rehearse(panda, 5.0, seed=20 + k, body=3, pose=False) for k in range(3)]
+    logs = [hf.diagnosis.simulate_log(panda, 5.0, seed=20 + k, robot=3, pose=False) for k in range(3)]
     given = {"coulomb": np.full(7, 0.5), "viscous": np.full(7, 0.3)}
     fit = hf.diagnosis.calibrate(panda, logs[:2], **given, fit=True)
     true = 1 + np.random.default_rng([1, 3]).uniform(-0.2, 0.2, 7)

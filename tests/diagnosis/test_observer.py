@@ -9,8 +9,8 @@ import pytest
 
 import dynamics
 import holdfast as hf
-from holdfast.diagnosis.observer import GAIN, excess, momentum_kernel, residuals
-from holdfast.physics.model import mujoco_spec
+from holdfast.diagnosis.observer import OBSERVER_GAIN_PER_S, accumulate_excess, momentum_kernel, observe_residuals
+from holdfast.physics.model import build_mujoco_spec
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def test_momentum_and_its_terms_are_those_of_pinocchio(panda, rng):
 
 def test_the_residual_is_the_external_torque(panda):
     """A torque on one joint of MuJoCo's arm that no motor gives appears on its row, after the filters, and on no other."""
-    model = mujoco_spec(panda, np.zeros(7), range(7)).compile()
+    model = build_mujoco_spec(panda, np.zeros(7), range(7)).compile()
     model.dof_damping[:] = [joint.friction for joint in panda.joints]
     data = mujoco.MjData(model)
     start = np.array([0, 0.4, 0.2, -1.6, 0.3, 2.0, 0.1])
@@ -43,12 +43,14 @@ def test_the_residual_is_the_external_torque(panda):
         torques.append(torque)
         mujoco.mj_step(model, data)
     wet = np.array([joint.friction for joint in panda.joints])
-    r, *_ = residuals(momentum_kernel(panda), np.array(places), np.array(torques), dt=1e-3, coulomb=np.zeros(7), viscous=wet)
+    r, *_ = observe_residuals(
+        momentum_kernel(panda), np.array(places), np.array(torques), dt=1e-3, coulomb=np.zeros(7), viscous=wet
+    )
     assert np.abs(r[100:300]).max() < 0.15
     assert r[-1, 3] == pytest.approx(5.0, abs=0.15)
     assert np.abs(np.delete(r[-1], 3)).max() < 0.15
     rise = np.flatnonzero(r[300:, 3] > 5 * (1 - np.exp(-1)))[0] * 1e-3
-    assert rise == pytest.approx(1 / GAIN, abs=0.015)  # the filter on the rates adds its own 8 ms
+    assert rise == pytest.approx(1 / OBSERVER_GAIN_PER_S, abs=0.015)  # the filter on the rates adds its own 8 ms
 
 
 def test_excess_is_its_definition(rng):
@@ -58,4 +60,4 @@ def test_excess_is_its_definition(rng):
     for row in z:
         total = np.maximum(0.0, total + np.nan_to_num(row - 1, nan=0.0) * 0.01)
         want.append(total)
-    assert excess(z, 0.01) == pytest.approx(np.array(want), abs=1e-12)
+    assert accumulate_excess(z, 0.01) == pytest.approx(np.array(want), abs=1e-12)

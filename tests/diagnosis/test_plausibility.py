@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.diagnosis.observer import excess
+from holdfast.diagnosis.observer import accumulate_excess
 from holdfast.errors import InputError
 from holdfast.faults import Log
 
@@ -50,7 +50,7 @@ def healthy(crane):
             0.5 - 0.3 * np.cos((1.5 + 0.3 * seed) * t),
             0.8 - 0.4 * np.cos((1.2 + 0.2 * seed) * t),
         ]
-        logs.append(hf.diagnosis.rehearse(crane, motion=np.stack(angles, axis=1), seed=seed, pose=False))
+        logs.append(hf.diagnosis.simulate_log(crane, motion=np.stack(angles, axis=1), seed=seed, pose=False))
     return logs
 
 
@@ -134,7 +134,7 @@ def test_a_lock_is_detected_no_later_than_calibration_prints(crane, healthy, spe
     bounds = dataclasses.replace(calibrated(crane, healthy), speed=np.full(3, 2 * speed))
     t = np.arange(100_000) * 1e-5
     for delay, tracking in zip(bounds.lock_delays(), bounds.tracking, strict=True):
-        alarm = t[(excess(speed * t / tracking, 1e-5) > 0.020).argmax()]
+        alarm = t[(accumulate_excess(speed * t / tracking, 1e-5) > 0.020).argmax()]
         assert delay == pytest.approx(alarm, abs=1e-4)
 
 
@@ -187,7 +187,7 @@ def test_a_fast_record_without_torques_is_printed_without_a_warning(crane, healt
     fast = np.stack([2.0 * t, 0.5 + t, 0.8 - t], axis=1)
     found = hf.diagnosis.diagnose(crane, Log(t=t, q_ref=fast, q=fast + 1e-4), bounds)
     assert not found.verdict.alarm
-    assert found._presented("tables")[0].rows
+    assert found._present("tables")[0].rows
 
 
 @pytest.mark.parametrize("joints", [[0, 1, 2], [1]])

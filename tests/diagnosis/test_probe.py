@@ -21,7 +21,7 @@ def panda():
 
 @pytest.fixture(scope="module")
 def probe(panda):
-    return hf.diagnosis.plan_probe(panda, [0.0, -0.4, 0.3, -2.0, 0.2, 1.8, 0.5])
+    return hf.diagnosis.plan_identification(panda, [0.0, -0.4, 0.3, -2.0, 0.2, 1.8, 0.5])
 
 
 def measured(arm, plan, locked, rng):
@@ -62,7 +62,7 @@ def test_the_elbow_is_invisible_for_ever(rng):
     arm = hf.arms.load("iiwa14")
     shown = hf.diagnosis.self_motion_rates(arm, rng.uniform(arm.lower, arm.upper, (40, 7)))
     assert shown[:, 3].max() < 1e-9
-    found = hf.diagnosis.plan_probe(arm, [0.0, 0.4, 0.3, -1.0, 0.2, 0.8, 0.5])
+    found = hf.diagnosis.plan_identification(arm, [0.0, 0.4, 0.3, -1.0, 0.2, 0.8, 0.5])
     assert found.untestable == (arm.joint_names[3],)
     assert "no self-motion moves it here, and its lock is not tolerable here either" in found.describe()[1]
 
@@ -109,20 +109,20 @@ def test_a_lock_that_is_not_seen_stays_undecided(panda, probe, rng):
 def test_a_motion_that_keeps_a_joint_still_does_not_show_it(panda, probe):
     still = probe.q.copy()
     still[:, 4] = still[0, 4]
-    assert hf.diagnosis.observe(panda, still, rate=100.0).unseen == ("panda_joint5",)
+    assert hf.diagnosis.predict_detection(panda, still, rate=100.0).unseen == ("panda_joint5",)
 
 
 def test_a_notebook_shows_them(rng):
     arm = hf.arms.load("planar-3r")
-    plan = hf.diagnosis.plan_probe(arm, [0.3, 0.5, 0.7], task="planar", suspects=[0, 1])
+    plan = hf.diagnosis.plan_identification(arm, [0.3, 0.5, 0.7], task="planar", suspects=[0, 1])
     check_card(plan, True, arm=arm)
-    check_card(hf.diagnosis.observe(arm, plan.q, rate=100.0), True, arm=arm)
+    check_card(hf.diagnosis.predict_detection(arm, plan.q, rate=100.0), True, arm=arm)
     check_card(plan.decide(measured(arm, plan, None, rng)), False)
 
 
 def test_delays_are_those_of_the_filters_step_by_step(panda, rng):
     """Against a loop over the difference equations, for one joint."""
-    log = hf.diagnosis.rehearse(panda, 1.0, seed=4)
+    log = hf.diagnosis.simulate_log(panda, 1.0, seed=4)
     bounds = hf.diagnosis.calibrate(panda, [log, log])
     told = hf.diagnosis.expected_delays(bounds, log.q_ref, stiffness=np.full(7, 400.0), damping=np.full(7, 20.0), onset=0.5)
     dt, rates = 1e-3, np.gradient(log.q_ref, 1e-3, axis=0)
@@ -141,7 +141,7 @@ def test_delays_are_those_of_the_filters_step_by_step(panda, rng):
 
 def test_what_cannot_be_asked(panda, probe, rng):
     with pytest.raises(InputError, match="has no redundancy for task 'pose'"):
-        hf.diagnosis.plan_probe(hf.arms.load("ur5"), np.zeros(6))
+        hf.diagnosis.plan_identification(hf.arms.load("ur5"), np.zeros(6))
     log = measured(panda, probe, 1, rng)
     with pytest.raises(InputError, match="the record has no measured pose"):
         probe.decide(Log(t=log.t, q_ref=log.q_ref, q=log.q))
@@ -149,4 +149,4 @@ def test_what_cannot_be_asked(panda, probe, rng):
     with pytest.raises(InputError, match="begin the record at rest"):
         probe.decide(Log(t=log.t, q_ref=log.q_ref, q=log.q, x=late, quat=log.quat))
     with pytest.raises(InputError, match=r"they must be above 0\.6"):
-        hf.diagnosis.plan_probe(panda, probe.q[0], duration=0.5)
+        hf.diagnosis.plan_identification(panda, probe.q[0], duration=0.5)

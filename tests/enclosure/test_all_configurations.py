@@ -9,9 +9,9 @@ import holdfast as hf
 import oracles
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import as_task
-from holdfast.enclosure import Finding, all_configurations
-from holdfast.enclosure.box_bounds import Parts, box_kernel
-from holdfast.recovery.rows import row_solver
+from holdfast.enclosure import SearchOutcome, all_configurations
+from holdfast.enclosure.box_bounds import BoundedTask, box_kernel
+from holdfast.recovery.rows import make_row_solver
 
 
 @pytest.fixture(scope="module")
@@ -32,12 +32,12 @@ def locked_at(arm, q, joints, widths=1.0, rng=None):
 
 def newton(arm, task, pose, low, high, starts, rng):
     """Configurations that Newton's method finds from random starts within limits."""
-    solver = row_solver(arm, as_task(arm, task))
+    solver = make_row_solver(arm, as_task(arm, task))
     free = high > low
     q = rng.uniform(low, high, (starts, arm.n))
     poses, kept = np.repeat(pose[None], starts, axis=0), np.ones((starts, solver.rows.m))
-    q = solver.run(q, poses, kept, free)
-    q = q[solver.meets(q, poses, kept, free) & ((q >= low) & (q <= high)).all(axis=1)]
+    q = solver.solve(q, poses, kept, free)
+    q = q[solver.meets_rows(q, poses, kept, free) & ((q >= low) & (q <= high)).all(axis=1)]
     found = []
     for x in q:
         if all(np.abs(x - y).max() > 1e-4 for y in found):
@@ -52,10 +52,10 @@ def test_all_that_newton_finds_is_found_and_never_a_proof_against_it(panda, task
         low, high = locked_at(panda, q, rng.choice(6 if task == "pointing" else 7, locks, replace=False))
         pose = panda.forward_kinematics(q if k % 2 == 0 else rng.uniform(panda.lower, panda.upper))
         found = all_configurations(panda, pose, task, limits=(low, high), time_limit=60)
-        assert found.finding in (Finding.ALL, Finding.NONE)
-        assert found.finding == Finding.ALL or k % 2
-        solver = row_solver(panda, as_task(panda, task))
-        errors = solver.errors(found.q, np.repeat(pose[None], len(found.q), axis=0))
+        assert found.finding in (SearchOutcome.ALL, SearchOutcome.NONE)
+        assert found.finding == SearchOutcome.ALL or k % 2
+        solver = make_row_solver(panda, as_task(panda, task))
+        errors = solver.compute_errors(found.q, np.repeat(pose[None], len(found.q), axis=0))
         np.testing.assert_allclose(errors, 0, atol=1e-8)
         if task == "pointing":  # the last joint is idle and left in the middle
             low[-1] = high[-1] = (low[-1] + high[-1]) / 2
@@ -72,9 +72,9 @@ def test_two_branches_of_a_planar_arm_and_none_beyond_its_reach():
         found = all_configurations(arm, [distance, 0.0], "planar", limits=(low, high))
         elbow = np.pi - np.arccos((1 + 4 - distance**2) / 4)
         np.testing.assert_allclose(np.sort(found.q[:, 1]), [-elbow, elbow], atol=1e-9)
-        assert found.finding == Finding.ALL
+        assert found.finding == SearchOutcome.ALL
     for distance in (0.98, 3.02):
-        assert all_configurations(arm, [distance, 0.0], "planar", limits=(low, high)).none
+        assert all_configurations(arm, [distance, 0.0], "planar", limits=(low, high)).proved_empty
 
 
 @pytest.mark.parametrize(("types", "task"), [("RPRRRR", "pose"), ("RRRPR", "position"), ("RRRRRRR", "pose")])
@@ -86,13 +86,13 @@ def test_a_reachable_pose_is_never_proved_absent(types, task, generator):
         q = rng.uniform(arm.lower, arm.upper)
         low, high = locked_at(arm, q, rng.choice(arm.n, max(arm.n - (6 if task == "pose" else 3), 0), replace=False), 0.3, rng)
         found = all_configurations(arm, arm.forward_kinematics(q), task, limits=(low, high), first=True, time_limit=60)
-        assert found.finding == Finding.SOME
+        assert found.finding == SearchOutcome.SOME
         assert ((found.q >= low - 1e-6) & (found.q <= high + 1e-6)).all()
 
 
 @pytest.mark.parametrize("task", ["pose", "pointing", "position"])
 def test_no_box_that_holds_a_configuration_is_called_empty_or_cut_past_it(panda, task, rng):
-    parts = Parts.of(panda, as_task(panda, task))
+    parts = BoundedTask.from_task(panda, as_task(panda, task))
     kernel = box_kernel(panda, parts)
     count = 20_000
     q = rng.uniform(panda.lower, panda.upper, (count, 7))
@@ -111,26 +111,26 @@ def test_no_box_that_holds_a_configuration_is_called_empty_or_cut_past_it(panda,
 def test_a_tolerance_is_part_of_the_proof():
     arm = hf.arms.load("planar-3r")
     limits = np.array([0.0, -np.pi, 0.0]), np.array([0.0, np.pi, 0.0])  # the tool on a circle of 2 m about (1, 0)
-    assert all_configurations(arm, [1.0, 2.001], "planar", limits=limits).none
-    assert all_configurations(arm, [1.0, 2.001], "planar", limits=limits, tolerance=5e-4).none
-    assert not all_configurations(arm, [1.0, 2.001], "planar", limits=limits, tolerance=2e-3).none
+    assert all_configurations(arm, [1.0, 2.001], "planar", limits=limits).proved_empty
+    assert all_configurations(arm, [1.0, 2.001], "planar", limits=limits, tolerance=5e-4).proved_empty
+    assert not all_configurations(arm, [1.0, 2.001], "planar", limits=limits, tolerance=2e-3).proved_empty
 
 
 def test_more_joints_than_rows_end_with_one_configuration(panda, rng):
     q = rng.uniform(panda.lower, panda.upper)
     found = all_configurations(panda, panda.forward_kinematics(q), time_limit=60)
-    assert found.finding == Finding.SOME
+    assert found.finding == SearchOutcome.SOME
     np.testing.assert_allclose(panda.forward_kinematics(found.q[0]), panda.forward_kinematics(q), atol=1e-7)
     away = panda.forward_kinematics(q)
     away[:3, 3] += [2.0, 0, 0]
-    assert all_configurations(panda, away).none
+    assert all_configurations(panda, away).proved_empty
 
 
 def test_what_is_spent_is_said(panda, rng):
     pose = panda.forward_kinematics(rng.uniform(panda.lower, panda.upper))
     low, high = locked_at(panda, (panda.lower + panda.upper) / 2, [2])
     found = all_configurations(panda, pose, limits=(low, high), most_boxes=100)
-    assert found.finding == Finding.OPEN
+    assert found.finding == SearchOutcome.OPEN
     assert found.open > 0
     assert found.widest > 0
     assert "undecided" in found.describe()[0]
@@ -165,7 +165,7 @@ def test_a_slide_outside_its_stroke_is_no_proof(types, task, free, generator):
         low[:free] -= 0.02
         high[:free] += 0.8
         pose = arm.forward_kinematics(q)
-        assert not all_configurations(arm, pose, task, limits=(low, high), first=True, time_limit=60).none
+        assert not all_configurations(arm, pose, task, limits=(low, high), first=True, time_limit=60).proved_empty
 
 
 def test_a_pose_tilted_out_of_the_plane_is_refused_and_one_in_it_is_not(rng):
@@ -179,4 +179,4 @@ def test_a_pose_tilted_out_of_the_plane_is_refused_and_one_in_it_is_not(rng):
 
 def test_a_task_without_bounds_is_refused(panda):
     with pytest.raises(hf.TaskError, match="nothing can be proved about"):
-        all_configurations(panda, np.eye(4), hf.arm.task.rows_task(["vx", "wy"], frame="tool"))
+        all_configurations(panda, np.eye(4), hf.arm.task.task_from_rows(["vx", "wy"], frame="tool"))

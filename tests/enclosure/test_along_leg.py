@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.enclosure import parted
+from holdfast.enclosure import prove_leg_impossible
 from holdfast.errors import TaskError
 
 REACH = 2.8  # rad
@@ -44,7 +44,9 @@ def branches(point, way, samples=2001):
 def proof(arm, low, high, point, way, blocked=None, **options):
     pose = np.eye(4)
     pose[:2, 3] = point
-    return parted(arm, as_task(arm, "planar"), pose, way=np.append(way, 0.0), limits=(low, high), blocked=blocked, **options)
+    return prove_leg_impossible(
+        arm, as_task(arm, "planar"), pose, way=np.append(way, 0.0), limits=(low, high), blocked=blocked, **options
+    )
 
 
 @pytest.mark.parametrize("wall", [False, True])
@@ -88,4 +90,6 @@ def test_what_is_spent_ends_without_a_proof(two, rng):
     assert proof(two, low, high, point, np.array([9.0, 0.0])) is not None
     assert proof(two, low, high, point, np.array([9.0, 0.0]), most_boxes=1) is None
     with pytest.raises(TaskError, match="nothing can be proved about"):
-        parted(two, hf.arm.task.rows_task(["vx", "wy"], frame="tool"), np.eye(4), way=[1.0, 0, 0], limits=(low, high))
+        prove_leg_impossible(
+            two, hf.arm.task.task_from_rows(["vx", "wy"], frame="tool"), np.eye(4), way=[1.0, 0, 0], limits=(low, high)
+        )

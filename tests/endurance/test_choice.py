@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.endurance import choice
-from holdfast.endurance.grid import Nodes
+from holdfast.endurance.grid import CurveNodes
 
 SPAN, EXTRA = 0.5, 0.3
 
@@ -22,7 +22,7 @@ def arm(limits):
 
 def nodes(machine, q):
     number = np.arange(len(q))
-    return Nodes._of(machine, q, SPAN, 0 * number, number, number)
+    return CurveNodes._create(machine, q, SPAN, 0 * number, number, number)
 
 
 def flat(q):
@@ -37,30 +37,30 @@ def allowed(a, b, limit, extra):
     return (angle <= limit + extra).all(axis=2) & (far <= short), far**2
 
 
-@pytest.mark.parametrize("dense", [0, choice._DENSE], ids=["tree", "all"])
+@pytest.mark.parametrize("dense", [0, choice._MAX_DENSE_MOVES], ids=["tree", "all"])
 @pytest.mark.parametrize("known", [True, False])
 def test_no_motion_gathers_more_and_none_as_good_is_shorter(rng, monkeypatch, dense, known):
-    monkeypatch.setattr(choice, "_DENSE", dense)
+    monkeypatch.setattr(choice, "_MAX_DENSE_MOVES", dense)
     machine = arm([(-np.inf, np.inf), (-np.inf, np.inf)])
     limit = np.array([0.9, 1.2 if known else np.inf])
     found = 0
     for _ in range(6):
         q = [rng.uniform(-np.pi, np.pi, (5, 2)) for _ in range(4)]
         gains = [rng.integers(0, 3, 5).astype(np.float64) for _ in range(4)]
-        fronts = choice.Front(gains), choice.Front(gains, EXTRA)
-        choice.advanced(machine, [nodes(machine, x) for x in q], limit, fronts)
+        fronts = choice.BestPathTable(gains), choice.BestPathTable(gains, EXTRA)
+        choice.advance_tables(machine, [nodes(machine, x) for x in q], limit, fronts)
         for front in fronts:
-            steps = [allowed(a, b, limit, front.extra) for a, b in itertools.pairwise(q)]
+            steps = [allowed(a, b, limit, front.allowed_excess) for a, b in itertools.pairwise(q)]
             worth = {}
             for way in itertools.product(range(5), repeat=4):
                 moves = list(zip(steps, itertools.pairwise(way), strict=True))
                 if all(good[m] for (good, _), m in moves):
                     worth[way] = sum(g[k] for g, k in zip(gains, way, strict=True)), -sum(far[m] for (_, far), m in moves)
             if not worth:
-                assert front.ended is not None
+                assert front.last_pose is not None
                 continue
             found += 1
             best = max(worth.values())
-            assert front.most == best[0]
-            assert worth[tuple(front.motion().tolist())] == (best[0], pytest.approx(best[1]))
+            assert front.best_total == best[0]
+            assert worth[tuple(front.trace_best_motion().tolist())] == (best[0], pytest.approx(best[1]))
     assert found > 2

@@ -9,10 +9,10 @@ import holdfast as hf
 from cells import from_disc, placed
 from holdfast.cell import Sphere
 from holdfast.endurance import tables
-from holdfast.endurance.problem import posed
+from holdfast.endurance.problem import make_problem
 from holdfast.errors import HoldfastError, InputError, TaskError
 from holdfast.paths import Constant, TimedPath, line
-from holdfast.words import percent
+from holdfast.words import format_percent
 from unit_links import LIMITS, arm, around, configuration, places, survives, timed
 
 
@@ -23,13 +23,13 @@ def test_a_lock_is_followed_as_far_as_the_closed_form_says(limits, rng):
     for _ in range(4):
         begin, end = rng.uniform(-2, 2, (2, 2))
         path = timed(begin, end)
-        problem = posed(
+        problem = make_problem(
             machine, path, None, False, "on-path", None, 31, None, None, 0.0, keep=None, spacing=0.1, seed=0, starts=8
         )
         found = hf.solve_ik(machine, problem.lock.poses, seed=int(rng.integers(1 << 30)), task="planar", restarts=20)
         if not found.success.all():
             continue
-        verdicts = tables.along(problem.lock, found.q)
+        verdicts = tables.follow_motion_locks(problem.lock, found.q)
         points = places(path, 31)
         want = [[survives(machine, q, k, points[t:]) for k in range(3)] for t, q in enumerate(found.q)]
         agreed += int((verdicts == want).sum())
@@ -45,7 +45,7 @@ def narrow():
     """An arm with limits on a line where not every lock is survived."""
     machine = arm(LIMITS)
     path = timed([1.6, -0.9], [1.1, 1.3])
-    return machine, path, hf.endure(machine, path, samples=21, spacing=0.1)
+    return machine, path, hf.plan_motion(machine, path, samples=21, spacing=0.1)
 
 
 def test_the_table_is_that_of_the_closed_form(narrow):
@@ -99,7 +99,7 @@ def test_a_survival_is_quoted_with_what_is_possible(narrow):
     """Also in the first line of the report: another motion may survive more than the one that was found."""
     _, _, best = narrow
     assert best.survival <= best.bound + 1e-9 < 1
-    assert f"no motion along this path survives more than {percent(best.bound)}" in best.headline
+    assert f"no motion along this path survives more than {format_percent(best.bound)}" in best.headline
     assert best.headline in best.describe()[0]
 
 
@@ -111,7 +111,7 @@ def test_the_motion_follows_the_path_and_survives_what_it_says(narrow):
     points = places(path, 21)
     want = np.array([[survives(machine, q, k, points[t:]) for k in range(3)] for t, q in enumerate(best.q)])
     assert (best.survives != want).mean() <= 0.02
-    given = hf.endurance_of(machine, best.q, path, samples=21)
+    given = hf.evaluate_motion(machine, best.q, path, samples=21)
     assert given.survival == pytest.approx(best.survival, abs=1e-12)
     assert given.bound is given.gap is given.found is None
 
@@ -127,7 +127,7 @@ def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow)
         hf.Cell([Sphere("ball", ball, pose=placed(*centre, 0))]),
         itself=False,
     )
-    best = hf.endure(machine, path, samples=samples, spacing=0.1, clearance=clearance)
+    best = hf.plan_motion(machine, path, samples=samples, spacing=0.1, clearance=clearance)
     points = places(path, samples)
 
     def room(q):
@@ -163,12 +163,12 @@ def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow)
 
 def test_a_guarantee_is_given_where_there_is_one():
     """Without limits every lock of unit links can be survived on a short line; with limits somewhere no configuration can."""
-    free = hf.endure(arm(), timed([1.2, 0.3], [1.2, 0.7]), samples=11, spacing=0.1)
+    free = hf.plan_motion(arm(), timed([1.2, 0.3], [1.2, 0.7]), samples=11, spacing=0.1)
     assert free.guaranteed
     assert free.survival == 1
     assert free.never is None
     assert (free.safe_from, free.safe_until) == (0, 2)
-    bound = hf.endure(arm(LIMITS), timed([1.6, -0.9], [1.1, 1.3]), samples=11, spacing=0.1)
+    bound = hf.plan_motion(arm(LIMITS), timed([1.6, -0.9], [1.1, 1.3]), samples=11, spacing=0.1)
     assert not bound.guaranteed
     when, joint = bound.never
     survived = bound.found.survives[int(np.searchsorted(bound.time, when - 1e-9))]
@@ -178,10 +178,10 @@ def test_a_guarantee_is_given_where_there_is_one():
 
 def test_rates_weigh_joints_and_time(narrow):
     machine, path, best = narrow
-    only = [hf.endure(machine, path, rates={name: 2.0}, samples=21, spacing=0.1) for name in machine.joint_names]
+    only = [hf.plan_motion(machine, path, rates={name: 2.0}, samples=21, spacing=0.1) for name in machine.joint_names]
     # Whatever survives most locks of all joints cannot survive more of one than the best for that one alone.
     assert all(one.survival >= best.by_joint[name] - 1e-9 for one, name in zip(only, machine.joint_names, strict=True))
-    fast = hf.endurance_of(machine, best.q, path, rates=[1.0, 1.0, 1.0], per_second=True, samples=21)
+    fast = hf.evaluate_motion(machine, best.q, path, rates=[1.0, 1.0, 1.0], per_second=True, samples=21)
     weight = np.exp(-3 * fast.time)
     lost = np.trapezoid(weight * 3 * (1 - best.curve()), fast.time)
     assert fast.lost == pytest.approx(lost, rel=1e-9)
@@ -191,7 +191,7 @@ def test_rates_weigh_joints_and_time(narrow):
 
 def test_detours_survive_what_the_ranges_of_the_joints_say(narrow):
     machine, path, best = narrow
-    wide = hf.endure(machine, path, samples=21, spacing=0.1, mode="detour")
+    wide = hf.plan_motion(machine, path, samples=21, spacing=0.1, mode="detour")
     assert wide.bound >= best.bound - 1e-9
     # A lock is survived if at every pose to come some configuration has the joint there: a scan of closed forms.
     points = places(path, 21)
@@ -218,23 +218,23 @@ def test_other_motions_beside_it(narrow):
     """As if each had been made and judged by hand; where one is off the path it survives nothing."""
     machine, path, _ = narrow
     index = hf.indices.relative_manipulability(machine, "planar")
-    got = hf.endure(machine, path, samples=21, spacing=0.1, compare=["least-norm", index])
+    got = hf.plan_motion(machine, path, samples=21, spacing=0.1, compare=["least-norm", index])
     by_hand = hf.follow(machine, path, maximise=index, method="none", samples=21, task="planar")
-    least = got.beside[0]
+    least = got.comparisons[0]
     off = by_hand.position_error > 1e-3
     assert 0 < least.off == off.mean() < 1
     assert not least.curve[off].any()
-    assert all(other.survival <= got.bound + 1e-9 for other in got.beside)
+    assert all(other.survival <= got.bound + 1e-9 for other in got.comparisons)
     free = arm()
-    got = hf.endure(free, path, samples=11, spacing=0.2, compare=["least-norm"])
+    got = hf.plan_motion(free, path, samples=11, spacing=0.2, compare=["least-norm"])
     index = hf.indices.relative_manipulability(free, "planar")
     by_hand = hf.follow(free, path, maximise=index, method="none", samples=11, task="planar")
-    (least,) = got.beside
+    (least,) = got.comparisons
     assert least.off == 0
-    assert least.survival == pytest.approx(hf.endurance_of(free, by_hand, path, samples=11).survival)
+    assert least.survival == pytest.approx(hf.evaluate_motion(free, by_hand, path, samples=11).survival)
     assert least.survival <= got.survival
     with pytest.raises(InputError, match="least-norm"):
-        hf.endure(machine, path, samples=21, compare=["fastest"])
+        hf.plan_motion(machine, path, samples=21, compare=["fastest"])
 
 
 def test_a_motion_for_a_controller_keeps_path_and_verdicts(narrow):
@@ -242,14 +242,14 @@ def test_a_motion_for_a_controller_keeps_path_and_verdicts(narrow):
     motion = best.motion
     assert motion.on_path
     assert np.abs(motion.q[::5] - best.q).max() < 1e-9
-    assert hf.endurance_of(machine, motion, path, samples=21).survival == pytest.approx(best.survival)
+    assert hf.evaluate_motion(machine, motion, path, samples=21).survival == pytest.approx(best.survival)
 
 
 def test_a_start_is_kept(narrow):
     machine, path, best = narrow
     near = np.abs(best.found.nodes[0] - best.q[0]).max(axis=1)
     start = best.found.nodes[0][np.flatnonzero(near > 0.2)[near[near > 0.2].argmin()]]
-    got = hf.endure(machine, path, samples=21, spacing=0.1, start=start)
+    got = hf.plan_motion(machine, path, samples=21, spacing=0.1, start=start)
     assert np.abs(got.q[0] - start).max() < 1e-9
     assert got.survival <= best.survival + 1e-9
 
@@ -274,7 +274,7 @@ def test_an_elbow_is_set_by_the_pose():
     begin[:3, 3] = [0.45, -0.5, 0.35]
     end = begin.copy()
     end[1, 3] = 0.5
-    best = hf.endure(machine, TimedPath(line(begin, end), Constant(10.0)), samples=16, spacing=0.15)
+    best = hf.plan_motion(machine, TimedPath(line(begin, end), Constant(10.0)), samples=16, spacing=0.15)
     assert best.found.moved[3] == pytest.approx(0.0, abs=1e-6)
     assert best.by_joint[machine.joint_names[3]] <= 0.05
     assert 0.5 < best.survival <= best.bound + 1e-9 < 0.87
@@ -286,15 +286,15 @@ def test_what_is_refused(narrow, tmp_path):
     machine, path, best = narrow
     for rates in ([-1, 1, 1], [0, 0, 0], [1, 1], {"no such joint": 1.0}):
         with pytest.raises(InputError):
-            hf.endure(machine, path, rates=rates)
+            hf.plan_motion(machine, path, rates=rates)
     with pytest.raises(TaskError, match="without redundancy"):
-        hf.endure(machine, path, task="planar-pose")
+        hf.plan_motion(machine, path, task="planar-pose")
     with pytest.raises(InputError, match="mode"):
-        hf.endure(machine, path, mode="off")
+        hf.plan_motion(machine, path, mode="off")
     with pytest.raises(InputError, match="off the path"):
-        hf.endurance_of(machine, best.q + 0.1, path)
+        hf.evaluate_motion(machine, best.q + 0.1, path)
     with pytest.raises(HoldfastError, match="cannot be followed"):
-        hf.endure(machine, timed([1.0, 0.0], [4.0, 0.0]), samples=5)
+        hf.plan_motion(machine, timed([1.0, 0.0], [4.0, 0.0]), samples=5)
     file = tmp_path / "rates.yaml"
     file.write_text("unit: 1/s\nrates: {joint2: 1e-3}\n", encoding="utf-8")
     assert hf.FailureRates.load(machine, file).each.tolist() == [0, 1e-3, 0]

@@ -19,7 +19,7 @@ def heading(angle):
 @pytest.fixture(scope="module")
 def kept():
     machine, path = arm(LIMITS), timed([1.6, -0.9], [1.1, 1.3])
-    return machine, path, hf.endure(machine, path, samples=SAMPLES, spacing=0.1, keep=heading(CONE))
+    return machine, path, hf.plan_motion(machine, path, samples=SAMPLES, spacing=0.1, keep=heading(CONE))
 
 
 def test_a_cone_is_kept_before_the_lock_and_after_it(kept):
@@ -58,31 +58,31 @@ def test_a_cone_is_kept_before_the_lock_and_after_it(kept):
 
 def test_with_detours_it_is_an_upper_bound(kept):
     machine, path, _ = kept
-    wide = hf.endure(machine, path, samples=5, spacing=0.2, keep=heading(np.deg2rad(89)), mode="detour")
+    wide = hf.plan_motion(machine, path, samples=5, spacing=0.2, keep=heading(np.deg2rad(89)), mode="detour")
     assert wide.kind == "upper bound"
     assert "detours that keep what is kept were not looked for" in " ".join(wide.describe())
 
 
 def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
     machine, path, best = kept
-    flat = hf.endure(machine, timed([1.2, 0.3], [1.9, 0.3]), samples=5, spacing=0.2, keep=["plane:0,1,0", "plane:0,0,1"])
+    flat = hf.plan_motion(machine, timed([1.2, 0.3], [1.9, 0.3]), samples=5, spacing=0.2, keep=["plane:0,1,0", "plane:0,0,1"])
     assert "by the rows of the path alone" in " ".join(flat.describe())
     with pytest.raises(hf.InputError, match=r"path itself breaks what is kept: at 0.5 s the tool is 0.1 m off the plane"):
-        hf.endure(machine, timed([1.2, 0.3], [1.6, 0.7]), samples=5, spacing=0.2, keep="plane:0,1,0")
+        hf.plan_motion(machine, timed([1.2, 0.3], [1.6, 0.7]), samples=5, spacing=0.2, keep="plane:0,1,0")
     with pytest.raises(hf.InputError, match="leaves free what is to be kept exactly"):
-        hf.endure(machine, path, keep=heading(0.0))
+        hf.plan_motion(machine, path, keep=heading(0.0))
     with pytest.raises(hf.InputError, match="path has positions only"):
-        hf.endure(machine, path, keep=hf.keep.plane([0, 0, 1], frame="tool"))
+        hf.plan_motion(machine, path, keep=hf.keep.plane([0, 0, 1], frame="tool"))
     with pytest.raises(
         hf.HoldfastError, match=r"cannot be followed at 0 s: no configuration that was found keeps this: upright"
     ):
-        hf.endure(machine, path, samples=5, spacing=0.2, keep=hf.keep.upright(0.1, axis=[1, 0, 0], direction=[-1, 0, 0]))
-    free = hf.endurance_of(machine, best.q, path, samples=SAMPLES)
+        hf.plan_motion(machine, path, samples=5, spacing=0.2, keep=hf.keep.upright(0.1, axis=[1, 0, 0], direction=[-1, 0, 0]))
+    free = hf.evaluate_motion(machine, best.q, path, samples=SAMPLES)
     assert free.survival > best.survival
-    again = hf.endurance_of(machine, best.q, path, samples=SAMPLES, keep=heading(CONE))
+    again = hf.evaluate_motion(machine, best.q, path, samples=SAMPLES, keep=heading(CONE))
     np.testing.assert_array_equal(again.survives, best.survives)
     with pytest.raises(hf.InputError, match=r"motion breaks what is kept: at \S+ s the tool is turned away by"):
-        hf.endurance_of(machine, best.q, path, samples=SAMPLES, keep=heading(CONE / 3))
+        hf.evaluate_motion(machine, best.q, path, samples=SAMPLES, keep=heading(CONE / 3))
 
 
 def test_a_tray_stays_level_along_a_path_of_positions():
@@ -93,7 +93,7 @@ def test_a_tray_stays_level_along_a_path_of_positions():
     down[:3, 3] = [0.45, -0.25, 0.35]
     start = hf.solve_ik(panda, down, seed=3).q
     options = {"samples": 11, "spacing": 0.15, "start": start}
-    level, cone = (hf.endure(panda, path, keep=f"upright:{angle}deg", **options) for angle in (0, 10))
+    level, cone = (hf.plan_motion(panda, path, keep=f"upright:{angle}deg", **options) for angle in (0, 10))
     assert level.task.m == 5
     assert cone.task.m == 3
     for best, angle in ((level, 0.0), (cone, 10.0)):

@@ -23,7 +23,7 @@ def four():
     """Four links of 1 m, narrow: not every lock can be survived."""
     machine = planar([1.0] * 4, [(-1.0, 1.2), (-0.2, 1.6), (-1.4, 0.4), (-0.5, 1.5)])
     path = timed([3.46, -0.39], [2.47, 0.28])
-    return machine, path, hf.endure(machine, path, task="planar", samples=15, spacing=0.15, seed=1)
+    return machine, path, hf.plan_motion(machine, path, task="planar", samples=15, spacing=0.15, seed=1)
 
 
 def test_a_lower_bound_is_called_so(four):
@@ -48,7 +48,7 @@ def test_what_is_said_to_be_survived_another_integrator_survives(four):
 
 def test_the_motion_survives_what_a_judge_of_it_alone_says(four):
     machine, path, best = four
-    again = hf.endurance_of(machine, best.q, path, task="planar", samples=15, seed=1)
+    again = hf.evaluate_motion(machine, best.q, path, task="planar", samples=15, seed=1)
     np.testing.assert_array_equal(again.survives, best.survives)
     assert again.kind == "lower bound"
 
@@ -58,8 +58,8 @@ def test_a_joint_that_cannot_move_is_no_redundancy():
     limits = [(-1.2, 1.4), (-0.3, 1.8), (-1.6, 0.6)]
     path = timed([2.76, -2.67], [2.09, -1.67])
     options = {"task": "planar", "samples": 15, "spacing": 0.1, "rates": {"joint1": 1, "joint2": 2, "joint3": 1}}
-    long = hf.endure(planar([1.0, 1.0, 2.0], limits), path, **options)
-    stiff = hf.endure(planar([1.0] * 4, [*limits, (0.0, 0.0)]), path, **options)
+    long = hf.plan_motion(planar([1.0, 1.0, 2.0], limits), path, **options)
+    stiff = hf.plan_motion(planar([1.0] * 4, [*limits, (0.0, 0.0)]), path, **options)
     assert stiff.kind == "exact"
     assert 0 < long.survival < 1
     assert stiff.survival == pytest.approx(long.survival, abs=0.01)
@@ -70,7 +70,7 @@ def test_a_joint_that_cannot_move_is_no_redundancy():
 def test_detours_regain_the_path_where_closed_forms_have_every_pose(four):
     """With the first joint, or the last, locked three links are left, whose tool is anywhere within a ring but for limits."""
     machine, path, best = four
-    wide = hf.endure(machine, path, task="planar", mode="detour", samples=9, spacing=0.2, seed=1)
+    wide = hf.plan_motion(machine, path, task="planar", mode="detour", samples=9, spacing=0.2, seed=1)
     assert wide.kind == "lower bound"
     assert "inverse kinematics found" in wide.describe()[1]
     points = path.pose(wide.time)[:, :2, 3]
@@ -84,13 +84,13 @@ def test_detours_regain_the_path_where_closed_forms_have_every_pose(four):
     assert not (wide.survives & ~every).any()
     assert (wide.survives != every).mean() <= 0.03  # where limits leave next to nothing the grid of one joint may miss it
     assert wide.survival >= best.survival - 0.02
-    assert wide.inject(40).alike >= 0.95
+    assert wide.test_locks(40).agreement >= 0.95
 
 
 def test_detours_among_obstacles_ask_for_one_degree_of_redundancy(four):
     machine, path, _ = four
     with pytest.raises(TaskError, match="detours among obstacles or with something kept are looked at with one"):
-        hf.endure(machine, path, task="planar", mode="detour", keep="plane:0,0,1")
+        hf.plan_motion(machine, path, task="planar", mode="detour", keep="plane:0,0,1")
 
 
 def test_no_joint_is_held_that_the_task_holds_anyway():
@@ -101,6 +101,6 @@ def test_no_joint_is_held_that_the_task_holds_anyway():
     end = down.copy()
     end[1, 3] = 0.3
     path = hf.paths.TimedPath(hf.paths.line(down, end), hf.paths.Constant(6.0))
-    best = hf.endure(crane, path, task="pointing", samples=4, spacing=0.3, starts=16)
+    best = hf.plan_motion(crane, path, task="pointing", samples=4, spacing=0.3, starts=16)
     assert "roll" not in best.found.held
     assert best.guaranteed  # along the rail, or with the other joints if the slide locks

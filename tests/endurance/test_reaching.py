@@ -36,7 +36,7 @@ def test_exposure_is_the_least_of_brute_force(rng):
     for _ in range(4):
         start, other = rng.uniform(machine.lower, machine.upper, (2, 3))
         point = machine.forward_kinematics(other)[:2, 3]
-        got = hf.endure_to(machine, start, point, rates=rates, task="planar", velocity=velocity, spacing=0.05)
+        got = hf.plan_motion_to(machine, start, point, rates=rates, task="planar", velocity=velocity, spacing=0.05)
         want = brute_force(machine, start, point, rates / velocity)
         assert got.exposure == pytest.approx(want, rel=5e-3, abs=8e-3)
         positive += got.exposure > 0.05
@@ -49,7 +49,7 @@ def test_exposure_is_the_least_of_brute_force(rng):
 def test_no_lock_inside_the_ranges_loses_the_goal_and_every_other_does(rng):
     machine = arm(LIMITS)
     start, point = np.array([-1.5, -1.0, 1.5]), np.array([1.2, 1.1])
-    way = hf.endure_to(machine, start, point, task="planar", velocity=1.0)
+    way = hf.plan_motion_to(machine, start, point, task="planar", velocity=1.0)
     time = rng.uniform(0, way.duration, 100)
     outside = np.zeros(3)
     for q in way.at(time):
@@ -67,7 +67,7 @@ def test_no_lock_inside_the_ranges_loses_the_goal_and_every_other_does(rng):
 def test_joints_without_limits_go_the_better_way_round():
     free = arm()
     point = np.array([2.9, 0.0])  # nearly stretched: few values of any joint keep it
-    ends = [hf.endure_to(free, [x, 0.1, 0.1], point, task="planar", velocity=1.0) for x in (3.0, -3.0, 9.0)]
+    ends = [hf.plan_motion_to(free, [x, 0.1, 0.1], point, task="planar", velocity=1.0) for x in (3.0, -3.0, 9.0)]
     assert ends[0].exposure == pytest.approx(ends[1].exposure, rel=0.2)
     assert all(np.abs(e.goal - e.start).max() <= np.pi + 1e-6 for e in ends[:2])
     assert np.abs(around(free.forward_kinematics(ends[2].goal)[:2, 3] - point)).max() < 1e-8
@@ -77,8 +77,8 @@ def test_from_a_pose_the_best_start_is_chosen():
     machine = arm(LIMITS)
     start = machine.forward_kinematics([0.5, 0.8, -1.0])
     point = np.array([1.2, 1.1])
-    best = hf.endure_to(machine, start, point, task="planar", velocity=1.0)
-    given = hf.endure_to(machine, [0.5, 0.8, -1.0], point, task="planar", velocity=1.0)
+    best = hf.plan_motion_to(machine, start, point, task="planar", velocity=1.0)
+    given = hf.plan_motion_to(machine, [0.5, 0.8, -1.0], point, task="planar", velocity=1.0)
     assert best.exposure <= given.exposure + 1e-9
     assert np.abs(machine.forward_kinematics(best.start)[:2, 3] - start[:2, 3]).max() < 1e-8
 
@@ -86,10 +86,10 @@ def test_from_a_pose_the_best_start_is_chosen():
 def test_what_is_refused():
     machine = arm(LIMITS)
     with pytest.raises(hf.InputError, match="velocity"):
-        hf.endure_to(machine, [0, 0, 0], [1.0, 1.0], task="planar")
+        hf.plan_motion_to(machine, [0, 0, 0], [1.0, 1.0], task="planar")
     with pytest.raises(hf.InputError, match="outside the joint limits"):
-        hf.endure_to(machine, [0, 0, 2.9], [1.0, 1.0], task="planar", velocity=1.0)
+        hf.plan_motion_to(machine, [0, 0, 2.9], [1.0, 1.0], task="planar", velocity=1.0)
     with pytest.raises(hf.HoldfastError, match="goal"):
-        hf.endure_to(machine, [0, 0, 0], [4.0, 1.0], task="planar", velocity=1.0)
+        hf.plan_motion_to(machine, [0, 0, 0], [4.0, 1.0], task="planar", velocity=1.0)
     with pytest.raises(hf.TaskError, match="one joint more"):
-        hf.endure_to(machine, [0, 0, 0], np.eye(4), task="planar-pose", velocity=1.0)
+        hf.plan_motion_to(machine, [0, 0, 0], np.eye(4), task="planar-pose", velocity=1.0)

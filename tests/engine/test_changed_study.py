@@ -11,7 +11,7 @@ import pytest
 from toy import cells
 
 import flips
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import StoreError
 
 CHANGES = int(os.environ.get("HOLDFAST_CHANGES", "60"))
@@ -20,7 +20,7 @@ CHANGES = int(os.environ.get("HOLDFAST_CHANGES", "60"))
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("changed") / "study"
-    Study.create(folder, "toy", 1, cells=cells(), source="the file").run(cells(), Threads(1))
+    Study.create(folder, "toy", 1, cells=cells(), source="the file").run(cells(), ThreadRunner(1))
     return folder
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from toy import cells
 
-from holdfast.engine import Cluster, Study, Threads, cluster
+from holdfast.engine import Cluster, Study, ThreadRunner, cluster
 from holdfast.errors import InputError, StoreError
 
 HERE = str(Path(__file__).parent)
@@ -23,14 +23,14 @@ def make(folder, some=None) -> Study:
 
 
 def bits(study: Study) -> dict[tuple[int, int], str]:
-    return {(k, n): e.digest for k in range(len(study.cells)) for n, e in study.entries(k).items()}
+    return {(k, n): e.digest for k in range(len(study.cells)) for n, e in study.cell_entries(k).items()}
 
 
 @pytest.fixture(scope="module")
 def straight(tmp_path_factory) -> Study:
     """Computed by one thread without a stop."""
     study = make(tmp_path_factory.mktemp("straight") / "s")
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     return study
 
 
@@ -91,7 +91,7 @@ def test_the_same_bits_with_one_and_two_workers_and_a_killed_one(tmp_path, strai
         two = make(tmp_path / "two", some)
         seen = []
         two.run(some, there, lambda *x: seen.append(x), stop=lambda: len(seen) > 4)
-        assert not two.complete
+        assert not two.is_complete
         two.run(some, there)
     assert (tmp_path / "killed").exists()
     assert bits(two) == bits(straight)
@@ -100,7 +100,7 @@ def test_the_same_bits_with_one_and_two_workers_and_a_killed_one(tmp_path, strai
 
 @pytest.mark.filterwarnings("default")
 def test_a_killed_scheduler_is_named_and_a_new_one_with_four_workers_finishes(tmp_path, straight, dask, monkeypatch):
-    monkeypatch.setattr(cluster, "_PATIENCE", 1.0)
+    monkeypatch.setattr(cluster, "_SCHEDULER_TIMEOUT_S", 1.0)
     some = cells(slow=0.05)
     study = make(tmp_path / "s", some)
 

@@ -42,9 +42,9 @@ def make(folder, **changes) -> Store:
 
 def fill(folder, chunks=None) -> Store:
     opened = make(folder)
-    with opened.writing():
-        for k in opened.missing if chunks is None else chunks:
-            opened.write(k, rows(*opened.chunks[k]))
+    with opened.lock_for_writing():
+        for k in opened.missing_chunks if chunks is None else chunks:
+            opened.commit_chunk(k, rows(*opened.chunks[k]))
     return opened
 
 
@@ -75,7 +75,7 @@ def folder(tmp_path):
 def test_rows_come_back_with_names_units_and_fill_values(folder):
     s = fill(folder, [0, 4])
     assert s.chunks == [(0, 5), (5, 10), (10, 15), (15, 20), (20, 23)]
-    assert (s.done, s.missing, s.complete) == ([0, 4], [1, 2, 3], False)
+    assert (s.committed_chunks, s.missing_chunks, s.is_complete) == ([0, 4], [1, 2, 3], False)
     data = Store.open(folder).dataset()
     expected = rows(0, ROWS)
     for name in expected:
@@ -93,11 +93,11 @@ def test_rows_come_back_with_names_units_and_fill_values(folder):
 def test_going_on_computes_only_what_is_missing(folder):
     fill(folder, [1, 3])
     again = make(folder)
-    assert again.missing == [0, 2, 4]
+    assert again.missing_chunks == [0, 2, 4]
     fill(folder)
     s = Store.open(folder)
-    assert s.complete
-    assert s.missing == []
+    assert s.is_complete
+    assert s.missing_chunks == []
     for name, values in rows(0, ROWS).items():
         np.testing.assert_array_equal(s.dataset()[name].values, values)
 
@@ -112,14 +112,14 @@ def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
         make(folder)
     assert "computed by an earlier holdfast" in sentence(error)
     assert snapshot(folder) == before
-    np.testing.assert_array_equal(Store.open(folder).read(0, ["x"])["x"], rows(0, CHUNK)["x"])
+    np.testing.assert_array_equal(Store.open(folder).read_chunk(0, ["x"])["x"], rows(0, CHUNK)["x"])
 
 
 def test_a_finished_run_of_the_earlier_backend_is_there(folder):
     fill(folder)
     file = folder / "run.json"
     file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
-    assert make(folder).complete
+    assert make(folder).is_complete
 
 
 def test_the_plan_is_what_json_makes_of_it(folder):
@@ -131,16 +131,16 @@ def test_the_plan_is_what_json_makes_of_it(folder):
 @pytest.mark.parametrize("count", [1, 5, 6])
 def test_sizes_at_the_edges(count, folder):
     s = make(folder, rows=count)
-    with s.writing():
-        for k in s.missing:
-            s.write(k, rows(*s.chunks[k]))
+    with s.lock_for_writing():
+        for k in s.missing_chunks:
+            s.commit_chunk(k, rows(*s.chunks[k]))
     np.testing.assert_array_equal(Store.open(folder).dataset()["count"].values, np.arange(count))
 
 
 def test_notes_are_kept_and_do_not_define_the_run(folder):
     s = fill(folder)
-    s.note(seconds=1.5, versions={"numpy": np.__version__})
-    s.note(machine="here")
+    s.add_notes(seconds=1.5, versions={"numpy": np.__version__})
+    s.add_notes(machine="here")
     assert make(folder).notes == {"seconds": 1.5, "versions": {"numpy": np.__version__}, "machine": "here"}
 
 
@@ -158,7 +158,7 @@ def test_a_chunk_written_but_not_committed_is_computed_again(folder):
     group = zarr.open_group(folder / "samples.zarr", mode="r+")
     group["x"][5:8] = 99.0  # a crash in the middle of chunk 2
     (folder / ".run-left-over").write_text("{")
-    assert Store.open(folder).missing == [1, 2, 3, 4]
+    assert Store.open(folder).missing_chunks == [1, 2, 3, 4]
     fill(folder)
     np.testing.assert_array_equal(Store.open(folder).dataset()["x"].values, rows(0, ROWS)["x"])
     assert s.path == folder
@@ -190,7 +190,7 @@ def test_a_killed_writer_leaves_a_folder_that_goes_on(how, folder):
         process.send_signal(how)
         process.wait(20)
     left = Store.open(folder)
-    assert set(left.done) >= {0, 1}
+    assert set(left.committed_chunks) >= {0, 1}
     fill(folder)
     for name, values in rows(0, ROWS).items():
         np.testing.assert_array_equal(Store.open(folder).dataset()[name].values, values)
@@ -202,12 +202,12 @@ def test_a_stop_while_the_folder_is_being_made_does_not_make_it_foreign(folder, 
     def stop(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Store, "_commit", stop)
+    monkeypatch.setattr(Store, "_write_run_file", stop)
     with pytest.raises(KeyboardInterrupt):
         make(folder)
     monkeypatch.undo()
     fill(folder)
-    assert Store.open(folder).complete
+    assert Store.open(folder).is_complete
 
 
 def test_an_interrupt_during_the_commit_leaves_no_rubbish(folder, monkeypatch):
@@ -221,9 +221,9 @@ def test_an_interrupt_during_the_commit_leaves_no_rubbish(folder, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(store.os, "fsync", stop)
         with pytest.raises(KeyboardInterrupt):
-            s.note(a=1)
+            s.add_notes(a=1)
     assert set(snapshot(folder)) == before
-    assert Store.open(folder).done == [0]
+    assert Store.open(folder).committed_chunks == [0]
 
 
 # ---- folders that are not ours -------------------------------------------------------------------------------------
@@ -367,7 +367,7 @@ def test_an_array_of_another_shape_or_type_is_a_sentence(change, folder):
     file.write_text(json.dumps(json.loads(file.read_text()) | change))
     store = Store.open(folder)
     with pytest.raises(StoreError, match="damaged") as caught:
-        store.read(0, ["x"])
+        store.read_chunk(0, ["x"])
     sentence(caught)
 
 
@@ -377,7 +377,7 @@ def test_a_cut_chunk_is_a_sentence(folder):
     chunk.write_bytes(chunk.read_bytes()[:5])
     store = Store.open(folder)
     with pytest.raises(StoreError, match="damaged") as caught:
-        [store.read(k, ["x"]) for k in store.done]
+        [store.read_chunk(k, ["x"]) for k in store.committed_chunks]
     sentence(caught)
 
 
@@ -410,25 +410,25 @@ def full(*_, **__):
 def test_a_full_disk_while_committing(folder, monkeypatch):
     s = fill(folder, [0])
     files = set(snapshot(folder))
-    with monkeypatch.context() as patch, s.writing():
+    with monkeypatch.context() as patch, s.lock_for_writing():
         patch.setattr(store.os, "replace", full)
         with pytest.raises(StoreError, match=r"chunk 2 .*No space left on device.*make room") as caught:
-            s.write(1, rows(5, 10))
+            s.commit_chunk(1, rows(5, 10))
         sentence(caught)
     assert {f for f in snapshot(folder) if "samples" not in f} == {f for f in files if "samples" not in f}
-    assert Store.open(folder).done == [0]
+    assert Store.open(folder).committed_chunks == [0]
     fill(folder)
     np.testing.assert_array_equal(Store.open(folder).dataset()["x"].values, rows(0, ROWS)["x"])
 
 
 def test_a_full_disk_while_writing_rows(folder, monkeypatch):
     s = fill(folder, [0])
-    with monkeypatch.context() as patch, s.writing():
+    with monkeypatch.context() as patch, s.lock_for_writing():
         patch.setattr(zarr.Array, "__setitem__", full)
         with pytest.raises(StoreError, match=r"chunk 2 .*No space left"):
-            s.write(1, rows(5, 10))
-    assert Store.open(folder).done == [0]
-    assert fill(folder).complete
+            s.commit_chunk(1, rows(5, 10))
+    assert Store.open(folder).committed_chunks == [0]
+    assert fill(folder).is_complete
 
 
 def test_a_full_disk_while_noting_or_beginning(folder, tmp_path, monkeypatch):
@@ -436,21 +436,21 @@ def test_a_full_disk_while_noting_or_beginning(folder, tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(store.os, "fsync", full)
         with pytest.raises(StoreError, match="No space left"):
-            s.note(seconds=1)
+            s.add_notes(seconds=1)
         with pytest.raises(StoreError, match="No space left"):
             make(tmp_path / "new")
-    assert Store.open(folder).complete
+    assert Store.open(folder).is_complete
     make(tmp_path / "new")
 
 
 def test_two_writers_at_once(folder):
     first, second = make(folder), make(folder)
-    with first.writing():
-        with pytest.raises(StoreError, match=f"another program is writing to '{folder}'"), second.writing():
+    with first.lock_for_writing():
+        with pytest.raises(StoreError, match=f"another program is writing to '{folder}'"), second.lock_for_writing():
             pass
-        first.write(0, rows(0, 5))
-    with second.writing():
-        assert second.done == [0]  # what the first one did is seen
+        first.commit_chunk(0, rows(0, 5))
+    with second.lock_for_writing():
+        assert second.committed_chunks == [0]  # what the first one did is seen
 
 
 def test_a_writer_in_another_program_is_noticed_and_its_lock_dies_with_it(folder):
@@ -461,7 +461,7 @@ def test_a_writer_in_another_program_is_noticed_and_its_lock_dies_with_it(folder
             fill(folder)
         process.kill()
         process.wait(20)
-    assert fill(folder).complete
+    assert fill(folder).is_complete
 
 
 class Msvcrt(ModuleType):
@@ -490,25 +490,25 @@ def test_two_writers_at_once_on_windows(folder, monkeypatch):
     monkeypatch.setitem(sys.modules, "fcntl", None)
     monkeypatch.setitem(sys.modules, "msvcrt", windows)
     first, second = make(folder), make(folder)
-    with first.writing():
+    with first.lock_for_writing():
         assert len(windows.holders) == 1
-        with pytest.raises(StoreError, match=f"another program is writing to '{folder}'"), second.writing():
+        with pytest.raises(StoreError, match=f"another program is writing to '{folder}'"), second.lock_for_writing():
             pass
-        first.write(0, rows(0, 5))
-    with second.writing():
-        assert second.done == [0]
+        first.commit_chunk(0, rows(0, 5))
+    with second.lock_for_writing():
+        assert second.committed_chunks == [0]
 
 
 def test_an_error_inside_gives_the_lock_back(folder):
     s = make(folder)
-    with pytest.raises(ZeroDivisionError), s.writing():
+    with pytest.raises(ZeroDivisionError), s.lock_for_writing():
         1 / 0  # noqa: B018
-    with s.writing():
+    with s.lock_for_writing():
         pass
 
 
 def test_thousands_of_chunks_stay_cheap(folder):
     s = make(folder, rows=20_000, chunk=1)
     begin = time.perf_counter()
-    assert len(s.chunks) == len(s.missing) == 20_000
+    assert len(s.chunks) == len(s.missing_chunks) == 20_000
     assert time.perf_counter() - begin < 1

@@ -15,9 +15,9 @@ import pytest
 from toy import Toy, cells
 
 from cards import check_card
-from holdfast.engine import Cell, Column, Store, Study, Threads, journal, merge
-from holdfast.engine.folder import digest, held
-from holdfast.engine.journal import Entry, Journal, Lines
+from holdfast.engine import Column, Store, Study, SweepCell, ThreadRunner, journal, merge_studies
+from holdfast.engine.folder import digest_columns, lock_folder
+from holdfast.engine.journal import ChecksumLines, Journal, JournalEntry
 from holdfast.errors import StoreError
 from sealing import read_unsealed, read_unsealed_study
 
@@ -29,15 +29,15 @@ def make(folder, some=None, seed=1) -> Study:
 
 
 def bits(study: Study) -> dict[tuple[int, int], str]:
-    return {(k, n): e.digest for k in range(len(study.cells)) for n, e in study.entries(k).items()}
+    return {(k, n): e.digest for k in range(len(study.cells)) for n, e in study.cell_entries(k).items()}
 
 
 @pytest.fixture(scope="module")
 def straight(tmp_path_factory) -> Study:
     """Computed by one thread without a stop."""
     study = make(tmp_path_factory.mktemp("straight") / "s")
-    assert study.run(cells(), Threads(1)) == {}
-    assert study.complete
+    assert study.run(cells(), ThreadRunner(1)) == {}
+    assert study.is_complete
     return study
 
 
@@ -61,11 +61,11 @@ def test_the_rows_are_those_of_the_seeds_of_the_chunks(straight):
 def test_threads_and_interruptions_change_no_bit(tmp_path, straight):
     study = make(tmp_path / "s")
     seen = []
-    study.run(cells(), Threads(2), lambda *x: seen.append(x), stop=lambda: len(seen) > 3)
-    assert not study.complete
+    study.run(cells(), ThreadRunner(2), lambda *x: seen.append(x), stop=lambda: len(seen) > 3)
+    assert not study.is_complete
     again = Study.open(tmp_path / "s")
     assert again.status()[0].chunks_done >= 3
-    make(tmp_path / "s").run(cells(), Threads(2), lambda *x: seen.append(x))
+    make(tmp_path / "s").run(cells(), ThreadRunner(2), lambda *x: seen.append(x))
     assert bits(again) == bits(straight)
     assert seen[-1][:2] == (10, 10)
     assert max(x[0] for x in seen) == 10
@@ -79,42 +79,42 @@ def test_an_interrupt_keeps_what_was_committed(tmp_path, straight):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        study.run(cells(), Threads(2), impatient)
+        study.run(cells(), ThreadRunner(2), impatient)
     assert len(bits(study)) == 4
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     assert bits(study) == bits(straight)
 
 
 def test_shares_for_machines_that_never_meet_merge_to_the_whole(tmp_path, straight):
     parts = [make(tmp_path / f"p{k}") for k in range(3)]
     for k, p in enumerate(parts):
-        p.run(cells(), Threads(1), part=(k + 1, 3))
+        p.run(cells(), ThreadRunner(1), part=(k + 1, 3))
     assert sum(len(bits(p)) for p in parts) == 10
     other = read_unsealed(parts[1].path / "made.json")
     other["makers"][0]["processor"] = "another kind"
     (parts[1].path / "made.json").write_text(json.dumps(other))
-    found = merge(tmp_path / "whole", [p.path for p in parts])
+    found = merge_studies(tmp_path / "whole", [p.path for p in parts])
     whole = Study.open(tmp_path / "whole")
     assert (found.added, found.both, found.apart) == (10, 0, ())
     assert bits(whole) == bits(straight)
-    assert whole.complete
+    assert whole.is_complete
     assert {m["processor"] for m in whole.makers} == {"another kind", straight.makers[0]["processor"]}
     assert sorted(map(json.dumps, whole.runs)) == sorted(json.dumps(r) for p in parts for r in p.runs)
-    assert merge(whole.path, [parts[0].path]).both == len(bits(parts[0]))
+    assert merge_studies(whole.path, [parts[0].path]).both == len(bits(parts[0]))
     assert "_.study.verify()" in found._repr_html_()
 
 
 def test_merging_says_what_agrees_and_what_does_not(tmp_path, straight):
     mine, near, far = (make(tmp_path / name) for name in ("mine", "near", "far"))
-    mine.run(cells(), Threads(1))
+    mine.run(cells(), ThreadRunner(1))
     for study, error in ((near, 1e-15), (far, 1e-6)):
-        study.run(cells(), Threads(1))
-        rows = study.store(0).read(1, ["x", "status"])
-        store = study.store(0)
-        store.write(1, {**rows, "x": rows["x"] + error})
-    assert (merge(mine.path, [near.path]).close, merge(mine.path, [far.path]).apart) == (1, (("c0", 1),))
+        study.run(cells(), ThreadRunner(1))
+        rows = study.cell_store(0).read_chunk(1, ["x", "status"])
+        store = study.cell_store(0)
+        store.commit_chunk(1, {**rows, "x": rows["x"] + error})
+    assert (merge_studies(mine.path, [near.path]).close, merge_studies(mine.path, [far.path]).apart) == (1, (("c0", 1),))
     with pytest.raises(StoreError, match=r"not parts of one study.*its seed is 1, asked for is 2"):
-        merge(mine.path, [make(tmp_path / "other", seed=2).path])
+        merge_studies(mine.path, [make(tmp_path / "other", seed=2).path])
 
 
 # ---- the journal and damage ------------------------------------------------------------------------------------------
@@ -122,24 +122,24 @@ def test_merging_says_what_agrees_and_what_does_not(tmp_path, straight):
 
 def test_a_journal_forgives_what_a_crash_leaves(tmp_path):
     j = Journal(tmp_path / "j")
-    assert j.read() == {}
+    assert j.read_entries() == {}
     for k in range(3):
-        j.add(k, Entry(f"{k:032x}", 10, 0.5, 0))
+        j.add(k, JournalEntry(f"{k:032x}", 10, 0.5, 0))
     whole = j.path.read_bytes()
     for torn in (b"3 abc", b"3 abc 10 0.5 0 00000000\n", b"\xff\xfe\n", b"rubbish\n\n", whole[:20]):
         j.path.write_bytes(whole + torn)
-        assert set(j.read()) == {0, 1, 2}
-        j.add(7, Entry("d", 1, 0.0, 0))
-        assert set(j.read()) == {0, 1, 2, 7}
+        assert set(j.read_entries()) == {0, 1, 2}
+        j.add(7, JournalEntry("d", 1, 0.0, 0))
+        assert set(j.read_entries()) == {0, 1, 2, 7}
     j.drop([1, 7])
-    assert set(j.read()) == {0, 2}
-    j.add(1, Entry("e", 1, 0.0, 3))
-    assert j.read()[1] == Entry("e", 1, 0.0, 3)
+    assert set(j.read_entries()) == {0, 2}
+    j.add(1, JournalEntry("e", 1, 0.0, 3))
+    assert j.read_entries()[1] == JournalEntry("e", 1, 0.0, 3)
 
 
 def test_a_full_disk_leaves_the_journal_as_it_was(tmp_path, monkeypatch):
     j = Journal(tmp_path / "j")
-    j.add(0, Entry("a", 1, 0.0, 0))
+    j.add(0, JournalEntry("a", 1, 0.0, 0))
     before = j.path.read_bytes()
     write = os.write
 
@@ -149,13 +149,13 @@ def test_a_full_disk_leaves_the_journal_as_it_was(tmp_path, monkeypatch):
 
     monkeypatch.setattr(journal.os, "write", full)
     with pytest.raises(StoreError, match="No space"):
-        j.add(1, Entry("b", 1, 0.0, 0))
+        j.add(1, JournalEntry("b", 1, 0.0, 0))
     assert j.path.read_bytes() == before
 
 
 def test_a_full_disk_is_named_and_costs_the_chunk_in_hand(tmp_path, monkeypatch, straight):
     study = make(tmp_path / "s")
-    study.run(cells(), Threads(1), stop=lambda: len(bits(study)) >= 3)
+    study.run(cells(), ThreadRunner(1), stop=lambda: len(bits(study)) >= 3)
     done = bits(study)
 
     def full(*_):
@@ -164,9 +164,9 @@ def test_a_full_disk_is_named_and_costs_the_chunk_in_hand(tmp_path, monkeypatch,
     with monkeypatch.context() as patch:
         patch.setattr(journal.os, "write", full)
         with pytest.raises(StoreError, match=r"No space left on device.*make room"):
-            study.run(cells(), Threads(1))
+            study.run(cells(), ThreadRunner(1))
     assert bits(study) == done
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     assert bits(study) == bits(straight)
 
 
@@ -177,7 +177,7 @@ def file_of(study, chunk, cell=0):
 @pytest.mark.parametrize("how", ["cut", "flipped", "lost", "other rows"])
 def test_a_damaged_chunk_is_named_and_computed_again(how, tmp_path, straight):
     study = make(tmp_path / "s")
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     file = file_of(study, 2)
     data = bytearray(file.read_bytes())
     if how == "cut":
@@ -193,7 +193,7 @@ def test_a_damaged_chunk_is_named_and_computed_again(how, tmp_path, straight):
     assert [(d.cell, d.chunk) for d in found] == [("c0", 2)]
     assert study.verify() == []
     assert study.status()[0].chunks_done == 4
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     assert bits(study) == bits(straight)
     assert study.verify() == []
 
@@ -202,14 +202,14 @@ def test_a_damaged_chunk_is_named_and_computed_again(how, tmp_path, straight):
 def test_a_cell_that_is_gone_is_named(how, tmp_path, straight):
     """Nothing of it is left to be compared: verify said that all was sound."""
     first, study = make(tmp_path / "first"), tmp_path / "merged"
-    first.run(cells(), Threads(1), stop=lambda: len(bits(first)) >= 6)  # of the second cell only a part
-    merge(study, [tmp_path / "first"])
+    first.run(cells(), ThreadRunner(1), stop=lambda: len(bits(first)) >= 6)  # of the second cell only a part
+    merge_studies(study, [tmp_path / "first"])
     for s in (first, Study.open(study)):
         assert s.verify() == []
         if how == "folder":
-            shutil.rmtree(s.folder(0))
+            shutil.rmtree(s.cell_folder(0))
         elif how == "journal":
-            (s.folder(0) / "done.journal").unlink()
+            (s.cell_folder(0) / "done.journal").unlink()
         else:
             for n in range(5):
                 file_of(s, n).write_bytes(b"")
@@ -217,7 +217,7 @@ def test_a_cell_that_is_gone_is_named(how, tmp_path, straight):
         assert {d.cell for d in found} == {"c0"}
         assert [d.chunk for d in found] == (list(range(5)) if how == "all damaged" else [None])
         assert s.verify() == []  # named once, missing from then on
-        s.run(cells(), Threads(1))
+        s.run(cells(), ThreadRunner(1))
         assert s.verify() == []
         assert bits(s) == bits(straight)
 
@@ -225,10 +225,10 @@ def test_a_cell_that_is_gone_is_named(how, tmp_path, straight):
 def test_a_cell_that_was_never_begun_is_no_damage(tmp_path):
     study = make(tmp_path / "s")
     assert study.verify() == []
-    study.run(cells(), Threads(1), stop=lambda: len(bits(study)) >= 3)
+    study.run(cells(), ThreadRunner(1), stop=lambda: len(bits(study)) >= 3)
     assert study.verify() == []
     (tmp_path / "s" / "begun.journal").unlink()  # a folder of holdfast 0.9 has none
-    shutil.rmtree(study.folder(0))
+    shutil.rmtree(study.cell_folder(0))
     assert study.verify() == []
 
 
@@ -265,7 +265,7 @@ def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
 )  # fmt: skip
 def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
     store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10, chunk=5)
-    assert store.missing == [0, 1]
+    assert store.missing_chunks == [0, 1]
     file = tmp_path / "s" / "run.json"
     file.write_text(json.dumps(read_unsealed(file) | {key: value}))
     with pytest.raises(StoreError, match="is damaged: its"):
@@ -285,7 +285,7 @@ def test_names_that_are_too_long_are_refused(tmp_path):
     for make_it in (
         lambda: make(long),
         lambda: Study.open(long),
-        lambda: merge(long, [make(tmp_path / "s").path]),
+        lambda: merge_studies(long, [make(tmp_path / "s").path]),
         lambda: Store.open(long),
         lambda: Store.create(long, {}, [Column("x", "float64")], rows=10, chunk=5),
     ):
@@ -296,13 +296,13 @@ def test_names_that_are_too_long_are_refused(tmp_path):
 @pytest.mark.parametrize("how", ["cut", "lost"])
 def test_a_run_alone_notices_files_that_are_not_whole(how, tmp_path, straight):
     study = make(tmp_path / "s")
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     file = file_of(study, 2)
     if how == "cut":
         file.write_bytes(file.read_bytes()[:-4])
     else:
         file.unlink()
-    study.run(cells(), Threads(1))
+    study.run(cells(), ThreadRunner(1))
     assert study.verify() == []
     assert bits(study) == bits(straight)
 
@@ -317,12 +317,12 @@ def test_other_studies_and_foreign_folders_are_refused(tmp_path):
         (cells(1), 1, "cell 'c1' is not asked for"),
         (cells(rows=24), 1, "has rows 23, asked for is 24"),
         (cells(), 2, "its seed is 1, asked for is 2"),
-        ([Cell("c0", Toy(), {"scale": 9}, rows=23, chunk=5), cells()[1]], 1, "cell 'c0' has other settings"),
+        ([SweepCell("c0", Toy(), {"scale": 9}, rows=23, chunk=5), cells()[1]], 1, "cell 'c0' has other settings"),
     ):
         with pytest.raises(StoreError, match=words):
             make(tmp_path / "s", some, seed)
     with pytest.raises(StoreError, match="another study"):
-        Study.open(tmp_path / "s").run(cells(3), Threads(1))
+        Study.open(tmp_path / "s").run(cells(3), ThreadRunner(1))
     foreign = tmp_path / "foreign"
     foreign.mkdir()
     (foreign / "thesis.tex").write_text("work")
@@ -361,28 +361,28 @@ def test_a_cell_that_lacks_something_is_named(key, tmp_path):
 
 def test_two_runs_in_one_folder_are_refused(tmp_path):
     study = make(tmp_path / "s")
-    with held(study.path, "study.lock"):
-        for work in (lambda: study.run(cells(), Threads(1)), study.verify):
+    with lock_folder(study.path, "study.lock"):
+        for work in (lambda: study.run(cells(), ThreadRunner(1)), study.verify):
             with pytest.raises(StoreError, match="another program is writing"):
                 work()
-    assert study.run(cells(), Threads(1)) == {}
+    assert study.run(cells(), ThreadRunner(1)) == {}
 
 
 def test_a_cell_that_refuses_does_not_stop_the_others(tmp_path):
-    some = [Cell("bad", Toy(refuses=1), {"a": 1}, rows=23, chunk=5), *cells(1)]
+    some = [SweepCell("bad", Toy(refuses=1), {"a": 1}, rows=23, chunk=5), *cells(1)]
     study = make(tmp_path / "s", some)
-    problems = study.run(some, Threads(2))
+    problems = study.run(some, ThreadRunner(2))
     assert list(problems) == ["bad"]
     assert "one too many" in str(problems["bad"])
-    assert study.status()[1].complete
+    assert study.status()[1].is_complete
 
 
 def test_tasks_in_hand_are_bounded(tmp_path):
-    many = [Cell("many", Toy(), {"a": 1}, rows=300, chunk=1)]
+    many = [SweepCell("many", Toy(), {"a": 1}, rows=300, chunk=1)]
     study = make(tmp_path / "s", many)
     asked = 0
 
-    class Counting(Threads):
+    class Counting(ThreadRunner):
         def results(self, tasks, stop):
             def watched():
                 nonlocal asked
@@ -399,18 +399,18 @@ def test_tasks_in_hand_are_bounded(tmp_path):
 
 
 def test_status_of_very_many_chunks(tmp_path):
-    many = [Cell("many", Toy(), {"a": 1}, rows=10_000_000, chunk=100)]
+    many = [SweepCell("many", Toy(), {"a": 1}, rows=10_000_000, chunk=100)]
     study = make(tmp_path / "s", many)
-    study.folder(0).mkdir(parents=True)
+    study.cell_folder(0).mkdir(parents=True)
     one = tmp_path / "one"
     lines = []
     j = Journal(one)
     for k in range(2):
-        j.add(k, Entry("ab" * 16, 100, 0.5, 0))
+        j.add(k, JournalEntry("ab" * 16, 100, 0.5, 0))
     assert len(one.read_bytes().splitlines()) == 2
     for k in range(99_999):
         lines.append(b"%d %s 100 0.5 0" % (k, b"ab" * 16))
-    Lines(study.folder(0) / Store.JOURNAL).add(*lines)
+    ChecksumLines(study.cell_folder(0) / Store.JOURNAL).append(*lines)
     (status,) = study.status()
     assert (status.chunks, status.chunks_done, status.rows_done, status.seconds) == (100_000, 99_999, 9_999_900, 49_999.5)
 
@@ -418,15 +418,15 @@ def test_status_of_very_many_chunks(tmp_path):
 def test_checksums_tell_types_names_and_bits_apart():
     x = np.arange(6.0)
     marks = {
-        digest({"x": x}),
-        digest({"y": x}),
-        digest({"x": x.astype("f4")}),
-        digest({"x": x.reshape(2, 3)}),
-        digest({"x": -x}),
-        digest({"x": x, "y": x}),
+        digest_columns({"x": x}),
+        digest_columns({"y": x}),
+        digest_columns({"x": x.astype("f4")}),
+        digest_columns({"x": x.reshape(2, 3)}),
+        digest_columns({"x": -x}),
+        digest_columns({"x": x, "y": x}),
     }
     assert len(marks) == 6
-    assert digest({"x": x[::-1][::-1]}) == digest({"x": x})
+    assert digest_columns({"x": x[::-1][::-1]}) == digest_columns({"x": x})
 
 
 # ---- killed ------------------------------------------------------------------------------------------------------------
@@ -450,7 +450,7 @@ def test_a_killed_program_loses_at_most_the_chunks_in_hand(tmp_path, straight):
     study = Study.open(tmp_path / "s")
     assert said[-1] <= len(bits(study)) < 10
     study = make(tmp_path / "s")
-    study.run(cells(), Threads(2))
+    study.run(cells(), ThreadRunner(2))
     assert bits(study) == bits(straight)
     assert study.verify() == []
 
@@ -467,4 +467,4 @@ def test_a_file_that_is_nested_too_deep_is_refused_with_a_sentence(tmp_path, nam
     make(tmp_path / "s")
     (tmp_path / "s" / name).write_text("[" * 100_000)
     with pytest.raises(StoreError, match="nested too deep"):
-        Study.open(tmp_path / "s").run(cells(), Threads(1))
+        Study.open(tmp_path / "s").run(cells(), ThreadRunner(1))

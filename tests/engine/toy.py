@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.engine import Cell, Column
+from holdfast.engine import Column, SweepCell
 from holdfast.errors import InputError
 
 
@@ -38,5 +38,6 @@ class Toy:
 
 def cells(count=2, rows=23, chunk=5, **more):
     return [
-        Cell(f"c{k}", Toy(k + 1.0, **more), {"scale": k + 1.0}, rows=rows, chunk=chunk, labels={"k": k}) for k in range(count)
+        SweepCell(f"c{k}", Toy(k + 1.0, **more), {"scale": k + 1.0}, rows=rows, chunk=chunk, labels={"k": k})
+        for k in range(count)
     ]

@@ -8,7 +8,7 @@ import pytest
 from holdfast import arms
 from holdfast.control import Damped, FailureTolerant, Pseudoinverse, Weighted
 from holdfast.equilibria import Kind, linearisation
-from holdfast.equilibria.stability import attracts, kinds
+from holdfast.equilibria.stability import classify_kinds, is_attracting
 
 
 def pose_at(x):
@@ -89,8 +89,8 @@ def test_kinds():
         Kind.DEGENERATE,
         Kind.DEGENERATE,
     ]
-    assert kinds(values, error).tolist() == expected
-    assert attracts(values).tolist() == [True, False, False, True, True, True, False, True]
+    assert classify_kinds(values, error).tolist() == expected
+    assert is_attracting(values).tolist() == [True, False, False, True, True, True, False, True]
 
 
 def test_speed_limit_is_left_out(rng):

@@ -8,7 +8,7 @@ import pytest
 import holdfast as hf
 from holdfast.control import Damped, Weighted
 from holdfast.equilibria import Kind
-from holdfast.equilibria.curves import merged
+from holdfast.equilibria.curves import merge_arcs
 
 RAD = np.deg2rad
 R = np.hypot(1.5, 1.5)
@@ -110,10 +110,11 @@ def test_every_point_of_the_search_is_on_a_curve_and_the_other_way_round(three, 
 
 def test_arcs_are_united_modulo_turns():
     pi = np.pi
-    assert merged([], True) == []
-    np.testing.assert_allclose(merged([(3, 3.5), (-3, -2)], True), [(3, 2 * pi - 2)])
+    assert merge_arcs([], True) == []
+    np.testing.assert_allclose(merge_arcs([(3, 3.5), (-3, -2)], True), [(3, 2 * pi - 2)])
     np.testing.assert_allclose(
-        merged([(1, 2), (1 + 2 * pi, 2.5 + 2 * pi), (4 - 2 * pi, 4.5 - 2 * pi)], True), [(4 - 2 * pi, 4.5 - 2 * pi), (1, 2.5)]
+        merge_arcs([(1, 2), (1 + 2 * pi, 2.5 + 2 * pi), (4 - 2 * pi, 4.5 - 2 * pi)], True),
+        [(4 - 2 * pi, 4.5 - 2 * pi), (1, 2.5)],
     )
-    assert merged([(0, 4), (3, 7)], True) == [(-pi, pi)]
-    assert merged([(0, 1), (5, 6), (0.5, 2)], False) == [(0, 2), (5, 6)]
+    assert merge_arcs([(0, 4), (3, 7)], True) == [(-pi, pi)]
+    assert merge_arcs([(0, 1), (5, 6), (0.5, 2)], False) == [(0, 2), (5, 6)]

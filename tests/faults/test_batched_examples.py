@@ -23,7 +23,7 @@ XML = """
 
 @pytest.fixture
 def faults():
-    return hf.faults.Faults(
+    return hf.faults.FaultModel(
         [hf.faults.locked("a", onset=0.1, probability=0.5), hf.faults.friction("b", coulomb=0.3, onset=0.2)], 3
     )
 

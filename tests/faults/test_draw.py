@@ -13,7 +13,7 @@ import holdfast as hf
 from holdfast.errors import InputError, StoreError
 
 JOINTS = ("a", "b", "c", "d")
-MODEL = hf.faults.Faults(
+MODEL = hf.faults.FaultModel(
     [
         hf.faults.locked(onset=(0.3, 1.5), probability=0.5),
         hf.faults.weak(["b", "d"], weights=[3, 1], gain=(0.2, 0.7), onset={"exponential": 4.0}),
@@ -81,14 +81,14 @@ def test_draws_stay_what_they_were():
 
 
 def test_an_entry_changes_no_other():
-    more = hf.faults.Faults([*MODEL.entries, hf.faults.limp("c", onset=9.0)], MODEL.seed)
+    more = hf.faults.FaultModel([*MODEL.entries, hf.faults.limp("c", onset=9.0)], MODEL.seed)
     for episode in range(5):
         before, after = MODEL.draw(JOINTS, episode=episode), more.draw(JOINTS, episode=episode)
         assert set(before) == {event for event in after if event.kind != "limp"}
 
 
 def test_a_fault_that_comes_and_goes_has_exponential_dwell_times():
-    faults = hf.faults.Faults([hf.faults.command_dropout("a", onset=1.0, on=0.2, off=0.6)], seed=5)
+    faults = hf.faults.FaultModel([hf.faults.command_dropout("a", onset=1.0, on=0.2, off=0.6)], seed=5)
     spans = np.array([(e.onset, e.end) for e in faults.draw(JOINTS, horizon=1600.0)])
     lengths, gaps = spans[:-1, 1] - spans[:-1, 0], spans[1:, 0] - spans[:-1, 1]
     assert spans[0, 0] == 1.0
@@ -103,7 +103,7 @@ def test_a_fault_that_comes_and_goes_has_exponential_dwell_times():
 
 
 def test_a_batch_holds_the_first_fault_of_each_joint():
-    faults = hf.faults.Faults(
+    faults = hf.faults.FaultModel(
         [hf.faults.friction("b", viscous=2.0, onset=3.0), hf.faults.weak("b", gain=0.5, onset=1.0), hf.faults.limp("d")]
     )
     batch = faults.batch(JOINTS, episodes=2, first=4)
@@ -112,7 +112,7 @@ def test_a_batch_holds_the_first_fault_of_each_joint():
     assert batch.parameter[1, 1, 0] == 0.5
     assert np.isnan(batch.parameter).sum() == batch.parameter.size - 2
     assert batch.left_out == 2
-    late = hf.faults.Faults([faults.entries[0]]).batch(JOINTS, episodes=1)
+    late = hf.faults.FaultModel([faults.entries[0]]).batch(JOINTS, episodes=1)
     assert late.parameter[0, 1].tolist()[1:2] == [2.0]  # viscous is the second number of its kind
 
 
@@ -122,7 +122,7 @@ def test_a_file_gives_the_model_back(tmp_path):
         hf.faults.reduced_range("a", travel=0.1, on=1.0, off=2.0),
         hf.faults.locked("c", at={"choice": [0.1, 0.2]}, duration=3),
     ]
-    model = hf.faults.Faults(entries, seed=3)
+    model = hf.faults.FaultModel(entries, seed=3)
     path = model.save(tmp_path / "faults.yaml")
     assert hf.faults.load(path) == model
     path.write_text("faults: [{kind: limp, on: 1, off: 1e-1, duration: 3}]", encoding="utf-8")  # YAML: true and false
@@ -163,12 +163,12 @@ def test_a_file_that_is_wrong_says_where(text, words, tmp_path):
 
 def test_what_a_draw_refuses():
     with pytest.raises(InputError, match="'limp' names joint 'x'; the joints are a, b, c, d"):
-        hf.faults.Faults([hf.faults.limp("x")]).draw(JOINTS)
+        hf.faults.FaultModel([hf.faults.limp("x")]).draw(JOINTS)
     with pytest.raises(InputError, match="comes and goes for ever"):
-        hf.faults.Faults([hf.faults.limp("a", on=1, off=1)]).draw(JOINTS)
+        hf.faults.FaultModel([hf.faults.limp("a", on=1, off=1)]).draw(JOINTS)
     with pytest.raises(InputError, match="together of 'limp' is 5, and there are 4 joints"):
-        hf.faults.Faults([hf.faults.limp(together=5)]).draw(JOINTS)
+        hf.faults.FaultModel([hf.faults.limp(together=5)]).draw(JOINTS)
     with pytest.raises(InputError, match="episode is -1"):
         MODEL.draw(JOINTS, episode=-1)
     with pytest.raises(InputError, match="an entry of the faults is 'locked'; make it by"):
-        hf.faults.Faults(["locked"])
+        hf.faults.FaultModel(["locked"])

@@ -191,7 +191,7 @@ def test_what_a_model_cannot_have(event, words, plant):
     with pytest.raises(InputError, match=words):
         FaultInjector(*plant, None, faults=[event])
     with pytest.raises(InputError, match="no hinge or slide 'y'"):
-        FaultInjector(*plant, ["y"], faults=hf.faults.Faults([hf.faults.limp("y")]))
+        FaultInjector(*plant, ["y"], faults=hf.faults.FaultModel([hf.faults.limp("y")]))
     arm = SimpleNamespace(joint_names=("c",), joints=[SimpleNamespace(name="c", lower=-0.1, upper=0.1)])
     with pytest.raises(InputError, match=r"'c' locks at 0.2, beyond its limits -0.1 and 0.1"):
         FaultInjector(*plant, arm, faults=[FaultEvent("locked", "c", 0.0, parameters={"at": 0.2})])

@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.errors import InputError
-from holdfast.faults import FaultEvent, FaultWrapper, feasible, success
+from holdfast.faults import FaultEvent, FaultWrapper, feasible, success_rate
 
 gymnasium = pytest.importorskip("gymnasium")
 mujoco = pytest.importorskip("mujoco")
@@ -53,7 +53,7 @@ def arm():
 
 def test_any_joint_is_one_of_the_arm_and_a_finger_has_no_verdict(arm):
     env = Gripper(arm.joint_names)
-    faults = hf.faults.Faults([hf.faults.locked()], seed=1)
+    faults = hf.faults.FaultModel([hf.faults.locked()], seed=1)
     wrapped = FaultWrapper(env, faults, arm=arm, goal=lambda env: [1.0, 1.0, 0.0])
     assert wrapped.injector.joints == arm.joint_names
     for episode in range(10):
@@ -83,11 +83,11 @@ def test_a_goal_that_is_tilted_out_of_the_plane_is_feasible_in_a_wide_enough_con
 
 def test_a_fault_of_a_later_episode_is_refused_when_the_wrapper_is_made(arm):
     env = Gripper(arm.joint_names)
-    rare = hf.faults.Faults([hf.faults.locked("finger", probability=1e-9)])
+    rare = hf.faults.FaultModel([hf.faults.locked("finger", probability=1e-9)])
     with pytest.raises(InputError, match="'locked' names joint 'finger'; the joints are"):
         FaultWrapper(env, rare, arm=arm)
     FaultWrapper(env, rare)
-    speed = hf.faults.Faults([hf.faults.reduced_speed("finger", velocity=1.0, probability=1e-9)])
+    speed = hf.faults.FaultModel([hf.faults.reduced_speed("finger", velocity=1.0, probability=1e-9)])
     with pytest.raises(InputError, match="needs the effort of its motor"):
         FaultWrapper(env, speed)
 
@@ -104,20 +104,20 @@ def test_success_is_recorded_and_counted_with_the_interval_of_scipy(arm, tmp_pat
         for _ in range(steps):
             wrapped.step(np.zeros(3))
     wrapped.close()
-    episodes = hf.faults.recorded(tmp_path / "runs")
+    episodes = hf.faults.read_episodes(tmp_path / "runs")
     assert [episode.success for episode in episodes] == [False, True]
-    assert success(episodes).counts["unknown"] == (1, 2)
+    assert success_rate(episodes).counts["unknown"] == (1, 2)
     some = [SimpleNamespace(feasible="yes", success=k < 17, file=tmp_path) for k in range(20)]
     some += [SimpleNamespace(feasible="no", success=False, file=tmp_path)] * 5
-    counted = success(some)
+    counted = success_rate(some)
     rate, exact = counted.rate(), stats.binomtest(17, 20).proportion_ci(0.95, method="exact")
     assert (rate.value, rate.low, rate.high) == pytest.approx((0.85, exact.low, exact.high), abs=1e-9)
     assert str(counted).splitlines()[0].startswith("goal feasible: yes: 17 of 20 episodes succeeded, 85.0% (95% interval 62.1%")
     assert counted.rate("unknown") is None
     unreported = [SimpleNamespace(feasible="yes", success=None, file=tmp_path / "a.npz")]
     with pytest.raises(InputError, match=r"'a\.npz' has no success"):
-        success(unreported)
-    assert success(unreported, lambda episode: True).rate().value == 1.0
+        success_rate(unreported)
+    assert success_rate(unreported, lambda episode: True).rate().value == 1.0
 
 
 def test_a_goal_just_out_of_reach_is_feasible_within_the_tolerance(arm):

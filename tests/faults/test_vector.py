@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.errors import InputError
-from holdfast.faults import FaultEvent, FaultEvents, Faults, FaultVectorEnv
+from holdfast.faults import FaultEvent, FaultEvents, FaultModel, FaultVectorEnv
 
 gymnasium = pytest.importorskip("gymnasium")
 pytestmark = pytest.mark.interpreted
@@ -119,7 +119,7 @@ def test_each_arm_moves_as_one_alone_written_down(law, rng):
 
 
 def test_noise_has_the_deviation_of_its_entry(law):
-    env = made(law, 300, Faults([hf.faults.sensor_noise("joint2", deviation=0.1, onset=0.0)]))
+    env = made(law, 300, FaultModel([hf.faults.sensor_noise("joint2", deviation=0.1, onset=0.0)]))
     env.reset(seed=4)
     observation = env.step(np.zeros((300, 3)))[0]
     wrong = observation[:, :3] - env.q
@@ -129,7 +129,9 @@ def test_noise_has_the_deviation_of_its_entry(law):
 
 def test_many_are_as_one_after_the_other_and_begin_anew(law, rng):
     """Row i has the episodes i, i + N, ...: the same as an environment of one arm that is reset as often."""
-    faults = Faults([hf.faults.locked(onset=(0.0, 0.3)), hf.faults.sensor_bias(bias=0.1, onset=0.1, probability=0.5)], seed=5)
+    faults = FaultModel(
+        [hf.faults.locked(onset=(0.0, 0.3)), hf.faults.sensor_bias(bias=0.1, onset=0.1, probability=0.5)], seed=5
+    )
     many, steps = made(law, 3, faults, horizon=0.4), 19
     actions = rng.uniform(-1, 1, (steps, 3, 3))
     rows, ends, ids = [many.reset(seed=0)[0]], [], []
@@ -144,7 +146,7 @@ def test_many_are_as_one_after_the_other_and_begin_anew(law, rng):
         for turn in range(2):
             episode = row + 3 * turn
             assert ids[9 * turn][row] == faults.draw(law.arm, episode=episode, horizon=0.4).id
-            single = made(law, 1, Faults(faults.entries, faults.seed), horizon=0.4)
+            single = made(law, 1, FaultModel(faults.entries, faults.seed), horizon=0.4)
             single._episode[:] = episode - 1
             alone = [single.reset()[0][0]]
             alone += [single.step(actions[9 * turn + k, row : row + 1])[0][0] for k in range(8)]
@@ -168,7 +170,7 @@ def test_it_is_an_environment_of_gymnasium(law):
 
 def test_bad_input(law):
     with pytest.raises(InputError, match=r"use holdfast\.simulate_faults"):
-        FaultVectorEnv(law, 2, Faults([hf.faults.limp(onset=0.1)])).reset(seed=0)
+        FaultVectorEnv(law, 2, FaultModel([hf.faults.limp(onset=0.1)])).reset(seed=0)
     with pytest.raises(InputError, match="give an arm or more"):
         FaultVectorEnv(law, 0)
     env = made(law, 2)

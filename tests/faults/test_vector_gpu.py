@@ -9,7 +9,7 @@ from test_vector import shared
 import holdfast as hf
 from fake_driver import Array, Reader, read
 from holdfast.errors import InputError
-from holdfast.faults import Faults, FaultVectorEnv
+from holdfast.faults import FaultModel, FaultVectorEnv
 from holdfast.kernels import set_backend
 
 pytest.importorskip("gymnasium")
@@ -22,7 +22,7 @@ def made(backend, count=N, faults=FAULTS, **options):
     set_backend(backend)
     arm = hf.arms.load("planar-3r").with_limits([-2.5] * 3, [2.5] * 3)
     law = hf.control.damped(arm, 0.1, task="planar", gain=1.5, speed_limit=1.0)
-    return FaultVectorEnv(law, count, Faults(faults, seed=5), period=PERIOD, **options)
+    return FaultVectorEnv(law, count, FaultModel(faults, seed=5), period=PERIOD, **options)
 
 
 def test_it_is_that_of_the_processor(gpu, rng):

@@ -27,7 +27,7 @@ def driven(env, steps, seed=3, **options):
 
 def test_an_episode_again_is_the_same_bits_and_without_faults_that_of_the_environment(reacher):
     plain = driven(reacher, 20)
-    faults = hf.faults.Faults([hf.faults.locked(["joint0", "joint1"], onset=(0.05, 0.2), probability=0.7)], seed=2)
+    faults = hf.faults.FaultModel([hf.faults.locked(["joint0", "joint1"], onset=(0.05, 0.2), probability=0.7)], seed=2)
     env = FaultWrapper(reacher, faults)
     runs = [driven(env, 20, episode=k) for k in (0, 1, 2, 0)]
     assert runs[0].tobytes() == runs[3].tobytes()
@@ -147,7 +147,7 @@ def test_a_reduced_range_is_feasible_where_the_elbow_angle_of_the_goal_is_within
 
 
 def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
-    faults = hf.faults.Faults([hf.faults.sensor_bias(["joint1"], bias=0.25, onset=0.05)], seed=2)
+    faults = hf.faults.FaultModel([hf.faults.sensor_bias(["joint1"], bias=0.25, onset=0.05)], seed=2)
     wrapped = FaultWrapper(reacher, faults, joints=["joint0", "joint1"], record=tmp_path / "runs", observes={"joint1": ()})
     data, true = wrapped.unwrapped.data, []
     for episode in (3, 5):
@@ -156,7 +156,7 @@ def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
             wrapped.step(np.full(2, 0.1, dtype=np.float32))
             true.append([data.time, *data.qpos[:2], *data.qfrc_actuator[:2]])
     wrapped.close()
-    first, second = hf.faults.recorded(tmp_path / "runs")
+    first, second = hf.faults.read_episodes(tmp_path / "runs")
     assert [(e.episode, e.seed, e.outcome, e.feasible) for e in (first, second)] == [
         (3, 3, "truncated", "unknown"),
         (5, 5, "left", "unknown"),
@@ -178,9 +178,9 @@ def test_episodes_are_recorded_and_read_back(reacher, tmp_path):
         assert arrays["action"] == pytest.approx(0.1)
     (tmp_path / "runs" / "episodes.jsonl").write_text("{", encoding="utf-8")
     with pytest.raises(InputError, match="line 1 of"):
-        hf.faults.recorded(tmp_path / "runs")
+        hf.faults.read_episodes(tmp_path / "runs")
     with pytest.raises(InputError, match=r"has no episodes\.jsonl"):
-        hf.faults.recorded(tmp_path)
+        hf.faults.read_episodes(tmp_path)
 
 
 def test_in_an_environment_of_gymnasium_robotics():

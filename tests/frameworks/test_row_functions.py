@@ -50,11 +50,11 @@ def test_slopes_of_laws_are_those_of_differences(name, panda, rng):
 
 def test_shapes_that_do_not_fit_are_a_sentence(panda):
     f = hf.control.by_name("pseudoinverse", panda, task="position").row_function()
-    assert f.leading([(7,), (5, 3)]) == (5,)
-    assert f.leading([(2, 1, 7), (5, 3)]) == (2, 5)
+    assert f.leading_axes([(7,), (5, 3)]) == (5,)
+    assert f.leading_axes([(2, 1, 7), (5, 3)]) == (2, 5)
     for shapes in ([(7,)], [(7,), (4,)], [(2, 7), (3, 3)], [(), (3,)], []):
         with pytest.raises(InputError, match=r"takes \(\.\.\., 7\) and \(\.\.\., 3\), got"):
-            f.leading(shapes)
+            f.leading_axes(shapes)
 
 
 @pytest.mark.parametrize(("framework", "ask"), [("torch", "to_torch"), ("jax", "to_jax")])

@@ -65,15 +65,15 @@ def test_memory_is_shared_both_ways(rng):
         return seen[-1]
 
     f = RowFunction(name="sum", sizes=(3,), size=None, value=value, slopes=lambda rows: (np.ones_like(rows),))
-    from holdfast.frameworks.torch_rows import wrapped
+    from holdfast.frameworks.torch_rows import wrap_row_function
 
     x = tensor(rng.normal(size=(4, 5, 3)))
-    y = wrapped(f)(x)
+    y = wrap_row_function(f)(x)
     assert seen[0] == (x.data_ptr(), (20, 3))
     assert y.shape == (4, 5)
     assert y.data_ptr() == seen[1].ctypes.data
     once = x[:, 1:3]  # a part of it has gaps between its rows: only then a copy
-    np.testing.assert_allclose(wrapped(f)(once).numpy(), once.sum(-1).numpy(), rtol=1e-14)
+    np.testing.assert_allclose(wrap_row_function(f)(once).numpy(), once.sum(-1).numpy(), rtol=1e-14)
 
 
 def test_transforms_of_functions(objectives, laws, panda, rng):
@@ -136,9 +136,9 @@ def test_rows_that_a_kernel_on_a_gpu_marks_are_looked_at_on_the_processor(panda,
         found = kernel(*[x.numpy() for x in rows])
         return [torch.from_numpy(np.array(out)) for out in (found if isinstance(found, tuple) else (found,))]
 
-    monkeypatch.setattr(torch_rows, "_exchanged", exchanged)
+    monkeypatch.setattr(torch_rows, "_exchange_with_kernel", exchanged)
     for what, expected in ((function.value, rho(q)), (function.slopes, rho.gradient(q))):
-        (found,) = torch_rows._on_gpu(function, what, (tensor(q).reshape(2, 20, 7),))
+        (found,) = torch_rows._compute_on_gpu(function, what, (tensor(q).reshape(2, 20, 7),))
         np.testing.assert_array_equal(found.numpy().reshape(expected.shape), expected)
     assert [kernel.name for kernel in asked] == [k.name for k in function.kernels]
     assert np.isnan(exchanged(asked[0], [tensor(q)])[0].numpy()[[3, 5]]).all(), "nothing to look at again"

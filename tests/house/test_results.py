@@ -16,9 +16,9 @@ import pytest
 from tools.house.ratchet import source
 from tools.house.rules import published
 
-from holdfast.present import PRESENTERS, presenter
-from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
-from holdfast.result import Result, Shown
+from holdfast.present import PRESENTER_MODULES, find_presenter
+from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
+from holdfast.result import Presentable, Result
 
 METHODS = ("report", "save", "figures", "plot", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
 
@@ -167,7 +167,7 @@ def test_every_function_returns_what_is_in_a_list():
         "str",
         "float",
     }
-    registered = [entry.make for known in (INDICES, LAWS, SUSCEPTIBILITIES) for entry in known.values()]
+    registered = [entry.make for known in (INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY) for entry in known.values()]
     other |= {inspect.signature(make, eval_str=True).return_annotation.__name__ for make in registered}
     for name, (_, node) in public().items():
         if isinstance(node, ast.FunctionDef):
@@ -182,7 +182,7 @@ def test_a_result_says_what_it_holds(name):
     assert issubclass(result, Result)
     assert result.describe is not Result.describe
     if result.to_dict is Result.to_dict:
-        presenter([result.__name__], "to_dict")
+        find_presenter([result.__name__], "to_dict")
 
 
 def below(base):
@@ -190,19 +190,19 @@ def below(base):
     return {each for direct in base.__subclasses__() for each in {direct, *below(direct)}}
 
 
-@pytest.mark.parametrize("name", PRESENTERS)
+@pytest.mark.parametrize("name", PRESENTER_MODULES)
 def test_a_presenter_is_there_and_its_class_is_shown(name):
-    for module in filter(None, PRESENTERS[name]):
+    for module in filter(None, PRESENTER_MODULES[name]):
         import_module(f"holdfast.present.{module}")
     public()  # imports them
-    (shown,) = {each for each in below(Shown) if each.__name__ == name}
+    (shown,) = {each for each in below(Presentable) if each.__name__ == name}
     for function in (
         "in_notebook",
         "key_table",
         "next_steps",
         *("write", "save", "figures", "show") * issubclass(shown, Result),
     ):
-        assert inspect.isfunction(presenter([name], function)), function
+        assert inspect.isfunction(find_presenter([name], function)), function
 
 
 @pytest.mark.parametrize("name", VALUES)

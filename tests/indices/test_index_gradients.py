@@ -8,10 +8,10 @@ import pytest
 
 import oracles
 from holdfast import indices
-from holdfast.arm.task import rows_task
+from holdfast.arm.task import task_from_rows
 from holdfast.failures import failure_sets
 from holdfast.indices import CustomIndex
-from holdfast.registry import INDICES
+from holdfast.registry import INDEX_REGISTRY
 
 # arm, task, frame, failures, length
 CASES = {
@@ -40,11 +40,11 @@ def away_from_kinks(index, jacobian, q, sets):
 
 
 @pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("name", INDICES)
+@pytest.mark.parametrize("name", INDEX_REGISTRY)
 def test_gradient_against_central_differences(name, case, request, rng):
     arm_name, task, frame, failures, length = CASES[case]
     arm = request.getfixturevalue(arm_name)
-    given = task if isinstance(task, str) else rows_task(task, frame=frame)
+    given = task if isinstance(task, str) else task_from_rows(task, frame=frame)
     index, sets = oracles.index_of(name, arm, given, failures, length), failure_sets(arm, failures)
 
     def jacobian(q):

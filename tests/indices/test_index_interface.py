@@ -9,18 +9,18 @@ import pytest
 import oracles
 from holdfast.errors import HoldfastError, InputError, TaskError
 from holdfast.indices import CustomIndex, by_name
-from holdfast.registry import INDICES
+from holdfast.registry import INDEX_REGISTRY
 from holdfast.status import Status, require_ok
 
 
-@pytest.fixture(scope="module", params=[*INDICES, "custom"])
+@pytest.fixture(scope="module", params=[*INDEX_REGISTRY, "custom"])
 def index(request, mixed7):
     if request.param == "custom":
         return CustomIndex(lambda j: ca.sumsqr(j[0, :]), mixed7, "position", name="custom")
     return oracles.index_of(request.param, mixed7, "position")
 
 
-@pytest.fixture(scope="module", params=[*INDICES, "custom"])
+@pytest.fixture(scope="module", params=[*INDEX_REGISTRY, "custom"])
 def by_pairs(request, planar4):
     if request.param == "custom":
         return CustomIndex(ca.sumsqr, planar4, "planar", failures="pairs", name="custom")
@@ -99,7 +99,7 @@ def test_pairs_have_failures_and_no_joints(by_pairs, rng):
 
 def test_one_failure(mixed7, rng):
     q = oracles.inside(mixed7, rng, 4)
-    for name in INDICES:
+    for name in INDEX_REGISTRY:
         alone = oracles.index_of(name, mixed7, "position", ["j3"])
         e = alone.evaluate(q)
         assert e.by_failure.shape == (4, 1)
@@ -108,11 +108,11 @@ def test_one_failure(mixed7, rng):
 
 
 def test_attributes(mixed7):
-    for name in INDICES:
+    for name in INDEX_REGISTRY:
         index = oracles.index_of(name, mixed7, "position")
         assert index.singular_value_by_convention == (np.inf if index.better == "smaller" else 0)
         assert index.source
-        if "Abdi 2012" in INDICES[name].properties:
+        if "Abdi 2012" in INDEX_REGISTRY[name].properties:
             assert index.better == ("smaller" if name == "condition-number" else "larger")
             assert (index.bound is None) == (name not in ("relative-manipulability", "ceiling-fraction"))
             assert "Abdi et al. 2012, eq." in index.source
@@ -130,7 +130,7 @@ def test_attributes(mixed7):
 def test_errors_say_what_would_be_right(mixed7, planar4):
     with pytest.raises(TaskError, match="index 'rho' is not known; use one of relative-manipulability"):
         by_name("rho", mixed7)
-    for name in INDICES:
+    for name in INDEX_REGISTRY:
         with pytest.raises(TaskError, match="'planar-4' is not redundant for task 'pose': 4 joints for 6 rows"):
             oracles.index_of(name, planar4)
         with pytest.raises(TaskError, match="locking 2 of the 7 joints of 'random-RRPRRRR' leaves 5 for the 6 rows"):

@@ -10,11 +10,11 @@ import oracles
 from holdfast import indices
 from holdfast.errors import InputError
 from holdfast.indices import SINGULAR_RATIO, CustomIndex
-from holdfast.registry import INDICES
+from holdfast.registry import INDEX_REGISTRY
 from holdfast.status import Status
 
 
-@pytest.mark.parametrize("name", INDICES)
+@pytest.mark.parametrize("name", INDEX_REGISTRY)
 def test_a_singular_configuration(name, pa10, rng):
     """q = 0 of the PA10 has three zero singular values; section 6 of probabilistic-tolerance.md."""
     index = oracles.index_of(name, pa10)
@@ -56,7 +56,7 @@ def nearly_straight(flat4):
     return of
 
 
-@pytest.mark.parametrize("name", INDICES)
+@pytest.mark.parametrize("name", INDEX_REGISTRY)
 @pytest.mark.parametrize(("ratio", "singular"), [(1e-6, False), (1e-11, False), (1e-13, True)])
 def test_the_threshold(name, ratio, singular, flat4, nearly_straight):
     q = nearly_straight(ratio)
@@ -85,7 +85,7 @@ def test_rho_just_above_the_threshold_is_still_rho(flat4, nearly_straight):
 
 def test_all_indices_agree_on_what_is_singular(flat4, nearly_straight, rng):
     q = np.array([nearly_straight(r) for r in 10 ** rng.uniform(-14, -10, 60) if abs(np.log10(r / SINGULAR_RATIO)) > 0.02])
-    statuses = [oracles.index_of(name, flat4, "planar").evaluate(q).status for name in INDICES]
+    statuses = [oracles.index_of(name, flat4, "planar").evaluate(q).status for name in INDEX_REGISTRY]
     own = CustomIndex(ca.sumsqr, flat4, "planar")
     for status in (*statuses, own.evaluate(q).status):
         np.testing.assert_array_equal(status, statuses[0])
@@ -106,7 +106,7 @@ def test_the_definition_uses_the_task_jacobian_with_its_length(length, pa10, rng
     assert 20 < (ratio[clear] <= SINGULAR_RATIO).sum() < clear.sum() - 20
 
 
-@pytest.mark.parametrize("name", INDICES)
+@pytest.mark.parametrize("name", INDEX_REGISTRY)
 def test_a_failure_that_ends_the_task_is_an_ordinary_zero(name, pa10_7):
     """The elbow of the 7-joint PA10: not singular before, singular after."""
     index = oracles.index_of(name, pa10_7)
@@ -124,7 +124,7 @@ def test_a_failure_that_ends_the_task_is_an_ordinary_zero(name, pa10_7):
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
-@pytest.mark.parametrize("name", [*INDICES, "custom"])
+@pytest.mark.parametrize("name", [*INDEX_REGISTRY, "custom"])
 def test_nan_in_a_batch_and_alone(name, bad, mixed7, rng):
     index = CustomIndex(ca.sumsqr, mixed7, "position") if name == "custom" else oracles.index_of(name, mixed7, "position")
     q = oracles.inside(mixed7, rng, 25)
@@ -154,7 +154,7 @@ def test_nan_beside_a_singular_row(pa10):
     q = np.zeros((3, 9))
     q[1] = np.nan
     q[2] = oracles.NOMINAL
-    for name in INDICES:
+    for name in INDEX_REGISTRY:
         index = oracles.index_of(name, pa10)
         np.testing.assert_array_equal(index.evaluate(q).status, [Status.SINGULAR, Status.BAD_INPUT, Status.OK])
         np.testing.assert_array_equal(np.isnan(index(q)), [False, True, False])

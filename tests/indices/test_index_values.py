@@ -11,12 +11,12 @@ from scipy.optimize import minimize
 import holdfast as hf
 import oracles
 from holdfast import indices
-from holdfast.arm.task import Task, rows_task
+from holdfast.arm.task import Task, task_from_rows
 from holdfast.failures import failure_sets
-from holdfast.registry import INDICES
+from holdfast.registry import INDEX_REGISTRY
 
 INVARIANT = ("relative-manipulability", "manipulability")
-BASE_FREE = [name for name, entry in INDICES.items() if "base-free" in entry.properties]
+BASE_FREE = [name for name, entry in INDEX_REGISTRY.items() if "base-free" in entry.properties]
 
 # arm, task, frame, failures, length
 CASES = {
@@ -42,7 +42,7 @@ def make(request):
     def of(case):
         arm_name, task, frame, failures, length = CASES[case]
         arm = request.getfixturevalue(arm_name)
-        given = task if isinstance(task, str) else rows_task(task, frame=frame)
+        given = task if isinstance(task, str) else task_from_rows(task, frame=frame)
         return arm, given, failures, length, lambda q: oracles.task_jacobian(arm, q, task, frame, length)
 
     return of
@@ -55,7 +55,7 @@ def test_against_singular_values(case, make, rng):
     q = oracles.inside(arm, rng, 120)
     j = jacobian(q)
     cond = oracles.condition(j)
-    for name in INDICES:
+    for name in INDEX_REGISTRY:
         index = oracles.index_of(name, arm, task, failures, length)
         assert index.failures == sets
         e = index.evaluate(q)
@@ -71,7 +71,7 @@ def test_against_singular_values(case, make, rng):
             np.testing.assert_allclose(
                 e.by_failure**index.task.m, truth**index.task.m, atol=1e-13 * np.max(truth) ** index.task.m
             )
-        elif "Abdi 2012" in INDICES[name].properties:
+        elif "Abdi 2012" in INDEX_REGISTRY[name].properties:
             np.testing.assert_allclose(e.by_failure, truth, atol=1e-14 * j.shape[2] * np.abs(j).max())
         else:  # the oracle may be as ill-conditioned as the reduced Jacobian
             kept = np.stack([oracles.condition(np.delete(j, list(s), axis=2)) for s in sets], axis=1)
@@ -276,7 +276,7 @@ def test_a_joint_that_does_not_move_the_task_has_rho_one(pa10, rng):
     np.testing.assert_allclose(*locked, rtol=1e-12)
 
 
-@pytest.mark.parametrize("name", INDICES)
+@pytest.mark.parametrize("name", INDEX_REGISTRY)
 def test_locking_a_joint_is_deleting_its_column(name, mixed7, rng):
     """An arm built with joint 2 welded at its present angle has the reduced Jacobian: the same arm by another door."""
     task = Task("own", np.linalg.qr(rng.normal(size=(6, 6)))[0][:4])

@@ -9,9 +9,16 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.arm import kinematics
-from holdfast.indices import CustomIndex, Opposite, WeightedSum, condition_number, manipulability, relative_manipulability
-from holdfast.linalg import householder
-from holdfast.registry import INDICES, SUSCEPTIBILITIES
+from holdfast.indices import (
+    CustomIndex,
+    NegatedObjective,
+    WeightedSum,
+    condition_number,
+    manipulability,
+    relative_manipulability,
+)
+from holdfast.linalg import factor_householder
+from holdfast.registry import INDEX_REGISTRY, SUSCEPTIBILITY_REGISTRY
 from holdfast.status import Status
 
 
@@ -61,7 +68,7 @@ def test_singular_rows_are_told():
     rho = relative_manipulability(planar3, "planar")
     total = rho + manipulability(planar3, "planar")
     q = np.array([[0.0, 0.0, 0.0], [0.1, 0.5, 0.9]])
-    assert total.statuses(q).tolist() == [Status.SINGULAR, Status.OK]
+    assert total.row_statuses(q).tolist() == [Status.SINGULAR, Status.OK]
 
 
 def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
@@ -69,7 +76,7 @@ def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
     total = relative_manipulability(mixed8) + 3 * manipulability(mixed8) - 0.2 * own
     q = kinematics.joint_symbols(mixed8)
     j = kinematics.invariant_jacobian(mixed8, q)
-    qr = householder(j)
+    qr = factor_householder(j)
     rows = qr.null_rows()
     directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(2)]
     parts = total.parts(q, j, qr, directions)
@@ -92,13 +99,13 @@ def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
     assert checked
 
 
-@pytest.mark.parametrize("name", [*INDICES, *SUSCEPTIBILITIES])
+@pytest.mark.parametrize("name", [*INDEX_REGISTRY, *SUSCEPTIBILITY_REGISTRY])
 def test_parts_of_every_objective_give_its_value(name, rng):
     arm = hf.arms.load("panda")
-    objective = oracles.index_of(name, arm) if name in INDICES else hf.susceptibility.by_name(name, arm)
+    objective = oracles.index_of(name, arm) if name in INDEX_REGISTRY else hf.susceptibility.by_name(name, arm)
     q = kinematics.joint_symbols(arm)
     j = kinematics.invariant_jacobian(arm, q)
-    qr = householder(j)
+    qr = factor_householder(j)
     directions = [ca.vertcat(*[row[0] for row in qr.null_rows()])]
     (part,) = objective.exact_parts(q, j, qr, directions)
     function = ca.Function("value", [q], [part.weight * ca.mmin(ca.vertcat(*part.values))])
@@ -112,7 +119,7 @@ def test_the_worst_configuration_against_all_there_are(kind, rng):
     arm = hf.arms.load("planar-3r")
     rho, torque = relative_manipulability(arm, "planar"), hf.susceptibility.torque(arm, "worst-case")
     objective = {"torque": torque, "sum": rho - 0.3 * torque}[kind]
-    worst = Opposite(objective)
+    worst = NegatedObjective(objective)
     assert worst.better == ("larger" if kind == "torque" else "smaller")
     for target in rng.uniform(-1.5, 1.5, (3, 2)):
         every = oracles.three_link_fibre(arm, target, 20_000)
@@ -129,13 +136,13 @@ def test_the_worst_configuration_against_all_there_are(kind, rng):
 
 def test_the_opposite_is_the_same_number(mixed8, rng):
     rho = relative_manipulability(mixed8)
-    worst = Opposite(rho)
+    worst = NegatedObjective(rho)
     q = oracles.inside(mixed8, rng, 5)
     np.testing.assert_array_equal(worst(q), rho(q))
-    assert (worst.better, (-1 * rho).better, Opposite(worst).better) == ("smaller", "smaller", "larger")
+    assert (worst.better, (-1 * rho).better, NegatedObjective(worst).better) == ("smaller", "smaller", "larger")
     assert worst.own_task is rho.own_task
     assert worst.name == rho.name
-    np.testing.assert_array_equal(worst.statuses(q), rho.statuses(q))
+    np.testing.assert_array_equal(worst.row_statuses(q), rho.row_statuses(q))
 
 
 def test_reversed_finds_and_follows_the_worst(rng):

@@ -11,10 +11,10 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast import susceptibility as sus
-from holdfast.registry import SUSCEPTIBILITIES
+from holdfast.registry import SUSCEPTIBILITY_REGISTRY
 from holdfast.status import Status
 
-NAMES = list(SUSCEPTIBILITIES)
+NAMES = list(SUSCEPTIBILITY_REGISTRY)
 ROD = hf.Link(1.0, np.array([0.5, 0, 0]), np.diag([0.01, 0.08, 0.08]))
 POINT = np.zeros((3, 3))
 

@@ -15,12 +15,12 @@ import oracles
 from holdfast import arms
 from holdfast import susceptibility as sus
 from holdfast.arm import kinematics
-from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE
+from holdfast.indices.susceptibility.formulas import ACCELERATION_FORMULA, SWING_ANGLE_FORMULA, TORQUE_FORMULA
 from holdfast.kernels import Kernel
-from holdfast.registry import SUSCEPTIBILITIES
+from holdfast.registry import SUSCEPTIBILITY_REGISTRY
 
-FORMULAS = {f.name: f for f in (TORQUE, ACCELERATION, SWING_ANGLE)}
-NAMES = list(SUSCEPTIBILITIES)
+FORMULAS = {f.name: f for f in (TORQUE_FORMULA, ACCELERATION_FORMULA, SWING_ANGLE_FORMULA)}
+NAMES = list(SUSCEPTIBILITY_REGISTRY)
 
 
 @pytest.fixture(autouse=True)
@@ -187,7 +187,7 @@ def test_expressions_are_what_the_kernels_compute(name, measures, loaded, rng):
 
 
 def test_together_is_each_by_itself(measures, loaded, rng):
-    together = sus.Together([measures[name] for name in NAMES])
+    together = sus.SusceptibilityBatch([measures[name] for name in NAMES])
     q = oracles.inside(loaded, rng, 30)
     q[4, 1] = np.nan
     values, gradients = together(q)
@@ -197,7 +197,7 @@ def test_together_is_each_by_itself(measures, loaded, rng):
         np.testing.assert_allclose(gradients[:, k], measures[name].gradient(q), rtol=1e-8, atol=1e-8)
     np.testing.assert_array_equal(together(q[3])[1], gradients[3])
     with pytest.raises(hf.InputError, match="at least one, and all of the same arm"):
-        sus.Together([])
+        sus.SusceptibilityBatch([])
     with pytest.raises(hf.InputError, match="NaN or infinity"):
         together(q[4])
 

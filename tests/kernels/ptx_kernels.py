@@ -32,10 +32,10 @@ from holdfast.clearance.object_kernels import outward_kernel
 from holdfast.indices.index import by_name
 from holdfast.indices.susceptibility import by_name as measure_by_name
 from holdfast.kernels import Kernel, Loop, Program
-from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows, _translated
-from holdfast.recovery.rows import row_solver
-from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
-from holdfast.teleop.trials.plant import Plant
+from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows, _translate_to_ptx
+from holdfast.recovery.rows import make_row_solver
+from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
+from holdfast.teleop.trials.plant import JoystickPlant
 
 TABLE = Path(__file__).with_name("ptx_table.csv")
 TARGETS = (70, 80, 90)
@@ -57,7 +57,7 @@ def assembler() -> Path | None:
 def noting(backend: str | None = None) -> Iterator[dict[int, tuple]]:
     """Programs of kernels and loops that are made inside, with the numbers in a loop's state (None for what is no loop)."""
     made: dict[int, tuple] = {}
-    take, loop = Kernel._take, Loop._take
+    take, loop = Kernel._set_program, Loop._set_step
 
     def noted(self, program, its):
         made.setdefault(id(program), (program, None))
@@ -67,11 +67,11 @@ def noting(backend: str | None = None) -> Iterator[dict[int, tuple]]:
         loop(self, step, *rest)
         made[id(step.program)] = step.program, self.size
 
-    Kernel._take, Loop._take = noted, noted_loop
+    Kernel._set_program, Loop._set_step = noted, noted_loop
     try:
         yield made
     finally:
-        Kernel._take, Loop._take = take, loop
+        Kernel._set_program, Loop._set_step = take, loop
 
 
 def kernels(large: bool) -> dict[str, tuple]:
@@ -110,7 +110,7 @@ def suite(folder: Path) -> dict[str, tuple]:
     for file in sorted(folder.glob("*.json")):
         facts, state, text = json.loads(file.read_text())
         if facts[0] not in largest or largest[facts[0]][0].size < facts[3]:
-            program = Program.known(facts, lambda: None)
+            program = Program.from_facts(facts, lambda: None)
             program.function = ca.Function.deserialize(text)
             largest[facts[0]] = program, state
     return {_name(program): (program, state) for program, state in largest.values()}
@@ -124,20 +124,20 @@ def session(large: bool) -> None:
     panda, plane = arms.load("panda"), arms.load("planar-3r")
     q = (panda.lower + panda.upper) / 2 + 0.1 * np.arange(7)[None]
     for arm, place in ((panda, q), (arms.load("pa10-9dof"), np.full((1, 9), 0.4))):
-        for name in INDICES:
-            index = by_name(oracles.example(INDICES, name, arm), arm)
+        for name in INDEX_REGISTRY:
+            index = by_name(oracles.example(INDEX_REGISTRY, name, arm), arm)
             index(place)
             index.gradient(place)
-    for name in SUSCEPTIBILITIES:
+    for name in SUSCEPTIBILITY_REGISTRY:
         measure = measure_by_name(name, panda)
         measure(q)
         measure.gradient(q)
-    for name in LAWS:
+    for name in LAW_REGISTRY:
         if name == "failure-tolerant" and not large:
             continue
-        law = hf.control.by_name(oracles.example(LAWS, name, panda, "position"), panda, task="position")
+        law = hf.control.by_name(oracles.example(LAW_REGISTRY, name, panda, "position"), panda, task="position")
         law.velocity(q, np.ones(3))
-        law._slopes_kernel(q, np.ones(3))
+        law._jacobian_kernel(q, np.ones(3))
     poses = panda.forward_kinematics(q)
     hf.solve_ik(panda, poses, seed=1, restarts=1)
     law = hf.control.by_name("damped:0.1", plane, task="planar")
@@ -150,18 +150,18 @@ def session(large: bool) -> None:
         hf.control.by_name("failure-tolerant", arms.load("iiwa14")).velocity(np.full(7, 0.5), np.ones(6))
         hf.optimise(panda, poses[0], hf.indices.minimum_singular_value(panda), seed=1, starts=1)
         measures = hf.indices.susceptibility
-        measures.Together([measures.torque(panda), measures.acceleration(panda)])(q)
-        _ = row_solver(panda, as_task(panda, "pose"))._kernels.loop
+        measures.SusceptibilityBatch([measures.torque(panda), measures.acceleration(panda)])(q)
+        _ = make_row_solver(panda, as_task(panda, "pose"))._kernels.solver_loop
         outward_kernel()
-        Plant(hf.control.by_name("damped:0.1", plane, task="planar"))
+        JoystickPlant(hf.control.by_name("damped:0.1", plane, task="planar"))
 
 
 def assembled(program, state, target: int, ptxas: Path) -> list[int]:
     """Registers of a thread, bytes it stores and loads because they do not suffice."""
-    text = (DeviceRows(program) if state is None else DeviceLoop(program, state)).text()
+    text = (DeviceRows(program) if state is None else DeviceLoop(program, state)).module_text()
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "kernel.ptx"
-        source.write_bytes(_translated(text, target))
+        source.write_bytes(_translate_to_ptx(text, target))
         command = [ptxas, "-v", f"-arch=sm_{target}", source, "-o", Path(folder) / "kernel.cubin"]
         said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
     spills = re.search(r"(\d+) bytes spill stores, (\d+) bytes spill loads", said)

@@ -11,7 +11,7 @@ import pytest
 import holdfast as hf
 from holdfast import arms, control, indices, kernels
 from holdfast.cli.program import main
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 from holdfast.kernels import compiled
 from holdfast.studies import read as read_study
 
@@ -71,8 +71,8 @@ def study(_, folder):
     (folder / "study.yaml").write_text(STUDY)
     asked = read_study(folder / "study.yaml")
     made = Study.create(folder / kernels.default_backend(), asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    assert made.run(asked.cells, Threads(1)) == {}
-    return [made.store(0).read(k, ("index",))["index"] for k in range(2)]
+    assert made.run(asked.cells, ThreadRunner(1)) == {}
+    return [made.cell_store(0).read_chunk(k, ("index",))["index"] for k in range(2)]
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_all_of_it_is_launched_and_gives_the_bits_of_the_processor(entry, launch
     arm = arms.load("planar-3r")  # with the kernels it has made already
     expected = entry(arm, tmp_path)
     kernels.set_backend("cuda")
-    monkeypatch.setattr(compiled.Compiled, "bound", None)  # nothing is left to the processor
+    monkeypatch.setattr(compiled.CompiledProgram, "bind_arrays", None)  # nothing is left to the processor
     for a, b in zip(entry(arm, tmp_path), expected, strict=True):
         np.testing.assert_array_equal(a, b)
     assert launched <= gpu.launched, gpu.launched

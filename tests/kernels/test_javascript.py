@@ -13,8 +13,8 @@ import pytest
 import javascript as browser
 from holdfast.errors import KernelError
 from holdfast.kernels import Kernel, Program
-from holdfast.kernels.graph import CONST, INPUT, OUTPUT, SELECT
-from holdfast.kernels.javascript_backend import javascript
+from holdfast.kernels.graph import OP_CONST, OP_INPUT, OP_OUTPUT, OP_SELECT
+from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.program import OP_NAMES
 
 printer = import_module("holdfast.kernels.javascript_backend")
@@ -40,7 +40,7 @@ EXACT = {
     ca.OP_AND: lambda x, y: ca.logic_and(x, y),
     ca.OP_OR: lambda x, y: ca.logic_or(x, y),
     ca.OP_IF_ELSE_ZERO: lambda x, y: ca.if_else(x < y, x, 0),
-    SELECT: lambda x, y: ca.if_else(x < y, y, x - 1),
+    OP_SELECT: lambda x, y: ca.if_else(x < y, y, x - 1),
 }
 ROUNDED = {
     ca.OP_DIV: lambda x, y: x / y,
@@ -72,7 +72,7 @@ def test_every_row_of_the_table_is_tested():
 
 def in_node(inputs, outputs, rows):
     program = Program("test", inputs, outputs)
-    return browser.rows(javascript(program, "f"), "f", rows, program.n_out)
+    return browser.rows(write_javascript(program, "f"), "f", rows, program.n_out)
 
 
 def forms(program):
@@ -112,7 +112,7 @@ def test_random_expressions_of_all_operations(seed, rng):
         values.append(ca.sin(EVERY[op](a, b) + 0.1 * values[rng.integers(5)]))
     out = ca.vertcat(*values[-40:])
     program = Program("all", [x], [out])
-    assert len(forms(program) - {INPUT, CONST, OUTPUT}) > 20
+    assert len(forms(program) - {OP_INPUT, OP_CONST, OP_OUTPUT}) > 20
     points = rng.uniform(-1, 1, (300, 5))
     found = in_node([x], [out], points)
     for backend in ("casadi", "llvm"):
@@ -177,7 +177,7 @@ def test_no_bit_depends_on_how_a_program_is_split(piece, monkeypatch, rng):
     whole = in_node([x], [out], points)
     monkeypatch.setattr(printer, "_PIECE", piece)
     monkeypatch.setattr(printer, "_TREE", min(piece, 60))
-    text = javascript(Program("test", [x], [out]), "f")
+    text = write_javascript(Program("test", [x], [out]), "f")
     count = len(re.findall(r"^function p", text, re.MULTILINE))
     assert count == 1 if piece > 1000 else count > 3
     np.testing.assert_array_equal(browser.rows(text, "f", points, 50), whole)
@@ -196,7 +196,7 @@ def test_matrices_are_read_and_written_row_by_row(rng):
 def test_an_unknown_operation_is_named(expression, name):
     x = ca.SX.sym("x")
     with pytest.raises(KernelError, match=f"'odd'.*{name}.*JavaScript"):
-        javascript(Program("odd", [x], [expression(x)]), "f")
+        write_javascript(Program("odd", [x], [expression(x)]), "f")
 
 
 WORDS = """
@@ -208,7 +208,7 @@ Math abs sqrt exp log asin acos atan sinh cosh tanh expm sin cos tan pow
 def test_the_text_needs_nothing_and_makes_nothing():
     x = ca.SX.sym("x", 3)
     values = [f(ca.sin(x[0]), x[1]) for f in EVERY.values()]
-    text = javascript(Program("every", [x], values), "f")
+    text = write_javascript(Program("every", [x], values), "f")
     assert text.count("new ") == 1
     words = set(re.findall(r"[A-Za-z_$][A-Za-z_$]+", text.split('"use strict";')[1]))
     assert words <= set(re.findall(r"\w+", WORDS)), words

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from holdfast.errors import InputError, KernelError
-from holdfast.kernels import Kernel, default_backend, pool, thread_count
+from holdfast.kernels import Kernel, default_backend, shared_pool, thread_count
 
 BACKENDS = ("llvm", "casadi")  # those of a processor
 
@@ -235,10 +235,10 @@ def test_thread_settings(threads, monkeypatch):
     assert thread_count() == 5
     threads(2)
     assert thread_count() == 2
-    first = pool()
-    assert pool() is first
+    first = shared_pool()
+    assert shared_pool() is first
     threads(3)
-    assert pool() is not first
+    assert shared_pool() is not first
     threads(None)
     monkeypatch.setenv("HOLDFAST_THREADS", "many")
     assert thread_count() >= 1

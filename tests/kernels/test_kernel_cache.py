@@ -106,21 +106,21 @@ def test_off(tmp_path, compilations, monkeypatch):
     first = build()(X)
     np.testing.assert_array_equal(build()(X), first)
     assert len(compilations) == 2
-    assert cache.folder() is None
+    assert cache.cache_folder() is None
     assert list(tmp_path.iterdir()) == []
 
 
 def test_the_users_cache_folder_is_the_default(tmp_path, monkeypatch):
     monkeypatch.delenv("HOLDFAST_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert cache.folder() == tmp_path / "holdfast" / "kernels"
+    assert cache.cache_folder() == tmp_path / "holdfast" / "kernels"
 
 
 def test_a_folder_that_cannot_be_made_costs_only_time(tmp_path, compilations, monkeypatch):
     blocker = tmp_path / "file"
     blocker.write_text("not a folder")
     monkeypatch.setenv("HOLDFAST_CACHE", str(blocker / "below"))
-    assert cache.folder() is None
+    assert cache.cache_folder() is None
     np.testing.assert_allclose(build()(X)[:, 0], np.sin(X[:, 0]) * 3 + X[:, 0] * X[:, 1], rtol=1e-14)
     assert compilations == ["cached"]
 
@@ -130,7 +130,7 @@ def test_a_folder_of_somebody_else_is_not_used(folder, compilations, monkeypatch
     build()
     me = os.getuid()
     monkeypatch.setattr(os, "getuid", lambda: me + 1)
-    assert cache.folder() is None
+    assert cache.cache_folder() is None
     build()
     assert len(compilations) == 2
 
@@ -148,11 +148,11 @@ def test_a_full_disk_costs_only_time_and_leaves_nothing(step, folder, compilatio
 
 
 def test_keys_name_the_width_and_the_machine(monkeypatch):
-    assert cache.key("a", 8) != cache.key("a", 16)
-    assert cache.key("a", 8) != cache.key("b", 8)
-    before = cache.key("a", 8)
-    monkeypatch.setattr(cache, "_machine", lambda: "another processor")
-    assert cache.key("a", 8) != before
+    assert cache.cache_key("a", 8) != cache.cache_key("a", 16)
+    assert cache.cache_key("a", 8) != cache.cache_key("b", 8)
+    before = cache.cache_key("a", 8)
+    monkeypatch.setattr(cache, "_machine_digest", lambda: "another processor")
+    assert cache.cache_key("a", 8) != before
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
@@ -177,7 +177,7 @@ def test_what_others_may_write_is_not_read(folder, compilations):
     build()
     assert len(compilations) == 2
     folder.chmod(0o777)
-    assert cache.folder() is None
+    assert cache.cache_folder() is None
     build()
     assert len(compilations) == 3
 
@@ -187,7 +187,7 @@ def test_nothing_in_a_file_is_executed_but_a_kernel_of_this_machine(folder, comp
     build()
     (file,) = files(folder)
     assert file.read_bytes().startswith(b"holdfast kernel 1\n")
-    assert file.name == cache.key(build().program.digest, 1, machine_code.host().machine.lanes)
+    assert file.name == cache.cache_key(build().program.digest, 1, machine_code.detect_host().machine.lanes)
 
 
 def test_the_folder_has_a_bound(folder, monkeypatch):
@@ -199,7 +199,7 @@ def test_the_folder_has_a_bound(folder, monkeypatch):
         made.append(new)
         os.utime(new, (k + 1, k + 1))
     build(1.5)  # used again
-    monkeypatch.setattr(cache, "_LARGEST_FOLDER", int(3.5 * made[0].stat().st_size))
+    monkeypatch.setattr(cache, "_MAX_FOLDER_BYTES", int(3.5 * made[0].stat().st_size))
     build(4.5)
     kept = files(folder)
     assert len(kept) == 3
@@ -211,4 +211,4 @@ def test_a_home_that_is_not_there(monkeypatch, compilations):
     monkeypatch.delenv("HOLDFAST_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", "/proc/nowhere")
     build()
-    assert cache.folder() is None
+    assert cache.cache_folder() is None

@@ -52,7 +52,7 @@ def test_a_gpu_takes_over_what_was_made_before_but_not_what_was_told_where_to_be
 
 
 def test_large_batches_go_in_parts(gpu, rng, monkeypatch):
-    monkeypatch.setattr(launch, "_MOST_BYTES", 8 * 26 * 100)
+    monkeypatch.setattr(launch, "_MAX_BATCH_BYTES", 8 * 26 * 100)
     x, y, m = rng.normal(size=(250, 3)), rng.normal(size=250), rng.normal(size=(2, 3))
     np.testing.assert_array_equal(pair("cuda").rows(x, y, m), pair("llvm").rows(x, y, m))
     assert [call[-2][0][-1] for call in gpu.asked("cuLaunchKernel")] == [118, 118, 14]
@@ -168,7 +168,7 @@ def test_devices_and_what_is_wrong_with_them(gpu):
 
 def test_an_old_device_is_a_sentence():
     with pytest.raises(KernelError, match=r"compute capability 6\.1; holdfast needs 7\.0"):
-        ptx.ptx_text(Program("x", [x := ca.SX.sym("x")], [x]), 61)
+        ptx.make_ptx(Program("x", [x := ca.SX.sym("x")], [x]), 61)
 
 
 @pytest.mark.parametrize("missing", ["bindings", "driver", "device"])
@@ -198,11 +198,11 @@ def test_a_machine_without_gpu_is_a_sentence(missing, monkeypatch):
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", imported)
-    driver._bindings.cache_clear()
-    driver.device.cache_clear()
+    driver._driver_functions.cache_clear()
+    driver.get_device.cache_clear()
     said = {"bindings": r"holdfast\[gpu\]", "driver": "no NVIDIA driver .*: libcuda", "device": "NO_DEVICE.*no GPU here"}
     for ask in (lambda: kernels.set_backend("cuda"), lambda: pair("cuda")):
         with pytest.raises(KernelError, match=said[missing]):
             ask()
-    driver._bindings.cache_clear()
+    driver._driver_functions.cache_clear()
     assert kernels.default_backend() in ("llvm", "casadi")

@@ -12,9 +12,9 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from holdfast.kernels import Kernel, compiled, pool, settle
+from holdfast.kernels import Kernel, compiled, shared_pool, wait_for_compiler
 from holdfast.kernels.llvm import machine_code
-from holdfast.kernels.llvm.arithmetic import Machine
+from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.program import Program
 
 # Of two child processes, or of four threads.
@@ -44,10 +44,10 @@ def test_levels_and_lanes_give_the_same_bits(rng):
     inputs = np.ascontiguousarray((rng.normal(size=(64, 9)) * 10 ** rng.uniform(-3, 3, (64, 1))).T)
     inputs[2, 5] = np.nan
     results = []
-    for level in machine_code.LEVELS:
+    for level in machine_code.COMPILE_LEVELS:
         for lanes in (1, 2, 4, 8, 16):
             code = machine_code.Code(
-                machine_code.compile_program(program, level, Machine(lanes, machine_code.host().machine.fused))
+                machine_code.compile_program(program, level, TargetMachine(lanes, machine_code.detect_host().machine.fused))
             )
             out = np.empty((program.n_out, 64))
             code.call(inputs.ctypes.data, out.ctypes.data, 64, 64)
@@ -67,14 +67,14 @@ def test_without_fused_multiply_add_every_rounding_is_that_of_casadi(rng):
         x[0] * x[1] + x[2] * x[3] - x[4] * x[5], x[0] - x[1] * x[2], (x[3] * x[4] - x[5]) / x[0], ca.sqrt(x[1] ** 2 + 2)
     )
     program = Program("plain", [x], [y])
-    code = machine_code.Code(machine_code.compile_program(program, 0, Machine(4, False)))
+    code = machine_code.Code(machine_code.compile_program(program, 0, TargetMachine(4, False)))
     inputs, out = np.ascontiguousarray(rng.normal(size=(6, 400))), np.empty((4, 400))
     code.call(inputs.ctypes.data, out.ctypes.data, 400, 400)
     np.testing.assert_array_equal(out, np.asarray(program.function.map(400)(inputs)))
 
 
 def test_a_product_inside_a_sum_is_rounded_once_where_the_machine_can():
-    if not machine_code.host().machine.fused:
+    if not machine_code.detect_host().machine.fused:
         pytest.skip("this machine has no fused multiply-add")
     x = ca.SX.sym("x", 3)
     tiny = 2.0**-30
@@ -88,65 +88,65 @@ def test_a_product_inside_a_sum_is_rounded_once_where_the_machine_can():
 
 
 def test_quick_code_serves_until_enough_rows_have_come(fresh, monkeypatch, rng):
-    monkeypatch.setattr(compiled, "SHORT", 0)
-    monkeypatch.setattr(compiled, "WORTH", 2000)
-    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
+    monkeypatch.setattr(compiled, "REPAYING_WORK", 2000)
+    monkeypatch.setattr(compiled, "MAX_IMMEDIATE_OPERATIONS", 500)
     x, y = long_function(60)
     kernel = Kernel("long", [x], [y])
-    assert kernel.program.size > compiled.AT_ONCE
+    assert kernel.program.size > compiled.MAX_IMMEDIATE_OPERATIONS
     assert kernel._compiled.level == 0
     rows = rng.normal(size=(1024, 9))
     first = kernel.rows(rows)
-    settle()
+    wait_for_compiler()
     assert kernel._compiled.level == 0
     kernel.rows(rows)
-    settle()
+    wait_for_compiler()
     assert kernel._compiled.level == 1
     np.testing.assert_array_equal(kernel.rows(rows), first)
     assert Kernel("again", [x], [y])._compiled.level == 1  # from the disk
 
 
 def test_vast_programs_stay_as_they_are(fresh, monkeypatch, rng):
-    monkeypatch.setattr(compiled, "SHORT", 0)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
     for name in ("WORTH", "AT_ONCE", "VAST"):
         monkeypatch.setattr(compiled, name, 500)
     x, y = long_function(60)
     kernel = Kernel("vast", [x], [y])
-    assert kernel.program.size > compiled.VAST
+    assert kernel.program.size > compiled.MAX_COMPILED_OPERATIONS
     for _ in range(3):
         kernel.rows(rng.normal(size=(1024, 9)))
-    settle()
+    wait_for_compiler()
     assert kernel._compiled.level == 0
 
 
 def test_a_thread_of_the_pool_makes_better_code_itself(fresh, threads, monkeypatch, rng):
     """Every processor is busy there; in the background all rows of the meantime would be computed by the quick code."""
-    monkeypatch.setattr(compiled, "SHORT", 0)
-    monkeypatch.setattr(compiled, "WORTH", 1000)
-    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
+    monkeypatch.setattr(compiled, "REPAYING_WORK", 1000)
+    monkeypatch.setattr(compiled, "MAX_IMMEDIATE_OPERATIONS", 500)
     threads(2)
     x, y = long_function(60)
     kernel = Kernel("long", [x], [y])
     rows = rng.normal(size=(1024, 9))
-    monkeypatch.setattr(compiled, "_in_background", lambda job: pytest.fail("left to the background"))
-    first = pool().submit(kernel.rows, rows).result()
+    monkeypatch.setattr(compiled, "_submit_job", lambda job: pytest.fail("left to the background"))
+    first = shared_pool().submit(kernel.rows, rows).result()
     assert kernel._compiled.level == 1
     np.testing.assert_array_equal(kernel.rows(rows), first)
 
 
 def test_a_thread_of_the_pool_does_not_wait_for_other_code(fresh, threads, monkeypatch, rng):
     """What is being compiled may need what that thread makes."""
-    monkeypatch.setattr(compiled, "SHORT", 0)
-    monkeypatch.setattr(compiled, "WORTH", 1000)
-    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
+    monkeypatch.setattr(compiled, "REPAYING_WORK", 1000)
+    monkeypatch.setattr(compiled, "MAX_IMMEDIATE_OPERATIONS", 500)
     threads(2)
     x, y = long_function(60)
     kernel = Kernel("long", [x], [y])
     rows = rng.normal(size=(1024, 9))
     with compiled._busy:
-        first = pool().submit(kernel.rows, rows).result(timeout=120)
+        first = shared_pool().submit(kernel.rows, rows).result(timeout=120)
         assert kernel._compiled.level == 0
-    settle()
+    wait_for_compiler()
     assert kernel._compiled.level == 1
     np.testing.assert_array_equal(kernel.rows(rows), first)
 
@@ -157,7 +157,7 @@ def test_a_short_program_is_compiled_well_at_once(fresh):
 
 
 def test_better_code_is_made_at_once_where_many_rows_are_expected(fresh, monkeypatch, rng):
-    monkeypatch.setattr(compiled, "SHORT", 0)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
     made, compile_program = [], machine_code.compile_program
 
     def watched(program, level, machine=None):
@@ -166,11 +166,11 @@ def test_better_code_is_made_at_once_where_many_rows_are_expected(fresh, monkeyp
 
     monkeypatch.setattr(machine_code, "compile_program", watched)
     x, y = long_function(60)
-    with compiled.expecting(compiled.WORTH - 1):
+    with compiled.expect_rows(compiled.REPAYING_WORK - 1):
         few = Kernel("few", [x], [y])
-    with compiled.expecting(compiled.WORTH):
+    with compiled.expect_rows(compiled.REPAYING_WORK):
         many = Kernel("many", [x], [y + 1])
-        with pytest.raises(ValueError, match="inside"), compiled.expecting(0):
+        with pytest.raises(ValueError, match="inside"), compiled.expect_rows(0):
             raise ValueError("inside")
         Kernel("many again", [x], [y + 2])
     Kernel("after", [x], [y + 3])
@@ -183,20 +183,20 @@ def test_better_code_is_made_at_once_where_many_rows_are_expected(fresh, monkeyp
 
 def test_short_programs_wait_longer_for_better_code(fresh, monkeypatch, rng):
     """Their quick code is nearly as quick."""
-    monkeypatch.setattr(compiled, "WORTH", 1000)
-    monkeypatch.setattr(compiled, "WORTH_SHORT", 3000)
+    monkeypatch.setattr(compiled, "REPAYING_WORK", 1000)
+    monkeypatch.setattr(compiled, "REPAYING_WORK_OF_SHORT", 3000)
     x, y = long_function(60)
     kernel = Kernel("short", [x], [y])
-    monkeypatch.setattr(compiled, "SHORT", kernel.program.size + 1)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", kernel.program.size + 1)
     for level in (0, 0, 1):
         kernel.rows(rng.normal(size=(1024, 9)))
-        settle()
+        wait_for_compiler()
         assert kernel._compiled.level == level
 
 
 def test_the_level_can_be_asked_for(fresh, monkeypatch):
     monkeypatch.setenv("HOLDFAST_LEVEL", "1")
-    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    monkeypatch.setattr(compiled, "MAX_IMMEDIATE_OPERATIONS", 500)
     x, y = long_function(60)
     assert Kernel("long", [x], [y])._compiled.level == 1
 
@@ -205,7 +205,7 @@ def test_long_compiling_is_announced(fresh, monkeypatch, capsys):
     x, y = long_function()
     Kernel("quick", [x], [y])
     assert capsys.readouterr().err == ""
-    monkeypatch.setattr(machine_code, "COMPILING", (1e-3, 1e-3))
+    monkeypatch.setattr(machine_code, "COMPILE_SECONDS_PER_OPERATION", (1e-3, 1e-3))
     monkeypatch.delenv("HOLDFAST_NOTICES")
     Kernel("slow", [x], [y + 1])
     said = capsys.readouterr()
@@ -220,9 +220,9 @@ def test_a_job_that_raises_in_the_background_is_said_and_nobody_waits_for_it_for
     def fails():
         raise OSError("no room")
 
-    compiled._in_background(fails)
-    compiled._in_background(lambda: done.append(1))
-    waiting = threading.Thread(target=settle, daemon=True)
+    compiled._submit_job(fails)
+    compiled._submit_job(lambda: done.append(1))
+    waiting = threading.Thread(target=wait_for_compiler, daemon=True)
     waiting.start()
     waiting.join(60)
     assert not waiting.is_alive()
@@ -234,7 +234,7 @@ def _in_a_child(rows):
     x, y = long_function(60)
     kernel = Kernel("child", [x], [y])
     many = np.tile(rows, (2 * kernel._chunk // len(rows) + 2, 1))  # enough for threads
-    return float(kernel.rows(many).sum()), pool().submit(lambda: 7).result()
+    return float(kernel.rows(many).sum()), shared_pool().submit(lambda: 7).result()
 
 
 @pytest.mark.parametrize("method", [m for m in ("fork", "spawn") if m in multiprocessing.get_all_start_methods()])
@@ -244,13 +244,13 @@ def test_a_child_process_has_threads_and_a_compiler_of_its_own(method, fresh, th
     rows = rng.normal(size=(50, 9))
     expected = _in_a_child(rows)
     stop, program = threading.Event(), Program("parent", *([part] for part in long_function(60)))
-    parent = compiled.Compiled(program)
+    parent = compiled.CompiledProgram(program)
 
     def compile_all_the_time():
         while not stop.is_set():
             machine_code.Code(machine_code.compile_program(program, 0))
-            compiled._in_background(lambda: parent._make(1, aside=True))
-            settle()
+            compiled._submit_job(lambda: parent._compile_code(1, in_background=True))
+            wait_for_compiler()
 
     busy = threading.Thread(target=compile_all_the_time)
     busy.start()
@@ -266,9 +266,9 @@ def test_a_child_process_has_threads_and_a_compiler_of_its_own(method, fresh, th
 
 def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatch, rng):
     """Every round is a new program, compiled quickly by each thread, run in the pool, and compiled well in the background."""
-    monkeypatch.setattr(compiled, "AT_ONCE", 100)
-    monkeypatch.setattr(compiled, "SHORT", 0)
-    monkeypatch.setattr(compiled, "WORTH", 2000)
+    monkeypatch.setattr(compiled, "MAX_IMMEDIATE_OPERATIONS", 100)
+    monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
+    monkeypatch.setattr(compiled, "REPAYING_WORK", 2000)
     threads(2)
     rows = rng.normal(size=(5000, 9))
     for k in range(ROUNDS["threads"]):
@@ -277,7 +277,7 @@ def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatc
         def work(k=k, found=found):
             x, y = long_function(10)
             kernel = Kernel("together", [x], [y + k])
-            found.append((kernel.rows(rows).tobytes(), kernel.single()(rows[-1]).tobytes(), kernel.rows(rows).tobytes()))
+            found.append((kernel.rows(rows).tobytes(), kernel.single_row()(rows[-1]).tobytes(), kernel.rows(rows).tobytes()))
 
         workers = [threading.Thread(target=work, daemon=True) for _ in range(4)]
         for worker in workers:
@@ -285,7 +285,7 @@ def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatc
         for worker in workers:
             worker.join(timeout=120)
         assert len(found) == 4, "a thread waits forever, or failed"
-        settle()
+        wait_for_compiler()
         assert len(set(found)) == 1
         assert found[0][0].endswith(found[0][1])
         assert found[0][0] == found[0][2]

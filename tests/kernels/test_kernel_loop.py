@@ -179,7 +179,7 @@ def test_the_stretches_after_which_somebody_is_told_change_nothing(loop, rng, mo
     state, parameters = draw(rng, 300)
     state[7], parameters[7] = 1.0, np.nan  # never done
     whole = loop.run(state, parameters, TOLERANCE, 60)
-    monkeypatch.setattr("holdfast.kernels.loop._STRETCH", 3)
+    monkeypatch.setattr("holdfast.kernels.loop._STEPS_PER_REPORT", 3)
     assert_same(loop.run(state, parameters, TOLERANCE, 60), whole)
 
 
@@ -192,9 +192,11 @@ def test_who_is_told_hears_of_every_row_within_the_tolerance(loop, rng):
 
 def test_a_row_that_goes_on_and_on_tells_of_its_steps(loop, monkeypatch):
     monkeypatch.delenv("HOLDFAST_NOTICES")
-    monkeypatch.setattr(notice, "_watch", lambda: None)
-    with notice.working("looking for roots"):
+    monkeypatch.setattr(notice, "_start_watcher", lambda: None)
+    with notice.report_work("looking for roots"):
         told = []
-        monkeypatch.setattr(notice.Count, "add", lambda count, number: told.append((count.text("looking for roots"), number)))
+        monkeypatch.setattr(
+            notice.ProgressCount, "add", lambda count, number: told.append((count.text("looking for roots"), number))
+        )
         loop.run(np.ones((1, 2)), np.full((1, 2), np.nan), TOLERANCE, 2500)
     assert [number for text, number in told if "of at most 2,500 steps" in text] == [1000, 1000, 500]

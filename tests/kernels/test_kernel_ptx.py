@@ -15,16 +15,16 @@ from test_kernel_operations import TABLE
 import holdfast
 from holdfast.kernels import Program
 from holdfast.kernels.gpu import ptx
-from holdfast.kernels.llvm.functions import FUNCTIONS
+from holdfast.kernels.llvm.functions import EMITTED_FUNCTIONS
 from holdfast.kernels.program import OP_NAMES
 
 
 def test_every_operation_becomes_ptx_that_calls_nothing():
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     program = Program("all", [x, y], [ca.vertcat(*[expression(x, y) for _, expression, *_ in TABLE.values()])])
-    assert {OP_NAMES[op] for op in FUNCTIONS} <= {OP_NAMES[i.op] for i in program.instructions}
+    assert {OP_NAMES[op] for op in EMITTED_FUNCTIONS} <= {OP_NAMES[i.op] for i in program.instructions}
     for capability in (70, 75, 90, 100, 121):
-        text = ptx.ptx_text(program, capability).decode()
+        text = ptx.make_ptx(program, capability).decode()
         assert re.search(r"\.target sm_(\d+)", text)[1] == str(min(capability, 90))
         assert ".visible .entry rows(" in text
         assert not re.search(r"\bcall\b|\.extern|\.local", text)
@@ -34,10 +34,10 @@ def test_every_operation_becomes_ptx_that_calls_nothing():
 def test_ptx_is_kept_beside_the_object_files(monkeypatch):
     x = ca.SX.sym("x", 2)
     program = Program("kept", [x], [ca.vertcat(ca.exp(x), ca.sumsqr(x))])
-    first = ptx.ptx_text(program, 80), ptx.ptx_text(program, 90), ptx.ptx_text(program, 90, state=2)
+    first = ptx.make_ptx(program, 80), ptx.make_ptx(program, 90), ptx.make_ptx(program, 90, state=2)
     assert len(set(first)) == 3
-    monkeypatch.setattr(ptx, "_translated", None)
-    assert first == (ptx.ptx_text(program, 80), ptx.ptx_text(program, 90), ptx.ptx_text(program, 90, state=2))
+    monkeypatch.setattr(ptx, "_translate_to_ptx", None)
+    assert first == (ptx.make_ptx(program, 80), ptx.make_ptx(program, 90), ptx.make_ptx(program, 90, state=2))
 
 
 def test_the_assembler_takes_every_kernel_and_needs_what_the_table_says():

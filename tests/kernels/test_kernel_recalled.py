@@ -14,8 +14,8 @@ import holdfast as hf
 import oracles
 from holdfast.caching import cached_property
 from holdfast.indices import CustomIndex
-from holdfast.kernels import Kernel, Loop, recalled, recalled_data, recipe
-from holdfast.kernels.recipe import digest_of
+from holdfast.kernels import Kernel, Loop, cached_json, cached_kernel, recipe
+from holdfast.kernels.recipe import fingerprint
 
 BUILT: list[str] = []
 
@@ -26,7 +26,7 @@ def ours(function):
     return function
 
 
-@recalled
+@cached_kernel
 @ours
 def line(slope, offset=0.0):
     BUILT.append("line")
@@ -34,7 +34,7 @@ def line(slope, offset=0.0):
     return Kernel("line", [x], [slope * x + offset, x[0] * x[1]])
 
 
-@recalled
+@cached_kernel
 @ours
 def root(times):
     BUILT.append("root")
@@ -42,7 +42,7 @@ def root(times):
     return Loop("root", y, [p], next_state=(y + p / y) / 2, residual=ca.fabs(y * y - p), times=times)
 
 
-@recalled_data
+@cached_json
 @ours
 def texts(arm, name="hand"):
     BUILT.append("texts")
@@ -122,7 +122,7 @@ def test_the_machine_of_casadi_always_builds(monkeypatch):
 
 
 def test_a_function_of_somebody_else_is_always_called():
-    @recalled
+    @cached_kernel
     def foreign():
         BUILT.append("foreign")
         x = ca.SX.sym("x")
@@ -135,7 +135,7 @@ def test_a_function_of_somebody_else_is_always_called():
 
 def test_changed_sources_are_another_recipe(monkeypatch):
     line(3.0)
-    monkeypatch.setattr(recipe, "_sources", lambda: "other")
+    monkeypatch.setattr(recipe, "_sources_digest", lambda: "other")
     line(3.0)
     assert BUILT == ["line", "line"]
 
@@ -143,19 +143,19 @@ def test_changed_sources_are_another_recipe(monkeypatch):
 def test_equal_things_have_equal_digests_and_others_others(rng):
     arm, other = (oracles.random_arm(np.random.default_rng(3), types="RRRR", limits=limits) for limits in (2.0, 2.1))
     same = oracles.random_arm(np.random.default_rng(3), types="RRRR", limits=2.0)
-    assert digest_of(arm) == digest_of(same) != digest_of(other)
+    assert fingerprint(arm) == fingerprint(same) != fingerprint(other)
     a, b = (hf.indices.relative_manipulability(x, "position") for x in (arm, same))
     a(rng.uniform(-1, 1, (3, 4)))  # what an object keeps at hand does not count
-    assert digest_of(a) == digest_of(b) != digest_of(hf.indices.manipulability(same, "position"))
-    assert digest_of(1.0) != digest_of(1)
-    assert digest_of((1, (2,))) != digest_of((1, 2))
-    assert digest_of("ab", "c") != digest_of("a", "bc")
-    assert digest_of(np.zeros(4)) != digest_of(np.zeros((2, 2)))
-    assert digest_of(0.0) != digest_of(-0.0)
+    assert fingerprint(a) == fingerprint(b) != fingerprint(hf.indices.manipulability(same, "position"))
+    assert fingerprint(1.0) != fingerprint(1)
+    assert fingerprint((1, (2,))) != fingerprint((1, 2))
+    assert fingerprint("ab", "c") != fingerprint("a", "bc")
+    assert fingerprint(np.zeros(4)) != fingerprint(np.zeros((2, 2)))
+    assert fingerprint(0.0) != fingerprint(-0.0)
     some, turned = set(range(0, 24, 8)), set(range(16, -8, -8))
     assert list(some) != list(turned)
-    assert digest_of(some) == digest_of(turned) != digest_of(frozenset(some))
-    assert digest_of({("a", "b"), ("c", "d")}) != digest_of({("a", "c"), ("b", "d")})
+    assert fingerprint(some) == fingerprint(turned) != fingerprint(frozenset(some))
+    assert fingerprint({("a", "b"), ("c", "d")}) != fingerprint({("a", "c"), ("b", "d")})
 
 
 @dataclass(frozen=True)
@@ -167,14 +167,14 @@ def test_another_thread_may_keep_something_in_the_middle_of_a_digest(monkeypatch
     """The attributes of an arm grow when something that it caches is first asked for."""
     arm = hf.arms.load("planar-3r")
     index = hf.indices.manipulability(arm, "planar")
-    expected, look = digest_of(index), recipe.getattr_static
+    expected, look = fingerprint(index), recipe.getattr_static
 
     def looked(*args):
         vars(index)[f"_kept_{len(vars(index))}"] = 1  # as another thread would, between two steps of the loop
         return look(*args)
 
     monkeypatch.setattr(recipe, "getattr_static", looked)
-    assert digest_of(index) == expected
+    assert fingerprint(index) == expected
 
 
 def test_what_is_somebody_elses_has_no_digest(mixed5):
@@ -189,7 +189,7 @@ def test_what_is_somebody_elses_has_no_digest(mixed5):
         {Mine(1.0)},
         holds_itself,
     ):
-        assert digest_of(thing) is None
+        assert fingerprint(thing) is None
 
 
 @pytest.mark.parametrize("backend", ["llvm", "casadi"])
@@ -202,7 +202,7 @@ def test_texts_are_made_once(backend, flat4, mixed5, monkeypatch):
     assert texts(mixed5) != first
     assert texts(flat4, "name") != first
     assert BUILT == ["texts"] * 4
-    monkeypatch.setattr(recipe, "_sources", lambda: "other")
+    monkeypatch.setattr(recipe, "_sources_digest", lambda: "other")
     assert texts(flat4) == first
     assert BUILT == ["texts"] * 5
 

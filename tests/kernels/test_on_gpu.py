@@ -70,7 +70,7 @@ def test_torch_shares_its_memory(rng):
     for a, b in zip(x, h, strict=True):
         assert a.grad.device.type == "cuda"
         np.testing.assert_allclose(a.grad.cpu(), b.grad, rtol=1e-9, atol=1e-12)
-    out = law._velocity_kernel.on("cuda").exchange(*[t.detach() for t in x])
+    out = law._velocity_kernel.on_backend("cuda").exchange(*[t.detach() for t in x])
     assert (
         torch.from_dlpack(out if not isinstance(out, tuple) else out[0]).data_ptr()
         == (out if not isinstance(out, tuple) else out[0]).pointer

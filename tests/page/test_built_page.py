@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from holdfast.teleop.serve.app import STATIC
-from holdfast.teleop.serve.texts import read
+from holdfast.teleop.serve.app import STATIC_FOLDER
+from holdfast.teleop.serve.texts import load_texts
 
 PAGE = Path(__file__).parents[2] / "page"
 
@@ -37,7 +37,7 @@ def test_the_built_page_is_the_page(tmp_path, mode, html):
     built = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
     assert {html, f"{mode}.js", f"{mode}.css"} <= built.keys()
     for name, content in built.items():
-        assert (STATIC / name).read_bytes() == content, f"'{name}' is not what 'npm run build' makes; run it and commit"
+        assert (STATIC_FOLDER / name).read_bytes() == content, f"'{name}' is not what 'npm run build' makes; run it and commit"
 
 
 @pytest.mark.usefixtures("node")
@@ -59,7 +59,7 @@ def test_types_and_unit_tests():
 
 def test_every_text_is_there_and_used():
     code = sources()
-    keys = set(read().strings)
+    keys = set(load_texts().strings)
     literal = set(re.findall(r'"([a-z][a-z0-9_-]*)"', code))
     templates = re.findall(r"`((?:[a-z0-9_-]|\$\{[^{}`]*\})+)`", code)
     patterns = [re.sub(r"\$\{[^}]*\}", "[a-z0-9_-]+", t) for t in templates if "${" in t and re.search("[a-z]_|_[a-z]", t)]
@@ -71,14 +71,16 @@ def test_every_text_is_there_and_used():
 
 @pytest.mark.parametrize(("mode", "html"), [("station", "index.html"), ("experimenter", "experimenter.html")])
 def test_the_built_page_asks_no_other_host_and_needs_nothing_inline(mode, html):
-    index = (STATIC / html).read_text(encoding="utf-8")
+    index = (STATIC_FOLDER / html).read_text(encoding="utf-8")
     assert not re.search(r"<style|<script(?![^>]*\bsrc=)|\bstyle=|\bon\w+=", index)
     for name in (html, f"{mode}.js", f"{mode}.css", "worker.js"):
-        addresses = re.findall(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}[^\s\"'`)]*", (STATIC / name).read_text(encoding="utf-8"))
+        addresses = re.findall(
+            r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}[^\s\"'`)]*", (STATIC_FOLDER / name).read_text(encoding="utf-8")
+        )
         # Names of XML, and what jsPsych says of itself in a citation, are never asked for.
         assert [a for a in addresses if not re.search(r"//(www\.)?(jspsych|w3|doi|joss\.theoj)\.org", a)] == []
-    assert "@font-face" not in (STATIC / f"{mode}.css").read_text(encoding="utf-8")
-    assert "eval(" not in (STATIC / f"{mode}.js").read_text(encoding="utf-8")
+    assert "@font-face" not in (STATIC_FOLDER / f"{mode}.css").read_text(encoding="utf-8")
+    assert "eval(" not in (STATIC_FOLDER / f"{mode}.js").read_text(encoding="utf-8")
 
 
 def test_the_lock_file_names_no_host():
@@ -86,7 +88,7 @@ def test_the_lock_file_names_no_host():
 
 
 def test_everything_in_the_page_has_its_licence_beside_it():
-    notice = (STATIC / "licences.txt").read_text(encoding="utf-8")
+    notice = (STATIC_FOLDER / "licences.txt").read_text(encoding="utf-8")
     assert notice == (PAGE / "public" / "licences.txt").read_text(encoding="utf-8")
     assert "Permission is hereby granted" in notice
     lock = json.loads((PAGE / "package-lock.json").read_text(encoding="utf-8"))["packages"]

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 import holdfast as hf
 from cards import Card, check_card
 from holdfast.errors import InputError
-from holdfast.present import PRESENTERS
+from holdfast.present import PRESENTER_MODULES
 
 X, TARGET = np.array([0.3, 0.5, 0.7]), [1.5, 1.5]
 
@@ -84,22 +84,22 @@ MADE = {
     "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
     "Configurations": found(lambda: hf.all_configurations(arm(), TARGET, "planar")),
     "ConvergenceMap": lambda: mapped(),
-    "Book": found(hf.designs.records),
-    "Ceiling": found(hf.ceilings.look_up, n=8, m=6, k=2),
-    "CeilingSearch": found(hf.ceilings.search, n=4, m=2, k=2, seconds=0.2),
-    "CeilingTable": found(hf.ceilings.table, 6),
-    "SingularValueCeiling": found(hf.ceilings.singular_value, n=7, m=3),
+    "Book": found(hf.designs.record_designs),
+    "Ceiling": found(hf.ceilings.upper_bound, n=8, m=6, k=2),
+    "CeilingSearch": found(hf.ceilings.search_null_space, n=4, m=2, k=2, seconds=0.2),
+    "CeilingTable": found(hf.ceilings.bound_table, 6),
+    "SingularValueCeiling": found(hf.ceilings.bound_singular_value, n=7, m=3),
     "EvolvedDesign": found(
         lambda: hf.designs.design_for_workspace(four(), {"a1": (0.5, 1.5), "a3": (0.5, 1.5)}, generations=2, restarts=1)
     ),
-    "FaultBatch": found(lambda: hf.faults.Faults([hf.faults.weak(gain=0.3, onset=1.0)]).batch(arm(), episodes=2)),
-    "Orders": found(lambda: hf.designs.judge_orders(hf.arms.load("panda").jacobian(np.full(7, 0.4)), samples=20)),
-    "Judgement": found(lambda: hf.designs.judge(arm(), task="planar", measures=["fraction-above"], samples=200)),
-    "Record": found(hf.designs.record, "pose-9R-k2-001"),
-    "RecordCheck": found(lambda: hf.designs.record("pose-9R-k2-001").check()),
-    "Synthesis": found(lambda: hf.designs.synthesise(hf.ceilings.look_up(n=4, m=2, k=1), task="planar", starts=1)),
+    "FaultBatch": found(lambda: hf.faults.FaultModel([hf.faults.weak(gain=0.3, onset=1.0)]).batch(arm(), episodes=2)),
+    "Orders": found(lambda: hf.designs.compare_joint_orders(hf.arms.load("panda").jacobian(np.full(7, 0.4)), samples=20)),
+    "Judgement": found(lambda: hf.designs.compare_arms(arm(), task="planar", measures=["fraction-above"], samples=200)),
+    "Record": found(hf.designs.record_design, "pose-9R-k2-001"),
+    "RecordCheck": found(lambda: hf.designs.record_design("pose-9R-k2-001").check()),
+    "Synthesis": found(lambda: hf.designs.synthesise(hf.ceilings.upper_bound(n=4, m=2, k=1), task="planar", starts=1)),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
-    "Endurance": found(lambda: hf.endure(arm(), timed(), task="planar", samples=5, spacing=0.3)),
+    "Endurance": found(lambda: hf.plan_motion(arm(), timed(), task="planar", samples=5, spacing=0.3)),
     "Law": law,
     "LawChoice": found(lambda: hf.best_law([law(), hf.control.damped(arm(), 0.3, "planar")], 1, 2, configurations=1)),
     "LawComparison": found(
@@ -184,7 +184,7 @@ def mapped():
 
 def test_every_class_that_a_notebook_shows_is_shown_here():
     """A new one is to be made above; what is dear to make has a card where it is tested."""
-    assert set(MADE) | ELSEWHERE == set(PRESENTERS)
+    assert set(MADE) | ELSEWHERE == set(PRESENTER_MODULES)
 
 
 @pytest.mark.parametrize("name", sorted(MADE))

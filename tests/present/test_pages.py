@@ -16,10 +16,10 @@ from test_notebook import INPUTS, MADE, X
 import holdfast as hf
 from holdfast.present.physics import swing
 from holdfast.present.simulation.run import _RunReport
-from holdfast.recovery.recovery import Ending
-from holdfast.simulation.runs import Outcome, Reason
+from holdfast.recovery.recovery import RecoveryOutcome
+from holdfast.simulation.runs import Reason, RunOutcome
 from holdfast.status import Status
-from holdfast.words import together
+from holdfast.words import join_units
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -33,7 +33,12 @@ PARTS = {
 }  # of a result, without a command that writes their page
 PARTS |= {"Book", "Ceiling", "CeilingSearch", "CeilingTable", "FaultBatch", "Orders", "Record", "RecordCheck", "Synthesis"}
 PARTS |= {"SingularValueCeiling"}
-NAMES = [e.name for kind in (Ending, Outcome, Reason, Status) for e in kind if "_" in e.name or e.name in ("HOME", "CONVERGED")]
+NAMES = [
+    e.name
+    for kind in (RecoveryOutcome, RunOutcome, Reason, Status)
+    for e in kind
+    if "_" in e.name or e.name in ("HOME", "CONVERGED")
+]
 
 
 def says_something(answer):
@@ -89,17 +94,17 @@ APART = re.compile(r"\d (%|°|m|mm|s|ms|min|h|rad|deg|N|kg|Hz)(?![\w-])")
 
 
 def test_no_number_is_on_another_line_than_its_unit():
-    assert together("1.5e-06 of tool1e-2") == "1.5e−06 of tool1e-2"
+    assert join_units("1.5e-06 of tool1e-2") == "1.5e−06 of tool1e-2"
     held = "at 7~% of 1.2~m, 3~N~m and 2~rad/s in 10~s; 2 hours, 5 m-long, joint 4 may lock"
-    assert together(held.replace("~", " ")).replace("\u00a0", "~") == held
+    assert join_units(held.replace("~", " ")).replace("\u00a0", "~") == held
     page = '<p title="7 %">7 %</p> <code>--x 1 m</code><pre>2 m\n3 s</pre>'
-    assert together(page, html=True) == page.replace(">7 %", ">7\u00a0%")
+    assert join_units(page, html=True) == page.replace(">7 %", ">7\u00a0%")
 
 
-@pytest.mark.parametrize("outcome", list(Outcome))
+@pytest.mark.parametrize("outcome", list(RunOutcome))
 def test_how_a_run_ended(outcome):
     runs = MADE["Runs"]()
-    reason = Reason.TIME_LIMIT if outcome == Outcome.UNDECIDED else Reason.NONE
+    reason = Reason.TIME_LIMIT if outcome == RunOutcome.UNDECIDED else Reason.NONE
     run = _RunReport(replace(runs, code=np.uint8(outcome), reason=np.uint8(reason)))
     says_something(run.headline)
     told = {
@@ -111,7 +116,7 @@ def test_how_a_run_ended(outcome):
     assert told[outcome.name] in run.headline
 
 
-@pytest.mark.parametrize("ending", list(Ending))
+@pytest.mark.parametrize("ending", list(RecoveryOutcome))
 def test_how_a_recovery_ended(ending):
     found = MADE["Recovery"]()
     gone = replace(found, ending=ending, q=np.zeros((0, 3)), legs=(), left=None)
@@ -138,7 +143,7 @@ def test_how_a_joint_swings(outcome):
         outcome=outcome,
         drops=(drop,),
     )
-    story = found._presented("story")
+    story = found._present("story")
     says_something(story.answer)
     assert all(not value.startswith("0 ") for value, _ in story.facts)
 
@@ -147,7 +152,7 @@ def test_where_nothing_is_found_the_answer_says_so():
     motion, best, points = MADE["SelfMotion"](), MADE["Optima"](), MADE["StationaryPoints"]()
     lost = replace(motion, components=(), q=np.zeros((0, 3)), status=Status.NOT_FOUND)
     basins = MADE["Basins"]()
-    none = replace(basins, runs=replace(basins.runs, code=np.full(4, Outcome.STUCK)), end=np.full(4, -4))
+    none = replace(basins, runs=replace(basins.runs, code=np.full(4, RunOutcome.STUCK)), end=np.full(4, -4))
     curve = MADE["TradeOff"]()
     whole = MADE["TolerantWorkspace"]()
     nowhere = np.zeros_like(whole.inside)
@@ -161,7 +166,7 @@ def test_where_nothing_is_found_the_answer_says_so():
         "reaches none of the points": replace(whole, healthy_size=0.0),
         "no point even before": replace(whole, within=nowhere, survives=nowhere[:, None] & whole.survives, inside=nowhere),
         "no point is kept through every lock": replace(whole, within=~nowhere, inside=nowhere, survives=np.eye(4, 3) > 0),
-        "No motion reaches its target": replace(mapped, code=np.full_like(mapped.code, Outcome.MOVING)),
+        "No motion reaches its target": replace(mapped, code=np.full_like(mapped.code, RunOutcome.MOVING)),
         "No configuration was found at any": replace(mapped, code=np.full_like(mapped.code, 255)),
     }  # fmt: skip
     for words, result in cases.items():

@@ -9,8 +9,8 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import given, settings
 
-from holdfast.present.printing import alike
-from holdfast.present.terminal import Grid, Screen
+from holdfast.present.printing import format_column
+from holdfast.present.terminal import BandedTable, WrappingConsole
 
 CELLS = [
     ["pseudoinverse", "joint1", "70.0 %", "45.7 % to 88.1 %", "1.234"],
@@ -21,14 +21,14 @@ HEAD = ["law", "locked", "converged", "95 % interval", "end error, m"]
 
 def shown(grid, width):
     out = io.StringIO()
-    screen = Screen()
+    screen = WrappingConsole()
     screen.file, screen.width = out, width
     screen.print(grid)
     return out.getvalue().splitlines()
 
 
 def grid(head=HEAD, rows=CELLS):
-    made = Grid(*head)
+    made = BandedTable(*head)
     for row in rows:
         made.add_row(*row)
     return made
@@ -66,16 +66,16 @@ def test_numbers_end_where_their_heads_end_and_names_begin_where_theirs_begin():
 
 
 def test_one_precision_in_a_column():
-    assert alike([22.021, -0.6338462, 0.0, float("nan")]) == ["22.02", "-0.63", "0.00", "none"]
-    assert alike([22.021, 0.006338]) == ["22.0210", "0.0063"]
-    assert alike([1.5, 90.0, -12.25], ["m", "deg", "deg"]) == ["1.500 m", "90.00 deg", "-12.25 deg"]
-    assert alike([2.248e-08, 0.8039]) == ["2.248e-08", "0.8039"]  # of sizes that have none
+    assert format_column([22.021, -0.6338462, 0.0, float("nan")]) == ["22.02", "-0.63", "0.00", "none"]
+    assert format_column([22.021, 0.006338]) == ["22.0210", "0.0063"]
+    assert format_column([1.5, 90.0, -12.25], ["m", "deg", "deg"]) == ["1.500 m", "90.00 deg", "-12.25 deg"]
+    assert format_column([2.248e-08, 0.8039]) == ["2.248e-08", "0.8039"]  # of sizes that have none
 
 
 @pytest.mark.parametrize(("terminal", "lines"), [(True, 3), (False, 1)])
 def test_a_sentence_is_wrapped_between_words_where_a_window_would_cut_it(terminal, lines):
     out = io.StringIO()
-    screen = Screen()
+    screen = WrappingConsole()
     screen.file, screen._force_terminal, screen.width = out, terminal, 20
     screen.print("The end effector stays on its path all the time", soft_wrap=True)
     found = out.getvalue().splitlines()
@@ -90,7 +90,7 @@ def test_colours_are_for_a_terminal_that_wants_them(monkeypatch):
                 patch.delenv(name, raising=False)
             for name, value in environment.items():
                 patch.setenv(name, value)
-            screen = Screen()
+            screen = WrappingConsole()
             screen.file = out = io.StringIO()
             screen.print("[yellow]not finished[/]")
         return out.getvalue()

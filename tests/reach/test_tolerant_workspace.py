@@ -9,8 +9,8 @@ import holdfast as hf
 import oracles
 from holdfast import InputError, TaskError, arms, certify, tolerant_workspace
 from holdfast.present.reach.region import next_steps
-from holdfast.reach.samples import limited
-from holdfast.reach.suggested import box_inside
+from holdfast.reach.samples import with_artificial_limits
+from holdfast.reach.suggested import find_inner_box
 
 
 @pytest.fixture(scope="module")
@@ -130,7 +130,7 @@ def test_limits_of_any_arm_are_looked_for(flat4):
     assert given.size == region.size
     # What it says holds at other angles than those tried.
     inside = region.points[region.inside][:20]
-    inner = limited(flat4, region.limits)
+    inner = with_artificial_limits(flat4, region.limits)
     assert hf.solve_ik(inner, [oracles.pose(None, p) for p in inside], task="planar").success.all()
     for joint, (low, high) in enumerate(region.limits):
         for angle in np.linspace(low, high, 5):
@@ -173,11 +173,11 @@ def test_errors(unit3, options, error, message):
 def test_a_box_of_points_inside(rng, axes):
     low, high = rng.uniform(0.1, 0.3, axes), rng.uniform(0.6, 0.9, axes)
     points = rng.random((4000, axes))
-    box = box_inside(points, ((points > low) & (points < high)).all(axis=1))
+    box = find_inner_box(points, ((points > low) & (points < high)).all(axis=1))
     assert (box[:, 0] >= low).all()
     assert (box[:, 1] <= high).all()
     assert np.prod(np.diff(box)) > 0.5 * np.prod(high - low)
-    assert box_inside(points, points[:, 0] > 2) is None
+    assert find_inner_box(points, points[:, 0] > 2) is None
 
 
 def test_what_the_sample_suggests_is_proved(unit3):

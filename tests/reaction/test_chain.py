@@ -11,7 +11,7 @@ import holdfast as hf
 from cells import placed
 from holdfast.errors import HoldfastError, InputError
 from holdfast.faults import FaultEvent
-from holdfast.reaction.detour import postures
+from holdfast.reaction.detour import candidate_postures
 from holdfast.reaction.masked import MaskedLaw
 
 pytest.importorskip("mujoco")
@@ -53,7 +53,7 @@ def test_a_masked_law_is_that_of_the_columns_left(law, rng):
         inverse = j.T @ np.linalg.inv(j @ j.T + 0.02**2 * np.eye(3))
         pull = masked.mask * centring * ((arm.lower + arm.upper) / 2 - q)
         assert masked.rates(q) == pytest.approx(inverse @ (v - j @ pull) + pull, abs=1e-9)
-        assert (masked.miss, masked.turn) == (pytest.approx(np.linalg.norm(error)), 0.0)
+        assert (masked.position_error, masked.orientation_error) == (pytest.approx(np.linalg.norm(error)), 0.0)
     at = arm.upper.copy()
     assert (masked.rates(at) <= 0).all()
 
@@ -103,7 +103,7 @@ def test_where_the_law_would_end_off_its_target_it_goes_by_another_posture_or_al
     monkeypatch.setattr("holdfast.reaction.controller.better_posture", lambda *args, **given: None)
     alone = hf.simulate_faults(law, start, goal, plan=False, **options)
     assert (alone.outcome, [a.what for a in alone.actions]) == ("missed", ["alarm", "brake"])
-    assert alone.miss[-1] > 0.02
+    assert alone.position_error[-1] > 0.02
     route = hf.simulate_faults(law, start, goal, **options).require_ok()
     assert [a.what for a in route.actions] == ["alarm", "brake", "plan"]
     for run in (detour, route):
@@ -159,7 +159,7 @@ def test_a_law_that_is_followed_ahead_ends_where_its_single_steps_do(task, rng):
         at, takes, nearest, since = row.copy(), np.inf, np.inf, 0.0
         for time in 0.05 * np.arange(240):
             rates = masked.rates(at)
-            off = masked.miss + masked.turn
+            off = masked.position_error + masked.orientation_error
             nearest, since = (off, time) if off < nearest - 1e-3 else (nearest, since)
             if off < 2e-3 or time - since > 1.5:
                 takes = time if off < 2e-3 else np.inf
@@ -169,13 +169,13 @@ def test_a_law_that_is_followed_ahead_ends_where_its_single_steps_do(task, rng):
         ends.append(takes)
     assert np.isfinite(ends).any()
     assert np.isinf(ends).any()
-    np.testing.assert_allclose(masked.ahead(q, most=most), ends)
+    np.testing.assert_allclose(masked.predict_time_to_target(q, max_speeds=most), ends)
 
 
 def test_postures_of_a_detour_leave_braked_joints_alone_and_a_joint_without_limits_turns_either_way():
     arm, q = hf.arms.load("kinova-j2s6s200"), np.linspace(1.0, 4.0, 6)
     mask = np.where(np.arange(6) == 4, 0.0, 1.0)
-    found = postures(arm, q, mask)
+    found = candidate_postures(arm, q, mask)
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
     middle = np.array([(low + high) / 2 if np.isfinite(high) else 0.0 for low, high in zip(arm.lower, arm.upper, strict=True)])
     assert (found[:, 4] == q[4]).all()
@@ -218,7 +218,7 @@ def test_bodies():
 
 
 def test_lock_times_of_drawn_faults_in_the_kinematic_loop(law):
-    faults = hf.faults.Faults([hf.faults.locked(onset=(0.2, 2.0), probability=0.7)], seed=4)
+    faults = hf.faults.FaultModel([hf.faults.locked(onset=(0.2, 2.0), probability=0.7)], seed=4)
     batch = faults.batch(law.arm, episodes=4)
     runs = hf.simulate(law, np.tile(START, (4, 1)), GOAL, faults=batch)
     for k, events in enumerate(batch.episodes):
@@ -226,6 +226,6 @@ def test_lock_times_of_drawn_faults_in_the_kinematic_loop(law):
         assert runs.q_final[k] == pytest.approx(one.q_final, abs=1e-9)
         assert hf.simulate(law, START, GOAL, faults=events).q_final.tolist() == one.q_final.tolist()
     with pytest.raises(InputError, match="bodies and motors are needed"):
-        hf.simulate(law, START, GOAL, faults=hf.faults.Faults([hf.faults.limp(onset=1.0)]).draw(law.arm))
+        hf.simulate(law, START, GOAL, faults=hf.faults.FaultModel([hf.faults.limp(onset=1.0)]).draw(law.arm))
     with pytest.raises(InputError, match="leave one of them out"):
         hf.simulate(law, START, GOAL, locked=["panda_joint1"], faults=batch)

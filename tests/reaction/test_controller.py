@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.diagnosis import Verdict
+from holdfast.diagnosis import FaultVerdict
 from holdfast.reaction.controller import Controller
 from holdfast.reaction.masked import MaskedLaw
-from holdfast.reaction.plan import planned
+from holdfast.reaction.plan import plan_route
 
 JOINTS = hf.arms.load("panda").joint_names
 BOUNDS = SimpleNamespace(tracking=np.full(7, 1e-3), speed=np.full(7, 0.5))
@@ -36,13 +36,13 @@ class Robot:
     def rearm(self):
         self.rearmed += 1
 
-    def leave_out(self, joint):
+    def exclude(self, joint):
         self.left.append(joint)
 
     def hear(self, time, *, behind=0.0, v=0.1, wanted=0.1, gravity=0.0, alarm=True, **verdict):
         told = {"joint": JOINTS[1], "candidates": (), **verdict}
         rows = {name: np.full(7, x) for name, x in (("behind", behind), ("v", v), ("wanted", wanted), ("gravity", gravity))}
-        self.controller.hear(time, Verdict(alarm, 1.0, **told), **rows)
+        self.controller.on_verdict(time, FaultVerdict(alarm, 1.0, **told), **rows)
 
     def did(self):
         return [action.what for action in self.controller.actions]
@@ -173,8 +173,10 @@ def test_what_is_left_of_the_law_is_left_before_something_is_near():
     robot = Robot(rates=0.3)
     law, asked = robot.controller.law, []
     law.clearance = SimpleNamespace(others="the cell")
-    law.ahead = lambda q, most: np.full(len(q), 0.0 if len(q) == 1 else np.inf)  # it would end well; no posture does
-    law.clear = lambda q: asked.append(q) or bool(q.max() < 0.105)
+    law.predict_time_to_target = lambda q, most: np.full(
+        len(q), 0.0 if len(q) == 1 else np.inf
+    )  # it would end well; no posture does
+    law.is_collision_free = lambda q: asked.append(q) or bool(q.max() < 0.105)
     for k in range(500):
         robot.controller.rates(1e-3 * k, np.full(7, 0.1))
     assert not asked
@@ -225,7 +227,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
 def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
     monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *args, **options: "no route")
     robot = Robot(react="known", rates=0.0, plan=True)
-    robot.controller.know(1.0, "sensor_freeze", JOINTS[1], 0.3)
+    robot.controller.on_known_fault(1.0, "sensor_freeze", JOINTS[1], 0.3)
     robot.controller.rates(3.0, np.zeros(7))
     assert (robot.did()[-1], robot.released) == ("stop", [])
 
@@ -238,8 +240,8 @@ def test_a_route_is_run_through_at_its_pace_and_slowed_down_keeps_to_its_line():
     lines = []
     limits = np.array([joint.velocity for joint in arm.joints])
     for pace, most in ((1.0, limits), (0.4, limits), (1.0, np.full(7, 0.1))):
-        route, here, line = planned(law, q, goal, hf.Degraded(arm, locked={3: q[3]}), most=most), q, [q]
-        while not route.over:
+        route, here, line = plan_route(law, q, goal, hf.Degraded(arm, locked={3: q[3]}), max_speeds=most), q, [q]
+        while not route.is_finished:
             here = here + 2e-3 * route.rates(here, pace=pace, dt=2e-3)
             line.append(here)
         lines.append(np.array(line))

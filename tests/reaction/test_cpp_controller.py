@@ -83,12 +83,12 @@ class Driven:
         out = np.frombuffer(self.process.stdout.read(8 * 26))
         self.mode, self.joint, self.watching, self.time = MODES[int(out[0])], int(out[1]), bool(out[2]), out[3]
         before, self.place, self.rates, self.reference, self.braked = self.rates, out[4], out[5:12], out[12:19], out[19:]
-        q = self.ours.believed(told)
+        q = self.ours.trusted_positions(told)
         if pose is not None:
-            self.ours.feel(self.time, told, pose)
+            self.ours.on_tool_pose(self.time, told, pose)
         verdict = self.monitor.step(q, self.reference, effort, pose=pose)
-        signals = {"v": self.monitor._v, "wanted": before, "gravity": self.monitor._gravity}
-        self.ours.hear(self.time, verdict, behind=self.reference - q, **signals)
+        signals = {"v": self.monitor._filtered_rates, "wanted": before, "gravity": self.monitor._gravity_torque}
+        self.ours.on_verdict(self.time, verdict, tracking_error=self.reference - q, **signals)
         return self.rates
 
     @property
@@ -165,7 +165,7 @@ def test_it_reacts_as_in_python(made, rng, fault, joint, ends, out):
     modes, q = moved(drive, fault, joint, rng)
     assert (modes, drive.joint) == (ends, out)
     if fault == "sensor":
-        assert drive.place == pytest.approx(drive.ours.believed(q)[joint], abs=1e-5)
+        assert drive.place == pytest.approx(drive.ours.trusted_positions(q)[joint], abs=1e-5)
         assert drive.place == pytest.approx(q[joint], abs=2e-3)
     drive.close()
 

@@ -12,9 +12,9 @@ from tests.clearance import geometry
 import cells
 import holdfast as hf
 from holdfast.clearance.exact import certainty, engines
-from holdfast.clearance.exact.bodies import of_piece
-from holdfast.clearance.exact.certainty import certain_contacts, unknown_shape
-from holdfast.recovery import Ending
+from holdfast.clearance.exact.bodies import body_from_piece
+from holdfast.clearance.exact.certainty import describe_unknown_shape, find_certain_contacts
+from holdfast.recovery import RecoveryOutcome
 from holdfast.shapes.pieces import Missing
 
 pytest.importorskip("coal")
@@ -30,7 +30,7 @@ def between(panda):
     """Configurations at which covering capsules overlap: where meshes are 5 mm apart, and where they touch, by coal."""
     clearance = hf.Clearance(panda)
     q = np.random.default_rng(0).uniform(panda.lower, panda.upper, (4000, 7))
-    q = q[clearance.room(q) < 0]
+    q = q[clearance.margin_left(q) < 0]
     apart = clearance.exact(q)
     return q[apart >= 5e-3], q[apart == 0]
 
@@ -90,14 +90,14 @@ def test_without_exact_shapes_nothing_is_proved_and_the_verdict_names_them(panda
     if what == "no library":
         monkeypatch.setattr(engines, "find_spec", lambda _: None)
     clearance = hf.Clearance(panda, capsules)
-    q = touching[clearance.room(touching) < 0][0]
+    q = touching[clearance.margin_left(touching) < 0][0]
     found = hf.recover(panda, ["panda_joint7"], q, clearance=clearance, samples=0)
-    assert (found.ending, found.verdict.answer) == (Ending.START_TOO_CLOSE, "undecided")
+    assert (found.ending, found.verdict.answer) == (RecoveryOutcome.START_TOO_CLOSE, "undecided")
     assert sentence in found.verdict.why
     assert not found.ok
     at = np.array(hf.arms.about("panda").home)
     at[6] = q[6]
-    if clearance.room(at) > 0:
+    if clearance.margin_left(at) > 0:
         back = hf.recover(panda, ["panda_joint7"], at, goal=q, clearance=clearance, samples=0)
         assert back.verdict.answer == "undecided"
         assert sentence in back.verdict.why
@@ -141,7 +141,7 @@ def test_a_certain_contact_is_one_for_mujoco_too(panda):
     q = np.random.default_rng(1).uniform(panda.lower, panda.upper, (600, 7))
     q = q[clearance.alone.exact(q) > 0]  # MuJoCo looks at objects alone here
     touches = mujoco.touches(q)
-    certain = np.array([bool(name) for name in certain_contacts(clearance, q)])
+    certain = np.array([bool(name) for name in find_certain_contacts(clearance, q)])
     assert not (certain & ~touches).any()
     assert certain[touches].mean() > 0.99
     assert touches.sum() > 100
@@ -151,8 +151,8 @@ def test_balls_alone_tell_contacts_without_a_library(panda, monkeypatch):
     cell = geometry.of_primitives()
     clearance, mujoco = hf.Clearance(panda, cell=cell), geometry.InMujoco(cell)
     q = np.random.default_rng(2).uniform(panda.lower, panda.upper, (300, 7))
-    monkeypatch.setattr(certainty, "installed", lambda: False)
-    certain = np.array([bool(name) for name in certain_contacts(clearance, q)])
+    monkeypatch.setattr(certainty, "is_library_installed", lambda: False)
+    certain = np.array([bool(name) for name in find_certain_contacts(clearance, q)])
     assert certain.sum() > 50
     assert mujoco.touches(q[certain]).all()
 
@@ -161,14 +161,14 @@ def test_balls_within_a_body_lie_within_its_mesh(panda):
     """By random points: none on the surface of a ball is outside of the mesh, by its solid angle."""
     rng, seen = np.random.default_rng(0), 0
     for piece in hf.Clearance(panda).capsules.shape.pieces:
-        body = of_piece(piece)
+        body = body_from_piece(piece)
         if body.filled is None:
             continue
-        centres, radii = body.inside
+        centres, radii = body.inner_spheres
         for centre, radius in zip(centres, radii, strict=True):
             way = rng.normal(size=(60, 3))
             points = centre + 0.999 * radius * way / np.linalg.norm(way, axis=1, keepdims=True)
-            assert all(body.filled.encloses(point) for point in points)
+            assert all(body.filled.contains_point(point) for point in points)
             seen += len(points)
     assert seen > 500
 
@@ -178,6 +178,6 @@ def test_a_margin_that_a_mesh_comes_closer_than_is_certain(panda, between):
     clearance = hf.Clearance(panda)
     apart = clearance.exact(free[:10])
     for q, least in zip(free, apart, strict=False):
-        assert not certain_contacts(clearance, q[None], float(least) - 1e-4)[0]
-        assert certain_contacts(clearance, q[None], float(least) + 1e-4)[0]
-    assert unknown_shape(clearance) == ""
+        assert not find_certain_contacts(clearance, q[None], float(least) - 1e-4)[0]
+        assert find_certain_contacts(clearance, q[None], float(least) + 1e-4)[0]
+    assert describe_unknown_shape(clearance) == ""

@@ -11,13 +11,20 @@ from scipy.ndimage import label
 
 import holdfast as hf
 import oracles
-from holdfast.arm.task import as_task, rows_task
+from holdfast.arm.task import as_task, task_from_rows
 from holdfast.clearance import Capsules
-from holdfast.recovery import Ending, search
+from holdfast.recovery import RecoveryOutcome, search
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
-from holdfast.recovery.proofs.flood import _floods, _Points, confined, disconnected, holds_configuration, may_meet
-from holdfast.recovery.rows import row_solver
-from holdfast.recovery.space import Space
+from holdfast.recovery.proofs.flood import (
+    _generate_floods,
+    _LinkPoints,
+    find_confined_floods,
+    make_configuration_test,
+    make_pose_test,
+    prove_disconnected,
+)
+from holdfast.recovery.rows import make_row_solver
+from holdfast.recovery.space import FreeSpace
 
 CELL = Path(__file__).parents[2] / "examples" / "cells" / "fail-active.yaml"
 THICK, BALL = 0.05, 0.2  # m
@@ -82,14 +89,14 @@ def test_a_proof_is_never_against_a_flood_and_hardly_ever_missing(rng, limit):
         goal = next((g for g in goals if not flooded(left > 0, np.isinf(limit), start, g, True)), goals[0])
         joined = flooded(left > 0, np.isinf(limit), start, goal, False)
         a, b = grid[start], grid[goal]
-        space = Space(arm, np.array([True, False, True]), among(arm, centres), 0.0, np.stack([a, b]))
-        proof = disconnected(space, a, holds_configuration(space, b))
+        space = FreeSpace(arm, np.array([True, False, True]), among(arm, centres), 0.0, np.stack([a, b]))
+        proof = prove_disconnected(space, a, make_configuration_test(space, b))
         assert proof is None or not joined
         never = not flooded(left > -0.03, np.isinf(limit), start, goal, True)
         apart, proved = apart + never, proved + (never and proof is not None)
         if case < 1:  # a pose of the tool has another configuration, which may be joined
-            pose = may_meet(space, row_solver(arm, as_task(arm, "planar")).rows, arm.forward_kinematics(b)[None])
-            assert disconnected(space, a, pose) is None or proof is not None
+            pose = make_pose_test(space, make_row_solver(arm, as_task(arm, "planar")).rows, arm.forward_kinematics(b)[None])
+            assert prove_disconnected(space, a, pose) is None or proof is not None
     assert proved >= 0.8 * apart
     assert apart >= 1
 
@@ -102,7 +109,7 @@ def test_three_joints_cannot_get_past_what_is_always_in_the_way():
     bad = hf.Degraded(arm, ranges=ranges)
     found = hf.recover(arm, bad, start, goal=goal, clearance=shape, samples=0, tries=1)
     assert (found.ending, found.verdict.answer, found.verdict.kind) == (
-        Ending.PROVED_DISCONNECTED,
+        RecoveryOutcome.PROVED_DISCONNECTED,
         "proved infeasible",
         "disconnected",
     )
@@ -133,7 +140,7 @@ def test_the_verdict_says_that_it_is_proved(ring, kind, monkeypatch):
     assert not found.ok
     assert not len(found.q)
     assert "up to floating point" in found.proof
-    assert "disconnected" in found._presented("story").answer
+    assert "disconnected" in found._present("story").answer
     assert found.to_dict()["verdict"]["kind"] == "disconnected"
 
 
@@ -148,10 +155,10 @@ def test_rows_kept_close_ways_too(rng):
     grid[..., 1] = 0.5
     off = np.abs(ends(grid.reshape(-1, 3))[:, 3].imag - ends(start[None])[0, 3].imag).reshape(COUNT, COUNT)
     at = tuple(np.abs(axis - start[k]).argmin() for k in (0, 2))
-    space = Space(arm, np.array([True, False, True]), None, 0.0, start[None], keep=keep)
+    space = FreeSpace(arm, np.array([True, False, True]), None, 0.0, start[None], constraints=keep)
     proved = 0
     for goal in rng.permutation(np.argwhere(off < 0.02))[:8]:
-        proof = disconnected(space, start, holds_configuration(space, grid[tuple(goal)]))
+        proof = prove_disconnected(space, start, make_configuration_test(space, grid[tuple(goal)]))
         assert proof is None or not flooded(off <= 0.04, False, at, tuple(goal), False)
         assert proof is not None or flooded(off <= 0.07, False, at, tuple(goal), True)
         proved += proof is not None
@@ -183,27 +190,27 @@ def test_a_first_link_between_two_balls_stays_there_whatever_the_others_do():
     arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0, lower=-2.8, upper=2.8) for _ in range(4)], name="four")
     shape = among(arm, 0.6 * np.array([[np.cos(1), np.sin(1)], [np.cos(1), -np.sin(1)]]))
     start, there, here = np.zeros(4), np.array([2.0, 0, 0, 0]), np.array([0.4, 2.0, -1.0, 0.5])
-    space = Space(arm, np.ones(4, dtype=bool), shape, 0.0, np.stack([start, there]))
-    flood = next(iter(confined(space, start, there[None])))
+    space = FreeSpace(arm, np.ones(4, dtype=bool), shape, 0.0, np.stack([start, there]))
+    flood = next(iter(find_confined_floods(space, start, there[None])))
     edge = 1 - np.arcsin((BALL + THICK) / 0.6)
-    most = np.abs(flood.middle[:, 0]).max() + flood.half[0]
+    most = np.abs(flood.middle[:, 0]).max() + flood.half_widths[0]
     assert edge <= most < edge + 0.35
-    assert not list(confined(space, start, np.stack([there, here])))
+    assert not list(find_confined_floods(space, start, np.stack([there, here])))
 
 
 @pytest.mark.parametrize("limit", [np.inf, 2.8], ids=["round", "limited"])
 def test_a_box_that_a_flood_misses_holds_nothing_that_it_got_to(limit, rng):
     arm = three_links(limit)
-    space = Space(arm, np.ones(3, dtype=bool), None, 0.0, np.zeros((1, 3)))
+    space = FreeSpace(arm, np.ones(3, dtype=bool), None, 0.0, np.zeros((1, 3)))
     edge, seen = min(limit, np.pi), np.clip(rng.uniform(-0.8, 0.8, (20, 3)).cumsum(axis=0), -2.8, 2.8)
 
     def blocked(q, half):  # but about a way
         return np.abs(q[:, None, [0, 2]] - seen[:, [0, 2]]).max(axis=2).min(axis=1) > 0.5
 
-    flood = next(f for f in _floods(space, seen[0], np.array([0, 2]), blocked) if f.count == 32)
+    flood = next(f for f in _generate_floods(space, seen[0], np.array([0, 2]), blocked) if f.cells_per_joint == 32)
     assert 20 < len(flood.cells) < 1000
     middle, half = rng.uniform(-edge, edge, (400, 3)), rng.uniform(0, 0.4, (400, 3))
-    missed = flood.misses(middle, half)
+    missed = flood.excludes(middle, half)
     inside = (middle[:, None] + half[:, None] * rng.uniform(-1, 1, (1, 100, 3)))[..., [0, 2]]
     if np.isinf(limit):
         inside = np.arctan2(np.sin(inside), np.cos(inside))
@@ -219,15 +226,15 @@ def test_a_box_that_a_flood_misses_holds_nothing_that_it_got_to(limit, rng):
 @pytest.mark.interpreted
 def test_no_point_moves_farther_than_its_bound(rng):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
-    points = _Points(np.array([0, 2, 3, 5, 5]), rng.normal(0, 0.2, (5, 3)))
+    points = _LinkPoints(np.array([0, 2, 3, 5, 5]), rng.normal(0, 0.2, (5, 3)))
     q = oracles.inside(arm, rng, 20)
     shares = []
     for size in (0.01, 0.1, 0.6):
         half = rng.uniform(0, size, arm.n) * (rng.uniform(size=arm.n) < 0.7)
-        most = points.moved(arm, arm.frames(q), half)
-        places = points.places(arm.frames(q))
+        most = points.bound_motion(arm, arm.frames(q), half)
+        places = points.world_positions(arm.frames(q))
         for _ in range(60):
-            other = points.places(arm.frames(q + half * rng.choice([-1, 1, rng.uniform(-1, 1)], q.shape)))
+            other = points.world_positions(arm.frames(q + half * rng.choice([-1, 1, rng.uniform(-1, 1)], q.shape)))
             moved = np.linalg.norm(other - places, axis=2)
             assert (moved <= most + 1e-12).all()
             shares.append((moved / np.maximum(most, 1e-12)).max())
@@ -238,17 +245,17 @@ def test_no_point_moves_farther_than_its_bound(rng):
 @pytest.mark.parametrize("rows", ["pose", "position", "pointing", ["vx", "wy"], "tool"])
 def test_a_cell_with_a_configuration_of_the_goal_is_never_left_out(rng, rows):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
-    task = rows_task(["vx", "vz", "wx", "wz"], "tool") if rows == "tool" else as_task(arm, rows)
-    wanted = row_solver(arm, task).rows
+    task = task_from_rows(["vx", "vz", "wx", "wz"], "tool") if rows == "tool" else as_task(arm, rows)
+    wanted = make_row_solver(arm, task).rows
     q = oracles.inside(arm, rng, 60)
-    space = Space(arm, np.ones(6, dtype=bool), None, 0.0, q[:1])
+    space = FreeSpace(arm, np.ones(6, dtype=bool), None, 0.0, q[:1])
     told = []
     for size in (0.02, 0.2):
         half = rng.uniform(0, size, arm.n)
         there = q + rng.uniform(-1, 1, q.shape) * half
         poses = arm.forward_kinematics(there)
         for k in range(0, 60, 6):
-            holds = may_meet(space, wanted, poses[k : k + 1])(q, half)
+            holds = make_pose_test(space, wanted, poses[k : k + 1])(q, half)
             assert holds[k]
             told.append(holds.mean())
     if rows != ["vx", "wy"]:
@@ -265,7 +272,7 @@ def test_a_box_that_is_blocked_holds_nothing_that_is_clear(rng):
     corners = middle[found, None] + half[found, None] * np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
     q = np.concatenate([inside, corners], axis=1).reshape(-1, 3)
     assert (room(centres, q) + BALL - 0.5).max() < 0
-    assert blocked.what == "ball0, ball1"
+    assert blocked.blocker_names == "ball0, ball1"
     touching = room(centres, middle) + BALL - 0.5 < -1e-3
     assert (blocked(middle, 0 * half) >= touching).mean() > 0.97, "balls do not fill a link; nearly all that touches is seen"
 
@@ -284,7 +291,7 @@ def test_a_box_in_which_the_arm_blocks_itself_holds_nothing_that_is_clear(bodies
     assert 20 < found.sum() < 600
     q = (middle[found, None] + half[found, None] * rng.choice([-1, 0, 1], (1, 4, 7))).reshape(-1, 7)
     assert not clearance.sign(q).any()
-    assert " & " in blocked.what
+    assert " & " in blocked.blocker_names
 
 
 def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
@@ -305,9 +312,9 @@ def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
         most = (room(centres, q) + BALL - 0.6).max(initial=-np.inf)
         blocked = BlockedBoxes(among(arm, centres, 0.6), 0.0)
         found = hf.all_configurations(arm, pose, "planar", blocked=blocked, most_boxes=60_000)
-        assert not (found.none and most > 0)
+        assert not (found.proved_empty and most > 0)
         known += most < -0.02
-        proved += most < -0.02 and found.none
+        proved += most < -0.02 and found.proved_empty
     assert known >= 3
     assert proved >= known - 1
 

@@ -13,12 +13,12 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import keep
-from holdfast.arm.task import rows_task
+from holdfast.arm.task import task_from_rows
 from holdfast.errors import InputError
-from holdfast.keep.manifold import Manifold
-from holdfast.recovery import Ending, search
-from holdfast.recovery.rows import row_solver
-from holdfast.recovery.verification import verify
+from holdfast.keep.manifold import ConstraintManifold
+from holdfast.recovery import RecoveryOutcome, search
+from holdfast.recovery.rows import make_row_solver
+from holdfast.recovery.verification import verify_waypoints
 
 URDF = files("holdfast.arms") / "data" / "panda.urdf"
 DOWN = np.diag([1.0, -1.0, -1.0, 1.0])
@@ -54,8 +54,8 @@ def tilt(poses, down=(0, 0, -1)):
 
 
 def pointing_down(arm, q):
-    solver = row_solver(arm, rows_task(["wx", "wy"], frame="tool"))
-    return solver.run(np.array([q]), DOWN[None], np.ones((1, 2)), np.ones(arm.n, dtype=bool))[0]
+    solver = make_row_solver(arm, task_from_rows(["wx", "wy"], frame="tool"))
+    return solver.solve(np.array([q]), DOWN[None], np.ones((1, 2)), np.ones(arm.n, dtype=bool))[0]
 
 
 # ---- pieces --------------------------------------------------------------------------------------------------------------
@@ -78,9 +78,9 @@ def test_no_proved_piece_breaks_a_row(types, rng):
         kept[0] = keep.upright(0.3, axis=axis, direction=kept[0].direction)
         for one in kept:
             one = one.anchored(start)
-            manifold = Manifold(arm, [one], np.ones(arm.n, dtype=bool), (arm.lower, arm.upper))
+            manifold = ConstraintManifold(arm, [one], np.ones(arm.n, dtype=bool), (arm.lower, arm.upper))
             first, last = np.repeat(a[k : k + 1], 60, axis=0), a[k] + (b - a) * rng.uniform(0, 1, (60, 1))
-            proved = manifold.edges(first, last)
+            proved = manifold.prove_edges(first, last)
             held = []
             for x, y in zip(first, last, strict=True):
                 away, turned = one.off(oracles.forward(arm, x + np.linspace(0, 1, 101)[:, None] * (y - x)))
@@ -98,7 +98,7 @@ def test_the_curvature_is_a_bound(rng):
     one = keep.rail([0, 0, 1]).anchored(oracles.forward(arm, q[:1])[0])
     one = replace(one, normals=np.eye(3))
     limits = np.minimum(arm.lower, -10), np.maximum(arm.upper, 10)
-    bound = Manifold(arm, [one], np.ones(arm.n, dtype=bool), limits).curvature(d)
+    bound = ConstraintManifold(arm, [one], np.ones(arm.n, dtype=bool), limits).bound_curvature(d)
     back, here, on = (oracles.forward(arm, q + s * d) for s in (-h, 0, h))
     second = (back - 2 * here + on) / h**2
     assert (np.linalg.norm(second[:, :3, 3], axis=1) <= bound[:, 0] * (1 + 1e-3)).all()
@@ -124,7 +124,7 @@ def test_an_upright_transfer_with_a_locked_joint(panda):
     assert kept.to_dict()["keep"][0]["angle"] == pytest.approx(cone)
     # What plans it and what looks at it are different code: a spoilt motion is refused.
     spoilt = np.concatenate([kept.q[:1], kept.q[:1] + 0.2 * np.eye(7)[5], kept.q])
-    found = verify(kept.degraded, a, spoilt, rows=row_solver(panda, kept.task).rows, keep=kept.keep)
+    found = verify_waypoints(kept.degraded, a, spoilt, rows=make_row_solver(panda, kept.task).rows, constraints=kept.keep)
     assert "turned away by" in str(found)
     replay = hf.recovery.check_waypoints(panda, spoilt, bad, keep="upright:5deg")
     assert not replay.ok
@@ -215,11 +215,11 @@ def test_a_line_through_what_the_arm_cannot_reach_is_not_called_infeasible_witho
     ask = {"goal": b, "task": "planar", "samples": 0}
     assert hf.recover(three, {"joint3": 0.0}, start, **ask).ok
     proved = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=keep.plane(across), tries=1)
-    assert (proved.verdict.kind, proved.ending) == ("disconnected", Ending.PROVED_DISCONNECTED)
-    monkeypatch.setattr(search, "separated", lambda *_, **__: None)
+    assert (proved.verdict.kind, proved.ending) == ("disconnected", RecoveryOutcome.PROVED_DISCONNECTED)
+    monkeypatch.setattr(search, "prove_separated", lambda *_, **__: None)
     for tries, verdict in ((1, "undecided"), (4, "argued infeasible")):
         answer = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=keep.plane(across), tries=tries)
-        assert (answer.verdict.answer, answer.ending) == (verdict, Ending.NO_ROUTE_FOUND)
+        assert (answer.verdict.answer, answer.ending) == (verdict, RecoveryOutcome.NO_ROUTE_FOUND)
     assert "grows no more" in str(answer.verdict)
 
 
@@ -229,7 +229,7 @@ def test_a_start_and_a_goal_that_break_a_row(panda):
     goal = panda.forward_kinematics(pointing_down(panda, at))
     ask = {"samples": 0, "clearance": False}
     answer = hf.recover(panda, [2], at, goal=goal, keep=keep.upright(0.9 * leaning), **ask)
-    assert (answer.ending, answer.verdict.kind) == (Ending.START_BREAKS_ROWS, "start")
+    assert (answer.ending, answer.verdict.kind) == (RecoveryOutcome.START_VIOLATES_CONSTRAINTS, "start")
     assert f"turned away by {np.rad2deg(leaning):.4g} deg" in answer.reason
     goal = panda.forward_kinematics(at)
     goal[0, 3] += 0.05

@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.clearance import Capsule, Capsules, Clearance
-from holdfast.recovery import Ending, goals
-from holdfast.recovery.proofs.reach import out_of_reach
+from holdfast.recovery import RecoveryOutcome, goals
+from holdfast.recovery.proofs.reach import prove_out_of_reach
 
 
 def limited(arm: hf.Arm, lower, upper) -> hf.Arm:
@@ -81,7 +81,11 @@ def test_what_comes_back_is_sound_and_arrives(rng, types, locks, task):
         result = hf.recover(
             arm, locked, at, goal=goal, task=task, clearance=clearance, margin=0.002, samples=0, tries=1, seed=case
         )
-        assert result.ending not in (Ending.PROVED_UNREACHABLE, Ending.LOCK_ELSEWHERE, Ending.START_TOO_CLOSE), result.reason
+        assert result.ending not in (
+            RecoveryOutcome.PROVED_UNREACHABLE,
+            RecoveryOutcome.LOCK_MISMATCH,
+            RecoveryOutcome.START_TOO_CLOSE,
+        ), result.reason
         assert result.proof is None
         if len(result.q):
             moved += 1
@@ -99,8 +103,8 @@ def test_a_configuration_that_the_lock_allows_is_reached_itself(rng):
     home = np.array(hf.arms.about("panda").home)
     at = home + np.where(np.arange(7) == 3, 0.0, rng.uniform(-0.3, 0.3, 7))
     result = hf.recover(arm, ["panda_joint4"], at, samples=0)
-    assert result.ending == Ending.HOME
-    assert result.given_up is None
+    assert result.ending == RecoveryOutcome.GOAL_REACHED
+    assert result.relaxed is None
     np.testing.assert_allclose(result.q, [at, home], atol=1e-12)
     assert result.length == pytest.approx(np.linalg.norm(at - home))
     assert result.lower_bound == pytest.approx(result.length)
@@ -113,10 +117,10 @@ def test_a_configuration_that_the_lock_forbids_is_never_home():
     at = home.copy()
     at[[0, 3]] = 0.4, -2.2
     result = hf.recover(arm, {"panda_joint4": -2.2}, at, samples=0)
-    assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
-    assert result.given_up is not None
-    assert result.given_up.names[0] == "panda_joint4"
-    assert result.given_up.misses[0] == pytest.approx(abs(home[3] + 2.2))
+    assert result.ending == RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS
+    assert result.relaxed is not None
+    assert result.relaxed.names[0] == "panda_joint4"
+    assert result.relaxed.misses[0] == pytest.approx(abs(home[3] + 2.2))
     assert "panda_joint4" in result.reason
     with pytest.raises(hf.HoldfastError, match="NOT met"):
         result.require_ok()
@@ -141,7 +145,7 @@ def test_around_a_wall_that_the_straight_line_runs_through():
     assert clearance(np.stack([START, GOAL])).min() > 0.05
     assert clearance(fine(np.stack([START, GOAL]))).min() < -0.02
     result = hf.recover(arm, {"joint2": -0.4}, START, goal=GOAL, clearance=clearance, margin=0.01, samples=0)
-    assert result.ending == Ending.HOME, result.describe()
+    assert result.ending == RecoveryOutcome.GOAL_REACHED, result.describe()
     assert_sound(result, START, {"joint2": -0.4}, clearance)
     np.testing.assert_allclose(result.q[-1], GOAL, atol=1e-9)
     assert len(result.q) > 2
@@ -178,7 +182,7 @@ def shortest_on_grid(arm: hf.Arm, clearance: Clearance, margin: float, start: np
 def test_that_nothing_leads_past_a_closed_wall_is_proved():
     arm, clearance = maze(closed=True)
     result = hf.recover(arm, ["joint2"], START, goal=GOAL, clearance=clearance, samples=0, tries=1)
-    assert result.ending == Ending.PROVED_DISCONNECTED, result.describe()
+    assert result.ending == RecoveryOutcome.PROVED_DISCONNECTED, result.describe()
     assert len(result.q) == 0
     assert not result.ok
     with pytest.raises(hf.StoreError, match="no waypoints"):
@@ -239,7 +243,7 @@ def test_beyond_the_circles_it_is_proved(radius, word):
     first = 2 * np.cos(angle / 2)  # joint1 to joint3, joint2 standing
     pose = oracles.pose(None, [radius, 0.0, 0.0])
     result = hf.recover(arm, {"joint2": angle}, [0.0, angle, 0.3], goal=pose, samples=0)
-    assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
+    assert result.ending == RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS
     assert result.proof is not None
     assert word in result.proof
     bound = first + 1 if radius > 2 else first - 1
@@ -263,11 +267,11 @@ def test_what_the_failed_arm_reaches_is_never_proved_unreachable(rng):
             free[0] = True
         q[:, ~free] = q[0, ~free]
         for pose in oracles.forward(arm, q):
-            assert out_of_reach(arm, free, q[0], pose, True, None) is None
-            assert out_of_reach(arm, free, q[0], pose, False, None) is None
+            assert prove_out_of_reach(arm, free, q[0], pose, True, None) is None
+            assert prove_out_of_reach(arm, free, q[0], pose, False, None) is None
         away = oracles.pose(None, [50.0, 0, 0])
         finite = np.isfinite(arm.lower[arm.prismatic & free]).all()
-        assert not finite or "at most" in (out_of_reach(arm, free, q[0], away, True, None) or "")
+        assert not finite or "at most" in (prove_out_of_reach(arm, free, q[0], away, True, None) or "")
 
 
 def test_the_turn_about_the_tool_is_given_up_first():
@@ -278,18 +282,18 @@ def test_the_turn_about_the_tool_is_given_up_first():
     moved = at + np.array([0.4, 0.3, 0.0, 0.2, -0.3, 0.2, 0.0])
     pose = arm.forward_kinematics(moved) @ oracles.pose(Rotation.from_euler("z", 0.4).as_matrix())
     result = hf.recover(arm, locked, at, goal=pose, samples=0)
-    assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
-    assert result.given_up is not None
-    assert result.given_up.names == ("about tool z",)
-    assert result.given_up.units == ("rad",)
-    assert result.given_up.misses[0] <= 0.4 + 1e-6
+    assert result.ending == RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS
+    assert result.relaxed is not None
+    assert result.relaxed.names == ("about tool z",)
+    assert result.relaxed.units == ("rad",)
+    assert result.relaxed.misses[0] <= 0.4 + 1e-6
     reached = hand(arm, result.q[-1])
     np.testing.assert_allclose(reached[:3, 3], pose[:3, 3], atol=3e-6)
     np.testing.assert_allclose(reached[:3, 2], pose[:3, 2], atol=3e-6)
     turn = Rotation.from_matrix(reached[:3, :3].T @ pose[:3, :3]).magnitude()
-    assert turn == pytest.approx(result.given_up.misses[0], abs=1e-5)
+    assert turn == pytest.approx(result.relaxed.misses[0], abs=1e-5)
     pointing = hf.recover(arm, locked, at, goal=pose, task="pointing", samples=0)
-    assert pointing.ending == Ending.HOME
+    assert pointing.ending == RecoveryOutcome.GOAL_REACHED
 
 
 def test_what_is_polished_of_a_goal_out_of_reach_is_not_the_same_again(monkeypatch):
@@ -300,10 +304,10 @@ def test_what_is_polished_of_a_goal_out_of_reach_is_not_the_same_again(monkeypat
         polished.setdefault(lost[0], []).append(q)
         return q
 
-    monkeypatch.setattr(goals, "_polished", kept)
+    monkeypatch.setattr(goals, "_minimize_row_errors", kept)
     arm, at = hf.arms.load("planar-3r"), np.deg2rad([20, 40, 60])
     result = hf.recover(arm, {"joint2": at[1]}, at, goal=oracles.pose(None, [0.3, 0.2, 0]), task="planar", samples=0)
-    assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
+    assert result.ending == RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS
     assert set(polished) == {0, 1}
     for some in polished.values():
         assert len(some) > 1
@@ -314,12 +318,12 @@ def test_trouble_at_the_start_is_said_and_nothing_moves():
     arm = hf.arms.load("panda")
     home = np.array(hf.arms.about("panda").home)
     found = hf.recover(arm, {"panda_joint4": -1.0}, home, samples=0)
-    assert found.ending == Ending.LOCK_ELSEWHERE
+    assert found.ending == RecoveryOutcome.LOCK_MISMATCH
     assert "panda_joint4" in found.reason
     beyond = home.copy()
     beyond[1] = 2.5
     found = hf.recover(arm, ["panda_joint4"], beyond, samples=0)
-    assert found.ending == Ending.START_OUTSIDE_LIMITS
+    assert found.ending == RecoveryOutcome.START_OUTSIDE_LIMITS
     assert "panda_joint2" in found.reason
     folded = home.copy()
     folded[[1, 3, 5]] = 0.0, -3.0, 0.2
@@ -328,8 +332,8 @@ def test_trouble_at_the_start_is_said_and_nothing_moves():
     found = hf.recover(
         arm, ["panda_joint4"], folded, samples=0, clearance=clearance, margin=float(clearance.exact(folded)) + 0.01
     )
-    assert found.ending == Ending.START_TOO_CLOSE
-    for ending in Ending:
+    assert found.ending == RecoveryOutcome.START_TOO_CLOSE
+    for ending in RecoveryOutcome:
         assert ending.sentence
     assert len(found.q) == 0
     assert not found.ok
@@ -425,7 +429,7 @@ def test_a_path_out_of_reach_is_not_finished_though_home_is_reached():
     here = arm.forward_kinematics(at)[:3, 3]
     path = hf.paths.line(here, here + np.array([2.5, 2.5, 0.0]))
     result = hf.recover(arm, ["joint2"], at, goal=[0.2, 0.7, 0.1], path=path, samples=0)
-    assert result.ending in (Ending.PATH_UNFINISHED, Ending.HOME_WITH_ROWS_GIVEN_UP)
+    assert result.ending in (RecoveryOutcome.PATH_UNFINISHED, RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS)
     assert not result.ok
     rest = result.rest
     assert rest is not None

@@ -11,7 +11,7 @@ import cells
 import holdfast as hf
 import oracles
 from holdfast.cell import Capsule, Sphere
-from holdfast.recovery import Ending, check_waypoints, search
+from holdfast.recovery import RecoveryOutcome, check_waypoints, search
 
 START, GOAL = np.array([0.9, -0.4, 0.3]), np.array([-0.9, -0.4, -0.3])
 
@@ -39,7 +39,7 @@ def test_a_route_leads_round_a_bar_and_never_touches_it(slim):
     straight = cells.finely(np.stack([START, GOAL]))
     assert cells.touches(arm, slim, cell, straight).any()
     found = hf.recover(arm, {"joint2": -0.4}, START, goal=GOAL, clearance=clearance, cell=cell, margin=0.01, samples=0, tries=1)
-    assert found.ending == Ending.HOME, found.describe()
+    assert found.ending == RecoveryOutcome.GOAL_REACHED, found.describe()
     assert not cells.touches(arm, slim, cell, cells.finely(found.q)).any()
     np.testing.assert_allclose(found.q[[0, -1]], [START, GOAL], atol=1e-9)
     check = found.check()
@@ -56,15 +56,15 @@ def test_the_first_link_meets_an_object_which_it_does_not_as_a_part_of_the_base(
     common = {"goal": away[1], "samples": 0, "tries": 1}
     loophole = hf.Clearance(arm, hf.Capsules((*slim, base)))
     through = hf.recover(arm, ["joint2"], away[0], clearance=loophole, **common)
-    assert through.ending == Ending.HOME
+    assert through.ending == RecoveryOutcome.GOAL_REACHED
     assert cells.touches(arm, slim, cell, cells.finely(through.q)).any()
     clearance = hf.Clearance(arm, slim, cell, itself=False)
     found = hf.recover(arm, ["joint2"], away[0], clearance=clearance, **common)
-    assert found.ending == Ending.PROVED_DISCONNECTED  # the limits of joint 1 close the other way
+    assert found.ending == RecoveryOutcome.PROVED_DISCONNECTED  # the limits of joint 1 close the other way
     assert not len(found.q)
-    monkeypatch.setattr(search, "separated", lambda *_, **__: None)
+    monkeypatch.setattr(search, "prove_separated", lambda *_, **__: None)
     found = hf.recover(arm, ["joint2"], away[0], clearance=clearance, **common)
-    assert found.ending == Ending.NO_ROUTE_FOUND
+    assert found.ending == RecoveryOutcome.NO_ROUTE_FOUND
     assert "in the way of the straight line: joint1 & bar" in found.reason
 
 
@@ -73,7 +73,7 @@ def test_a_route_of_a_panda_through_a_bench_never_touches_it(rng):
     clearance = hf.Clearance(arm, cell=cell)
     ends = oracles.inside(arm, rng, 4000)
     ends[:, 3] = -2.0
-    ends = ends[clearance.room(ends) > 0.02]
+    ends = ends[clearance.margin_left(ends) > 0.02]
     moved = 0
     for case in range(2):
         at, goal = ends[2 * case], arm.forward_kinematics(ends[2 * case + 1])
@@ -84,7 +84,7 @@ def test_a_route_of_a_panda_through_a_bench_never_touches_it(rng):
         moved += 1
         way = cells.finely(found.q)
         assert not cells.touches(arm, clearance.capsules, cell, way).any()
-        assert clearance.room(way).min() >= 0
+        assert clearance.margin_left(way).min() >= 0
         assert found.check().ok
     assert moved
 
@@ -94,12 +94,12 @@ def test_what_is_in_the_way_is_named(slim):
     clearance = hf.Clearance(arm, slim, itself=False)
     ball = hf.Cell([Sphere("ball", 0.3, pose=cells.placed(*arm.forward_kinematics(START)[:3, 3]), margin=0.1)])
     found = hf.recover(arm, ["joint2"], START, goal=GOAL, clearance=clearance, cell=ball, samples=0)
-    assert found.ending == Ending.START_TOO_CLOSE
+    assert found.ending == RecoveryOutcome.START_TOO_CLOSE
     assert "comes closer to the cell than it may (joint3 & ball, 0.35" in found.reason
     pose = arm.forward_kinematics(np.array([-1.5, -0.4, -0.5]))  # in reach, and within an object
     wall = hf.Cell([Sphere("wall", 0.2, pose=pose)])
     found = hf.recover(arm, ["joint2"], START, goal=pose, task="planar", clearance=clearance, cell=wall, samples=0, starts=32)
-    assert found.ending == Ending.PROVED_UNREACHABLE
+    assert found.ending == RecoveryOutcome.PROVED_UNREACHABLE
     assert "every configuration within the limits that meets it touches something (wall)" in found.reason
     with pytest.raises(hf.InputError, match=r"goal: .* the cell .*\(joint3 & ball"):
         hf.recover(arm, ["joint2"], GOAL, goal=START, clearance=clearance, cell=ball, samples=0)

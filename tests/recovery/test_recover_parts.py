@@ -8,11 +8,11 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
-from holdfast.arm.task import as_task, rows_task
+from holdfast.arm.task import as_task, task_from_rows
 from holdfast.clearance import Capsules, Clearance
 from holdfast.recovery import check_waypoints, read_waypoints, routes, write_waypoints
-from holdfast.recovery.rows import row_solver
-from holdfast.recovery.space import Metric, Space
+from holdfast.recovery.rows import make_row_solver
+from holdfast.recovery.space import FreeSpace, JointMetric
 
 TASKS = ["pose", "pointing", "position", ["vx", "wy"], "tool"]
 
@@ -20,8 +20,8 @@ TASKS = ["pose", "pointing", "position", ["vx", "wy"], "tool"]
 @pytest.mark.parametrize("which", range(len(TASKS)), ids=["pose", "pointing", "position", "rows", "tool-rows"])
 def test_errors_of_rows_and_their_slopes(mixed5, rng, which):
     arm = mixed5
-    task = rows_task(["vx", "vz", "wx", "wz"], "tool") if TASKS[which] == "tool" else as_task(arm, TASKS[which])
-    solver = row_solver(arm, task)
+    task = task_from_rows(["vx", "vz", "wx", "wz"], "tool") if TASKS[which] == "tool" else as_task(arm, TASKS[which])
+    solver = make_row_solver(arm, task)
     q = oracles.inside(arm, rng, 30)
     poses = oracles.forward(arm, oracles.inside(arm, rng, 30))
     made = oracles.forward(arm, q)
@@ -32,21 +32,21 @@ def test_errors_of_rows_and_their_slopes(mixed5, rng, which):
     linear = in_tool if solver.rows.linear == "tool" else away
     angular = turn_in_tool if solver.rows.angular == "tool" else turn
     expected = np.c_[linear, angular] @ solver.rows.matrix.T
-    np.testing.assert_allclose(solver.errors(q, poses), expected, atol=1e-9)
+    np.testing.assert_allclose(solver.compute_errors(q, poses), expected, atol=1e-9)
     for k in range(5):
         if np.linalg.norm(turn[k]) > 3.0:
             continue
         target = np.repeat(poses[k][None], 200, axis=0)
-        slope = oracles.slope(lambda x, target=target: solver.errors(x, target[: len(x)]), q[k])
-        np.testing.assert_allclose(solver.slopes(q[k], poses[k]), slope.T, atol=2e-6)
+        slope = oracles.slope(lambda x, target=target: solver.compute_errors(x, target[: len(x)]), q[k])
+        np.testing.assert_allclose(solver.compute_jacobian(q[k], poses[k]), slope.T, atol=2e-6)
 
 
 def test_names_of_rows():
     arm = hf.arms.load("panda")
-    rows = row_solver(arm, as_task(arm, "pose")).rows
+    rows = make_row_solver(arm, as_task(arm, "pose")).rows
     assert rows.names == ("x", "y", "z", "about tool x", "about tool y", "about tool z")
     assert rows.units == ("m", "m", "m", "rad", "rad", "rad")
-    assert row_solver(arm, as_task(arm, "pointing")).rows.names[0] == "tool x"
+    assert make_row_solver(arm, as_task(arm, "pointing")).rows.names[0] == "tool x"
 
 
 @pytest.mark.parametrize("types", ["RRPRR", "RRRRRR", "CPRRPR"])
@@ -56,7 +56,7 @@ def test_no_distance_changes_faster_than_its_bound(rng, types):
     low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
     high = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
     low, high = (np.where(arm.prismatic, np.clip(x, -1, 1), x) for x in (low, high))
-    bound = clearance.changes(low, high)
+    bound = clearance.lipschitz_bounds(low, high)
     a, b = (rng.uniform(low, high, (4000, arm.n)) for _ in range(2))
     share = 10 ** rng.uniform(-3, 0, (4000, 1))
     b = a + share * (b - a)
@@ -70,12 +70,12 @@ def test_a_piece_that_is_called_clear_is_clear_and_little_else_is_refused(rng):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.4)
     clearance = Clearance(arm, Capsules.along(arm, 0.03))
     free = np.ones(6, dtype=bool)
-    space = Space(arm, free, clearance, 0.01, np.zeros((1, 6)))
+    space = FreeSpace(arm, free, clearance, 0.01, np.zeros((1, 6)))
     q = rng.uniform(arm.lower, arm.upper, (600, 6))
-    q = q[space.clear(q)][:120]
+    q = q[space.are_valid(q)][:120]
     a, b = q[::2], q[1::2]
     a = a[: len(b)]
-    said = space.edges(a, b)
+    said = space.are_segments_valid(a, b)
     least = np.array([clearance(x + np.linspace(0, 1, 3000)[:, None] * (y - x)).min() for x, y in zip(a, b, strict=True)])
     assert (least[said] >= 0.01).all()
     assert (least[~said] < 0.01 + 1e-3).all()
@@ -147,12 +147,12 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
 @pytest.mark.parametrize(("tries", "vain", "made"), [(0, 1, 0), (1, 1, 1), (4, 1, 1), (9, 2, 2), (3, None, 3)])
 def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, tries, vain, made):
     """A sphere behind which the only free joint, whose limits close the other way round, cannot get."""
-    rounds, connect = [], routes._connect
-    monkeypatch.setattr(routes, "_connect", lambda *given: rounds.append(connect(*given)) or rounds[-1])
+    rounds, connect = [], routes._connect_by_trees
+    monkeypatch.setattr(routes, "_connect_by_trees", lambda *given: rounds.append(connect(*given)) or rounds[-1])
     arm = hf.arms.load("planar-3r")
     cell = hf.Cell([hf.cell.Sphere("ball", 0.2, pose=[0.8, 0, 0])])
     ends = np.array([[0.9, 0.3, 0.4], [-0.9, 0.3, 0.4]])
-    space = Space(arm, np.array([True, False, False]), Clearance(arm, cell=cell, itself=False), 0.0, ends)
-    metric = Metric.of(arm, "travel", None, space.free)
-    assert routes.find_route(space, metric, ends[0], ends[1:], tries, np.random.default_rng(0), vain=vain) is None
+    space = FreeSpace(arm, np.array([True, False, False]), Clearance(arm, cell=cell, itself=False), 0.0, ends)
+    metric = JointMetric.for_arm(arm, "travel", None, space.free)
+    assert routes.find_route(space, metric, ends[0], ends[1:], tries, np.random.default_rng(0), max_failures=vain) is None
     assert rounds == [None] * made

@@ -14,16 +14,16 @@ from tests.recovery.test_furthest import THICK, between_balls, branches, elbows,
 import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
-from holdfast.enclosure import parted
+from holdfast.enclosure import prove_leg_impossible
 from holdfast.faults import FaultEvent, feasible
 from holdfast.keep import plane, rail, upright
 from holdfast.recovery.proofs import flood
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
-from holdfast.recovery.proofs.flood import disconnected, holds_configuration
-from holdfast.recovery.proofs.reach import unreachable
-from holdfast.recovery.question import broken_by
-from holdfast.recovery.rows import row_solver
-from holdfast.recovery.space import Space
+from holdfast.recovery.proofs.flood import make_configuration_test, prove_disconnected
+from holdfast.recovery.proofs.reach import prove_unreachable
+from holdfast.recovery.question import describe_goal_violation
+from holdfast.recovery.rows import make_row_solver
+from holdfast.recovery.space import FreeSpace
 
 CASES = 200
 LOW, HIGH = np.array([-2.4, -2.2, -2.3]), np.array([2.3, 2.5, 2.2])
@@ -63,7 +63,7 @@ def test_reach_bound_no_pose_that_is_reached_is_proved_out_of_reach(rng):
         free = np.ones(5, dtype=bool)
         free[rng.choice(5, int(rng.integers(1, 4)), replace=False)] = False
         at = rng.uniform(arm.lower, arm.upper)
-        solver = row_solver(arm, as_task(arm, "position" if case % 2 else "pose"))
+        solver = make_row_solver(arm, as_task(arm, "position" if case % 2 else "pose"))
         q = np.where(free, rng.uniform(arm.lower, arm.upper, (8, 5)), at)
         axis, sign = oracles.frames(arm, at[None])[int(np.flatnonzero(free)[0])][0, :3, 3], (-1) ** case
 
@@ -73,7 +73,7 @@ def test_reach_bound_no_pose_that_is_reached_is_proved_out_of_reach(rng):
         bounds = list(zip(arm.lower, arm.upper, strict=True))
         edge = minimize(away, q[0], bounds=bounds, method="L-BFGS-B", options={"maxiter": 2, "maxfun": 30}).x
         for pose in oracles.forward(arm, np.vstack([q, np.where(free, edge, at)])):
-            assert unreachable(solver, free, at, pose) is None
+            assert prove_unreachable(solver, free, at, pose) is None
 
 
 def test_boxes_say_none_only_where_closed_forms_say_none(three, rng):
@@ -86,10 +86,10 @@ def test_boxes_say_none_only_where_closed_forms_say_none(three, rng):
         known = branches(second, np.array([target]), LOW, HIGH)[:, 0]
         known = known[np.isfinite(known).all(axis=1)]
         found = hf.all_configurations(three, placed(target), "planar", limits=(low, high), most_boxes=20_000)
-        assert not (found.none and len(known))
+        assert not (found.proved_empty and len(known))
         if found.finding.name == "ALL":
             assert len(found.q) == len(known)
-        none += found.none
+        none += found.proved_empty
     assert 20 < none < CASES - 20
 
 
@@ -105,8 +105,8 @@ def test_boxes_that_are_blocked_hold_no_clear_configuration(three, rng):
         most = between_balls(centres, q).max(initial=-np.inf) + 0.2 - 0.6
         blocked = BlockedBoxes(among_balls(three, centres, 0.6), 0.0)
         found = hf.all_configurations(three, placed(target), "planar", blocked=blocked, most_boxes=4_000)
-        assert not (found.none and most > 0)
-        proved += found.none
+        assert not (found.proved_empty and most > 0)
+        proved += found.proved_empty
     assert proved > 20
 
 
@@ -130,12 +130,15 @@ def test_rows_kept_no_goal_at_which_they_are_kept_is_called_broken(rng):
             (rail(direction), "position", oracles.pose(other[:3, :3], start[:3, 3] + rng.normal() * direction)),
         ]
         for keep, task, pose in cases:
-            assert not broken_by([keep.anchored(start)], row_solver(arm, as_task(arm, task)).rows, pose), (str(keep), task)
+            assert not describe_goal_violation([keep.anchored(start)], make_row_solver(arm, as_task(arm, task)).rows, pose), (
+                str(keep),
+                task,
+            )
 
 
 def test_disconnected_no_flood_over_a_grid_joins_what_is_proved_apart(three, rng, monkeypatch):
     """Joints 1 and 3 move among four balls; cells of the grid are free where a hand calculation says so."""
-    monkeypatch.setattr(flood, "_MOST", {1: 700, 2: 700, 3: 700})
+    monkeypatch.setattr(flood, "_MAX_CELLS", {1: 700, 2: 700, 3: 700})
     count, proved = 80, 0
     axes = [LOW[k] + (np.arange(count) + 0.5) * (HIGH[k] - LOW[k]) / count for k in (0, 2)]
     grid = np.zeros((count, count, 3))
@@ -148,8 +151,8 @@ def test_disconnected_no_flood_over_a_grid_joins_what_is_proved_apart(three, rng
         room = between_balls(centres, grid.reshape(-1, 3)).reshape(count, count)
         open_ = np.argwhere(room > 0.02)
         start, goal = (tuple(open_[k]) for k in rng.integers(len(open_), size=2))
-        space = Space(three, np.array([True, False, True]), clearance, 0.0, np.stack([grid[start], grid[goal]]))
-        proof = disconnected(space, grid[start], holds_configuration(space, grid[goal]))
+        space = FreeSpace(three, np.array([True, False, True]), clearance, 0.0, np.stack([grid[start], grid[goal]]))
+        proof = prove_disconnected(space, grid[start], make_configuration_test(space, grid[goal]))
         # Half-way between two cells that share an edge no point of the arm is farther from where it is at one of them.
         farthest = 3 * (HIGH - LOW).max() / count / 2
         sure = label(room > farthest)[0]
@@ -169,7 +172,7 @@ def test_disconnected_no_leg_that_a_branch_follows_is_proved_parted(three, rng):
         way = rng.uniform(0.2, 2.0) * np.exp(1j * rng.uniform(-np.pi, np.pi))
         whole = ends_of_branches(branches(second, begin + way * np.linspace(0, 1, 2001), LOW, HIGH)).max() == 1
         step = np.array([way.real, way.imag, 0.0])
-        proof = parted(three, task, placed(begin), way=step, limits=(low, high), most_boxes=4_000)
+        proof = prove_leg_impossible(three, task, placed(begin), way=step, limits=(low, high), most_boxes=4_000)
         assert not (proof and whole)
         proved += proof is not None
     assert proved > 20
@@ -178,10 +181,10 @@ def test_disconnected_no_leg_that_a_branch_follows_is_proved_parted(three, rng):
 def test_a_piece_that_is_proved_clear_is_clear_at_a_thousand_places(three, rng):
     clear = 0
     centres = rng.uniform(-2.4, 2.4, (4, 2)) @ [1, 1j]
-    space = Space(three, np.ones(3, dtype=bool), among_balls(three, centres), 0.0, np.stack([LOW, HIGH]))
+    space = FreeSpace(three, np.ones(3, dtype=bool), among_balls(three, centres), 0.0, np.stack([LOW, HIGH]))
     a = rng.uniform(LOW, HIGH, (4 * CASES, 3))
     b = np.clip(a + rng.normal(0, 0.5, a.shape), LOW, HIGH)
-    good = space.edges(a, b)
+    good = space.are_segments_valid(a, b)
     for start, end in zip(a[good], b[good], strict=True):
         assert between_balls(centres, start + np.linspace(0, 1, 1001)[:, None] * (end - start)).min() > 0
         clear += 1

@@ -13,8 +13,8 @@ import holdfast as hf
 import oracles
 from holdfast.cell import Sphere
 from holdfast.clearance.exact import engines
-from holdfast.clearance.exact.sharper import Sharper, sharpened
-from holdfast.recovery import Ending, check_waypoints
+from holdfast.clearance.exact.sharper import ExactClearance, with_exact_distances
+from holdfast.recovery import RecoveryOutcome, check_waypoints
 
 REACH, WIDTH, BALL = 3.0, 0.05, 0.2
 ENDS = np.array([[0.5, 0, 0], [-0.5, 0, 0]])
@@ -57,8 +57,8 @@ def test_a_narrow_gap_is_passed_by_exact_distances_and_said_so(arm, slim, librar
     assert not cells.touches(arm, slim.capsules, cell, straight).any()
     assert slim.with_cell(cell).room(straight).min() < 0
     found = turned(arm, slim, cell)
-    assert found.ending == Ending.HOME
-    assert isinstance(found.clearance, Sharper)
+    assert found.ending == RecoveryOutcome.GOAL_REACHED
+    assert isinstance(found.clearance, ExactClearance)
     np.testing.assert_allclose(found.q[[0, -1]], ENDS, atol=1e-9)
     assert not cells.touches(arm, slim.capsules, cell, cells.finely(found.q)).any()
     by = {"coal": "coal", "fcl": "python-fcl"}[library]
@@ -74,15 +74,15 @@ def test_a_narrow_gap_is_passed_by_exact_distances_and_said_so(arm, slim, librar
 
 def test_what_the_bound_finds_is_by_the_bound(arm, slim):
     found = turned(arm, slim, beyond(0.05))
-    assert found.ending == Ending.HOME
-    assert not isinstance(found.clearance, Sharper)
+    assert found.ending == RecoveryOutcome.GOAL_REACHED
+    assert not isinstance(found.clearance, ExactClearance)
     assert found.to_dict()["clearance"]["cell"]["distances"] == "bound"
 
 
 @pytest.mark.parametrize(("gap", "options"), [(-0.001, {}), (0.004, {"margin": 0.005})])
 def test_a_gap_that_is_closed_or_too_narrow_for_the_margin_stays_so(arm, slim, library, gap, options):
     found = turned(arm, slim, beyond(gap), **options)
-    assert found.ending == Ending.NO_ROUTE_FOUND
+    assert found.ending == RecoveryOutcome.NO_ROUTE_FOUND
     assert not len(found.q)
     assert "nor is there more by exact distances" in found.reason
     assert not check_waypoints(arm, ENDS, clearance=slim, cell=beyond(gap), **options).ok
@@ -91,7 +91,7 @@ def test_a_gap_that_is_closed_or_too_narrow_for_the_margin_stays_so(arm, slim, l
 def test_without_a_library_the_bound_decides(arm, slim, monkeypatch):
     monkeypatch.setattr(engines, "find_spec", lambda name: None)
     found = turned(arm, slim, beyond(0.0025))
-    assert found.ending == Ending.NO_ROUTE_FOUND
+    assert found.ending == RecoveryOutcome.NO_ROUTE_FOUND
     assert "exact" not in found.reason
 
 
@@ -99,22 +99,22 @@ def test_a_panda_leaves_and_reaches_what_the_bound_calls_too_close(rng):
     arm, cell = hf.arms.load("panda"), geometry.of_primitives()
     clearance, mujoco = hf.Clearance(arm, cell=cell), geometry.InMujoco(cell)
     q = oracles.inside(arm, rng, 3000)
-    q = q[clearance.room(q) < 0]
+    q = q[clearance.margin_left(q) < 0]
     q = q[clearance.exact(q) > 0.01][0]
-    sharp = sharpened(clearance)
+    sharp = with_exact_distances(clearance)
     near = q + rng.uniform(-0.1, 0.1, (40, 7)) * (np.arange(7) != 3)
-    other = near[sharp.room(near) > 0.005][0]
+    other = near[sharp.margin_left(near) > 0.005][0]
     found = hf.recover(arm, ["panda_joint4"], q, goal=other, cell=cell, samples=0, tries=1)
-    assert found.ending == Ending.HOME, found.describe()
+    assert found.ending == RecoveryOutcome.GOAL_REACHED, found.describe()
     way = cells.finely(found.q)
     assert not mujoco.touches(way).any()
-    assert sharp.room(way).min() >= 0 > clearance.room(way).min()
+    assert sharp.margin_left(way).min() >= 0 > clearance.margin_left(way).min()
 
 
 def test_every_pair_is_bounded_by_the_exact_distance_of_what_is_nearest(rng):
     arm, cell = hf.arms.load("panda"), geometry.of_primitives()
     clearance = hf.Clearance(arm, cell=cell)
-    sharp = sharpened(clearance)
+    sharp = with_exact_distances(clearance)
     q = oracles.inside(arm, rng, 400)
     exact, bound = clearance.exact(q), clearance(q)
     near = bound < 0.02
@@ -124,8 +124,8 @@ def test_every_pair_is_bounded_by_the_exact_distance_of_what_is_nearest(rng):
     assert (sharp.by_pair(q) >= clearance.by_pair(q)).all()
     np.testing.assert_array_equal(sharp.by_pair(q).min(axis=1), sharp(q))
     assert sharp(q[0]) == sharp(q[:1])[0]
-    assert sharpened(sharp) is None
-    assert sharpened(hf.Clearance(arm, hf.Capsules.along(arm))) is None, "capsules that are the shape are exact"
-    assert isinstance(sharpened(hf.Clearance(arm)), Sharper)
-    assert isinstance(sharp.with_cell(cells.bench()), Sharper)
+    assert with_exact_distances(sharp) is None
+    assert with_exact_distances(hf.Clearance(arm, hf.Capsules.along(arm))) is None, "capsules that are the shape are exact"
+    assert isinstance(with_exact_distances(hf.Clearance(arm)), ExactClearance)
+    assert isinstance(sharp.with_cell(cells.bench()), ExactClearance)
     assert sharp.with_cell(None).cell is None

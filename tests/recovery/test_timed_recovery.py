@@ -16,16 +16,16 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.clearance import Capsules
-from holdfast.keep.manifold import Manifold
+from holdfast.keep.manifold import ConstraintManifold
 from holdfast.recovery import check_waypoints, completion, read_times, read_waypoints
-from holdfast.recovery.space import Space
-from holdfast.recovery.timing.motion import timed_motion
-from holdfast.recovery.timing.profile import fastest
-from holdfast.recovery.timing.rounding import cuts_of, rounded
+from holdfast.recovery.space import FreeSpace
+from holdfast.recovery.timing.motion import time_motion
+from holdfast.recovery.timing.profile import compute_fastest_profile
+from holdfast.recovery.timing.rounding import find_corner_cuts, round_corners
 
 
 def fine_way(q, cut):
-    return rounded(q, cut, np.zeros((len(q), 0)))
+    return round_corners(q, cut, np.zeros((len(q), 0)))
 
 
 def always(chords):
@@ -33,7 +33,7 @@ def always(chords):
 
 
 def wide(q):
-    return cuts_of(q, np.zeros(len(q), dtype=bool), always)
+    return find_corner_cuts(q, np.zeros(len(q), dtype=bool), always)
 
 
 def random_way(rng, n, count):
@@ -47,11 +47,11 @@ def test_one_joint_runs_the_trapezoid(rng):
     for _ in range(50):
         length, v, a = 10 ** rng.uniform(-2, 1, 3)
         pieces = fine_way(np.array([[0.3], [0.3 - length]]), np.zeros(2))
-        profile = fastest(pieces, np.array([v]), np.array([a]))
+        profile = compute_fastest_profile(pieces, np.array([v]), np.array([a]))
         took = length / v + v / a if length * a > v**2 else 2 * np.sqrt(length / a)
         assert profile.time[-1] == pytest.approx(took, rel=1e-12)
         time = np.linspace(0, took, 9)
-        q, qd, _ = profile.at(pieces, time)
+        q, qd, _ = profile.sample(pieces, time)
         t = np.minimum(time, took - time)
         gone = np.where(t < v / a, a * t**2 / 2, v * (t - v / a / 2))
         np.testing.assert_allclose(np.abs(q[:, 0] - np.where(time < took / 2, 0.3, 0.3 - length)), gone, atol=1e-9 * length)
@@ -98,7 +98,7 @@ def test_no_linear_programme_is_faster(rng, n, count):
     if count == 5:
         cut[2] = 0.0  # and one corner at which it stops
     pieces = fine_way(q, cut)
-    took = fastest(pieces, v, a).time[-1]
+    took = compute_fastest_profile(pieces, v, a).time[-1]
     assert took == pytest.approx(by_linear_programme(pieces, v, a, 300), rel=0.02)
 
 
@@ -110,9 +110,9 @@ def test_limits_are_kept_at_every_instant(rng):
         v, a = rng.uniform(0.5, 3, n), rng.uniform(1, 9, n)
         cut = wide(q) * rng.choice([0.0, 0.3, 1.0], count)
         pieces = fine_way(q, cut)
-        profile = fastest(pieces, v, a)
+        profile = compute_fastest_profile(pieces, v, a)
         time = np.sort(np.concatenate([rng.uniform(0, profile.time[-1], 4000), profile.time]))
-        x, rate, second = profile.at(pieces, time)
+        x, rate, second = profile.sample(pieces, time)
         assert (np.abs(rate) <= v * (1 + 1e-9)).all()
         assert (np.abs(second) <= a * (1 + 1e-9)).all()
         np.testing.assert_allclose(x[-1], q[-1], atol=1e-12)
@@ -136,7 +136,7 @@ def test_rounded_corners_are_quadratic_b_splines(rng):
     made, _, _ = pieces.at(np.full(11, 1), share * pieces.length[1])
     np.testing.assert_allclose(made, curve(share), atol=1e-12)
     seen = []
-    cuts_of(q, np.zeros(3, dtype=bool), lambda chords: seen.append(chords) or always(chords))
+    find_corner_cuts(q, np.zeros(3, dtype=bool), lambda chords: seen.append(chords) or always(chords))
     (chords,) = seen
     whole = fine_way(q, wide(q))
     dense = whole.at(np.full(4001, 1), np.linspace(0, whole.length[1], 4001))[0]
@@ -144,8 +144,8 @@ def test_rounded_corners_are_quadratic_b_splines(rng):
     off = dense - chords.first[k]
     along = chords.last[k] - chords.first[k]
     on = np.linspace(0, 1, 4001) * 12 - k
-    assert (np.abs(off - on[:, None] * along) <= chords.away[k] + 1e-12).all()
-    assert np.abs(off - on[:, None] * along).max() > 0.99 * chords.away.max()
+    assert (np.abs(off - on[:, None] * along) <= chords.deviations[k] + 1e-12).all()
+    assert np.abs(off - on[:, None] * along).max() > 0.99 * chords.deviations.max()
 
 
 # ---- what is proved of a rounded corner ------------------------------------------------------------------------------
@@ -154,31 +154,31 @@ def test_rounded_corners_are_quadratic_b_splines(rng):
 def test_everything_beside_a_proved_piece_is_clear_and_keeps_its_rows(rng):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.4)
     clearance = hf.Clearance(arm, Capsules.along(arm, 0.03))
-    space = Space(arm, np.ones(6, dtype=bool), clearance, 0.01, np.zeros((1, 6)))
+    space = FreeSpace(arm, np.ones(6, dtype=bool), clearance, 0.01, np.zeros((1, 6)))
     q = rng.uniform(arm.lower, arm.upper, (400, 6))
-    q = q[space.clear(q)][:80]
+    q = q[space.are_valid(q)][:80]
     a, b = q[::2], q[1::2]
     b = a[: len(b)] + 0.3 * (b - a[: len(b)])
     a = a[: len(b)]
     away = rng.uniform(0, 0.02, a.shape)
-    said = space.edges(a, b, away)
+    said = space.are_segments_valid(a, b, away)
     assert said.any()
-    assert (said <= space.edges(a, b)).all()
-    assert (said < space.edges(a, b)).any()
+    assert (said <= space.are_segments_valid(a, b)).all()
+    assert (said < space.are_segments_valid(a, b)).any()
     on, off = rng.uniform(0, 1, (300, 1)), rng.uniform(-1, 1, (300, 6))
     for x, y, most in zip(a[said], b[said], away[said], strict=True):
         assert clearance(x + on * (y - x) + off * most).min() >= 0.01 - 1e-9
     pose = arm.forward_kinematics(a[0])
     keep = [hf.keep.rail([0, 0, 1], within=(0.05, 0.2), pose=pose), hf.keep.plane([0, 1, 0], within=(0.04, 0.2), pose=pose)]
-    manifold = Manifold(arm, keep, space.free, (arm.lower, arm.upper))
+    manifold = ConstraintManifold(arm, keep, space.free, (arm.lower, arm.upper))
     d = rng.normal(0, 0.02, (200, 6))
     first = np.repeat(a[:1], 200, axis=0)
     away = rng.uniform(0, 0.01, d.shape)
-    good = manifold.edges(first, first + d, away)
+    good = manifold.prove_edges(first, first + d, away)
     assert good.any()
-    assert (good < manifold.edges(first, first + d)).any()
+    assert (good < manifold.prove_edges(first, first + d)).any()
     for x, step, most in zip(first[good], d[good], away[good], strict=True):
-        assert manifold.holds(x + on * step + off * most).all()
+        assert manifold.is_satisfied(x + on * step + off * most).all()
 
 
 def links_to(centres, q):
@@ -219,7 +219,7 @@ def test_rounded_corners_keep_clear(among_balls):
     assert not timed.stops
     np.testing.assert_array_equal(timed.q[[0, -1]], bent.q[[0, -1]])
     assert timed.without == pytest.approx((np.abs(np.diff(bent.q, axis=0)) / 2.0).max(axis=1).sum())
-    stop = fastest(fine_way(bent.q, np.zeros(len(bent.q))), np.full(3, 2.0), np.full(3, 4.0)).time[-1]
+    stop = compute_fastest_profile(fine_way(bent.q, np.zeros(len(bent.q))), np.full(3, 2.0), np.full(3, 4.0)).time[-1]
     assert timed.without < timed.duration < stop
 
 
@@ -231,18 +231,18 @@ def test_two_close_waypoints_are_one_corner_where_that_is_free_and_faster():
     cell = hf.Cell([hf.cell.Sphere("far", 0.1, pose=[0, 0, 5.0])])
 
     def timed(way, space):
-        return timed_motion(space, bad, way, accelerations=np.full(3, 4.0), period=0.01, without=None)
+        return time_motion(space, bad, way, accelerations=np.full(3, 4.0), period=0.01, without=None)
 
-    class Blocked(Space):
+    class Blocked(FreeSpace):
         """No line but those of the way."""
 
-        def edges(self, a, b, away=None):
-            return super().edges(a, b, away) & (np.abs(b - a).max(axis=1) < 0.2)
+        def are_segments_valid(self, a, b, deviations=None):
+            return super().are_segments_valid(a, b, deviations) & (np.abs(b - a).max(axis=1) < 0.2)
 
     free = np.ones(3, dtype=bool)
     clearance = hf.Clearance(arm, Capsules.along(arm, 0.02), cell, itself=False)
-    one = timed(np.delete(near, 1, axis=0), Space(arm, free, clearance, 0.0, near[:1]))
-    both = timed(near, Space(arm, free, clearance, 0.0, near[:1]))
+    one = timed(np.delete(near, 1, axis=0), FreeSpace(arm, free, clearance, 0.0, near[:1]))
+    both = timed(near, FreeSpace(arm, free, clearance, 0.0, near[:1]))
     assert both.duration == pytest.approx(one.duration, rel=0.02)
     kept = timed(near, Blocked(arm, free, clearance, 0.0, near[:1]))
     assert kept.duration > 1.2 * both.duration
@@ -279,21 +279,21 @@ def test_the_file_keeps_speeds_and_accelerations(among_balls, tmp_path):
 
 def test_a_corner_that_other_code_refuses_is_a_stop(among_balls, monkeypatch):
     bent, _ = among_balls
-    real, made = completion.verify, []
+    real, made = completion.verify_waypoints, []
 
     def strict(*asked, **more):
         found = real(*asked, **more)
         made.append(more["pace"])
         return replace(found, faults=("a corner is cut off",)) if len(made) == 2 else found
 
-    monkeypatch.setattr(completion, "verify", strict)
+    monkeypatch.setattr(completion, "verify_waypoints", strict)
     again = round_the_corner(bent.arm, bent.at, bent.q[-1], bent.clearance)
     assert again.ok
     assert [pace is not None for pace in made] == [False, True, True]
     assert again.timed.stops == len(bent.q) - 2
     assert again.timed.duration > bent.timed.duration
     monkeypatch.setattr(
-        completion, "verify", lambda *_, pace, **__: replace(bent.verified, faults=("no",) * (pace is not None))
+        completion, "verify_waypoints", lambda *_, pace, **__: replace(bent.verified, faults=("no",) * (pace is not None))
     )
     never = round_the_corner(bent.arm, bent.at, bent.q[-1], bent.clearance)
     assert never.verdict.answer == "undecided"

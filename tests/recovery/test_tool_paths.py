@@ -9,7 +9,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.recovery import continuation, search
-from holdfast.recovery.layers import Graph
+from holdfast.recovery.layers import LadderGraph
 
 JUMP = 0.35
 
@@ -87,8 +87,8 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     result = finished(three, low, high, here, path)
     assert result.ok
     assert result.rest.graph > 0
-    monkeypatch.setattr(continuation, "through_layers", lambda *_: Graph([], 0, 0))
-    monkeypatch.setattr(continuation, "_FINER", 1)
+    monkeypatch.setattr(continuation, "search_ladder_graph", lambda *_: LadderGraph([], 0, 0))
+    monkeypatch.setattr(continuation, "_REFINEMENT_FACTOR", 1)
     for name in ("continued", "without_rows"):
         monkeypatch.setattr(search, name, lambda made, *_: (made, []))
     alone = finished(three, low, high, here, path)

@@ -11,13 +11,13 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
-from holdfast.clearance.exact.engines import installed
-from holdfast.recovery import Ending, completion, search
+from holdfast.clearance.exact.engines import is_library_installed
+from holdfast.recovery import RecoveryOutcome, completion, search
 from holdfast.recovery.proofs import reach
-from holdfast.recovery.proofs.of_path import telling_first
-from holdfast.recovery.proofs.reach import listed, proved_by
-from holdfast.recovery.rows import row_solver
-from holdfast.recovery.verification import Verification, row_errors, tool_poses, verify
+from holdfast.recovery.proofs.of_path import order_by_relevance
+from holdfast.recovery.proofs.reach import enumerate_configurations, prove_no_configuration
+from holdfast.recovery.rows import make_row_solver
+from holdfast.recovery.verification import Verification, compute_row_errors, compute_tool_poses, verify_waypoints
 
 HOME = np.array([0.3, 0.6, 0.9])
 
@@ -36,11 +36,11 @@ def moved(three):
 def test_the_chain_of_matrices_is_the_arm(rng):
     arm = oracles.random_arm(rng, types="RRPRRCR")
     q = rng.uniform(-1, 1, (20, arm.n))
-    np.testing.assert_allclose(tool_poses(arm, q), oracles.forward(arm, q), atol=1e-12)
+    np.testing.assert_allclose(compute_tool_poses(arm, q), oracles.forward(arm, q), atol=1e-12)
     poses = oracles.forward(arm, q + rng.normal(0, 0.4, q.shape))
     for task in ("pose", "pointing", "position", ["vx", "vz", "wx"]):
-        solver = row_solver(arm, as_task(arm, task))
-        np.testing.assert_allclose(row_errors(arm, solver.rows, q, poses), solver.errors(q, poses), atol=1e-9)
+        solver = make_row_solver(arm, as_task(arm, task))
+        np.testing.assert_allclose(compute_row_errors(arm, solver.rows, q, poses), solver.compute_errors(q, poses), atol=1e-9)
 
 
 def test_what_is_solved_is_verified_by_other_code(moved):
@@ -63,9 +63,9 @@ def test_what_is_solved_is_verified_by_other_code(moved):
 def test_a_spoilt_motion_is_refused(moved, three, spoil, fault):
     arm = replace(three, joints=tuple(replace(j, lower=-3.0, upper=3.0) for j in three.joints))
     bad = hf.Degraded(arm, locked={"joint2": 0.6})
-    rows = row_solver(arm, moved.task).rows
-    assert verify(bad, HOME, moved.q, rows=rows, goals=moved.goal_pose[None]).ok
-    found = verify(bad, HOME, spoil(moved.q), rows=rows, goals=moved.goal_pose[None])
+    rows = make_row_solver(arm, moved.task).rows
+    assert verify_waypoints(bad, HOME, moved.q, rows=rows, goals=moved.goal_pose[None]).ok
+    found = verify_waypoints(bad, HOME, spoil(moved.q), rows=rows, goals=moved.goal_pose[None])
     assert fault in str(found)
 
 
@@ -76,8 +76,8 @@ def slim(arm, thing):
 def test_a_motion_into_an_object_is_refused(moved, three):
     tip = three.forward_kinematics(moved.q.mean(axis=0))[:3, 3]
     shape = slim(three, hf.cell.Sphere("ball", 0.05, pose=tip))
-    rows = row_solver(three, moved.task).rows
-    found = verify(moved.degraded, HOME, moved.q, rows=rows, clearance=shape)
+    rows = make_row_solver(three, moved.task).rows
+    found = verify_waypoints(moved.degraded, HOME, moved.q, rows=rows, clearance=shape)
     assert not found.ok
     assert "ball" in str(found)
 
@@ -90,12 +90,12 @@ def test_a_motion_that_touches_only_between_coarse_samples_is_refused(three):
         three, hf.Capsules.along(three, 0.005), hf.Cell([hf.cell.Sphere("ball", 0.004, pose=tip)]), itself=False
     )
     coarse = q[0] + np.linspace(0, 1, 26)[:, None] * (q[1] - q[0])
-    assert (thin.room(coarse) > 0).all()
-    rows = row_solver(three, as_task(three, "planar")).rows
+    assert (thin.margin_left(coarse) > 0).all()
+    rows = make_row_solver(three, as_task(three, "planar")).rows
     bad = hf.Degraded(three, locked={"joint2": 0.6, "joint3": 0.9})
-    assert "joint3 & ball" in str(verify(bad, q[0], q, rows=rows, clearance=thin))
+    assert "joint3 & ball" in str(verify_waypoints(bad, q[0], q, rows=rows, clearance=thin))
     away = thin.with_cell(hf.Cell([hf.cell.Sphere("ball", 0.004, pose=1.02 * tip)]))
-    assert verify(bad, q[0], q, rows=rows, clearance=away).ok
+    assert verify_waypoints(bad, q[0], q, rows=rows, clearance=away).ok
 
 
 class Wavy:
@@ -136,9 +136,9 @@ def test_between_waypoints_a_tool_path_is_kept_to_half_a_degree_and_a_millimetre
     )
     at = np.array(hf.arms.about("panda").home)
     q, places = at + np.linspace(0, 1, 6)[:, None] * [0.3, 0.1, 0, 0, 0, 0.2, 0], np.linspace(0, 1, 6)
-    rows = row_solver(arm, as_task(arm, "pose")).rows
+    rows = make_row_solver(arm, as_task(arm, "pose")).rows
     along = (Wavy(arm, q, turn, lift), places, slice(0, 6))
-    found = verify(hf.Degraded(arm, speeds={0: 0.5}), at, q, rows=rows, along=along)
+    found = verify_waypoints(hf.Degraded(arm, speeds={0: 0.5}), at, q, rows=rows, path_samples=along)
     assert found.ok == ok, found
     assert ok or "is off the tool path by" in str(found)
     largest = max(np.deg2rad(turn), lift) * np.sin(0.4 * np.pi) ** 2
@@ -148,10 +148,10 @@ def test_between_waypoints_a_tool_path_is_kept_to_half_a_degree_and_a_millimetre
 
 
 def test_a_motion_that_other_code_refuses_is_no_answer(three, monkeypatch):
-    fault = Verification(faults=("it is wrong",), looked_at=1, exact_by="", goal_miss=None, path_miss=None)
-    monkeypatch.setattr(completion, "verify", lambda *_, **__: fault)
+    fault = Verification(faults=("it is wrong",), checked=1, exact_by="", goal_miss=None, path_miss=None)
+    monkeypatch.setattr(completion, "verify_waypoints", lambda *_, **__: fault)
     found = hf.recover(three, ["joint2"], HOME, goal=three.forward_kinematics([0.9, 0.6, 0.1]), task="planar", samples=0)
-    assert found.ending == Ending.HOME
+    assert found.ending == RecoveryOutcome.GOAL_REACHED
     assert (found.ok, found.verdict.answer) == (False, "undecided")
     assert "it is wrong" in found.verdict.why
     with pytest.raises(hf.HoldfastError):
@@ -187,18 +187,18 @@ def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
     assert found.verdict.why
     assert f"verdict: {answer}" in " ".join(found.describe())
     assert found.to_dict()["verdict"]["answer"] == answer
-    assert answer in found._presented("story").answer
+    assert answer in found._present("story").answer
 
 
-@pytest.mark.skipif(not installed(), reason="no library for exact signs")
+@pytest.mark.skipif(not is_library_installed(), reason="no library for exact signs")
 def test_that_every_configuration_touches_something_is_a_proof(three):
     """Two circles meet in two points, and the target is inside a ball."""
     goal = placed(1.5, -1.0)
     shape = slim(three, hf.cell.Sphere("ball", 0.2, pose=[1.5, -1.0, 0.0]))
-    every = listed(hf.Degraded(three, locked={"joint2": 0.6}), as_task(three, "planar"), goal, np.inf)
-    assert "each of its 2 configurations touches something" in str(proved_by(every, shape))
-    assert proved_by(every, None) is None
-    assert proved_by(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
+    every = enumerate_configurations(hf.Degraded(three, locked={"joint2": 0.6}), as_task(three, "planar"), goal, np.inf)
+    assert "each of its 2 configurations touches something" in str(prove_no_configuration(every, shape))
+    assert prove_no_configuration(every, None) is None
+    assert prove_no_configuration(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
 
 
 def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about_what_touches(rng, monkeypatch):
@@ -206,12 +206,12 @@ def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about
     q = rng.uniform(arm.lower, arm.upper)
     locks = {k: q[k] for k in (0, 2, 4)}
 
-    monkeypatch.setattr(reach, "certain_contacts", lambda _, q: ["something"] * len(q))  # where joint 7 is in the middle
+    monkeypatch.setattr(reach, "find_certain_contacts", lambda _, q: ["something"] * len(q))  # where joint 7 is in the middle
     for more, sure in (({}, False), ({6: q[6]}, True)):
         task = as_task(arm, "position")
-        every = listed(hf.Degraded(arm, locked=locks | more), task, arm.forward_kinematics(q), np.inf)
+        every = enumerate_configurations(hf.Degraded(arm, locked=locks | more), task, arm.forward_kinematics(q), np.inf)
         assert len(every.q)
-        assert (proved_by(every, hf.Clearance(arm)) is not None) == sure
+        assert (prove_no_configuration(every, hf.Clearance(arm)) is not None) == sure
 
 
 def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
@@ -227,7 +227,7 @@ def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
 
 
 def test_what_only_a_search_says_is_argued(three, monkeypatch):
-    monkeypatch.setattr(search, "every_clear", lambda *_: (np.zeros((0, 3)), np.zeros(0, dtype=int), [None]))
+    monkeypatch.setattr(search, "enumerate_collision_free", lambda *_: (np.zeros((0, 3)), np.zeros(0, dtype=int), [None]))
     found = hf.recover(three, ["joint2"], HOME, goal=placed(1.5, 0.4, 2.0), task="planar-pose", samples=0)
     assert (found.verdict.answer, found.verdict.kind) == ("argued infeasible", "")
     assert "in 256 starts, which proves nothing" in found.verdict.why
@@ -256,9 +256,9 @@ def test_any_of_several_poses_will_do(three):
 
 
 def test_the_poses_that_tell_most_come_first():
-    assert list(telling_first(9)) == [8, 0, 4, 2, 6, 1, 3, 5, 7]
+    assert list(order_by_relevance(9)) == [8, 0, 4, 2, 6, 1, 3, 5, 7]
     for count in (1, 2, 3, 10, 57):
-        assert sorted(telling_first(count)) == list(range(count))
+        assert sorted(order_by_relevance(count)) == list(range(count))
 
 
 def test_a_finished_path_is_verified_between_its_waypoints(three):
@@ -270,37 +270,37 @@ def test_a_finished_path_is_verified_between_its_waypoints(three):
     part = slice(leg.first, leg.last + 1)
     bent = found.q.copy()
     bent[(part.start + part.stop) // 2] += [1e-3, 0, 0]
-    rows = row_solver(three, found.task).rows
-    refused = verify(found.degraded, HOME, bent, rows=rows, along=(path, found.rest.share, part))
+    rows = make_row_solver(three, found.task).rows
+    refused = verify_waypoints(found.degraded, HOME, bent, rows=rows, path_samples=(path, found.rest.share, part))
     assert "the tool path is missed by" in str(refused)
 
 
 def test_the_end_of_a_motion_may_be_1e_5_off_the_goal(three):
-    rows, degraded = row_solver(three, as_task(three, "planar")).rows, hf.Degraded(three, locked={"joint3": HOME[2]})
+    rows, degraded = make_row_solver(three, as_task(three, "planar")).rows, hf.Degraded(three, locked={"joint3": HOME[2]})
     q = np.array([HOME, HOME + np.array([0.1, 0.1, 0])])
     for miss, ok in ((5e-6, True), (1e-4, False)):
         goal = three.forward_kinematics(q[-1])
         goal[0, 3] += miss
-        assert verify(degraded, HOME, q, rows=rows, goals=goal[None]).ok == ok
-        assert verify(degraded, HOME, q, rows=rows, goal_q=q[-1] + [0, miss, 0]).ok == ok
+        assert verify_waypoints(degraded, HOME, q, rows=rows, goals=goal[None]).ok == ok
+        assert verify_waypoints(degraded, HOME, q, rows=rows, goal_q=q[-1] + [0, miss, 0]).ok == ok
 
 
 def test_only_revolute_joints_without_limits_meet_a_goal_after_a_whole_turn():
     """A slide that is 2 pi m away is not there."""
     kinds = [hf.DH(a=1.0, alpha=0.3, velocity=1.0), hf.DH(a=0.5, alpha=0.2, type="prismatic")]
     arm = hf.Arm.from_dh(kinds, name="turn and slide")
-    rows, q = row_solver(arm, as_task(arm, "position")).rows, np.array([[0.1, 0.2], [0.3, 0.4]])
+    rows, q = make_row_solver(arm, as_task(arm, "position")).rows, np.array([[0.1, 0.2], [0.3, 0.4]])
     for joint, ok in ((0, True), (1, False)):
         goal = q[-1] + 2 * np.pi * np.eye(2)[joint]
-        found = verify(hf.Degraded(arm, speeds={0: 0.5}), q[0], q, rows=rows, goal_q=goal)
+        found = verify_waypoints(hf.Degraded(arm, speeds={0: 0.5}), q[0], q, rows=rows, goal_q=goal)
         assert found.ok == ok, found
         assert found.goal_miss == pytest.approx(0 if ok else 2 * np.pi, abs=1e-12)
 
 
 def test_a_motion_and_the_timed_motion_have_the_worse_of_both_findings():
-    first = Verification(faults=("a",), looked_at=3, exact_by="", goal_miss=0.1, path_miss=0.5, kept=((1.0, 5.0),))
-    timed = Verification(faults=("b",), looked_at=4, exact_by="", goal_miss=0.2, path_miss=0.3, kept=((2.0, 4.0),))
-    both = first.beside(timed)
+    first = Verification(faults=("a",), checked=3, exact_by="", goal_miss=0.1, path_miss=0.5, kept=((1.0, 5.0),))
+    timed = Verification(faults=("b",), checked=4, exact_by="", goal_miss=0.2, path_miss=0.3, kept=((2.0, 4.0),))
+    both = first.merge_timed(timed)
     assert both.faults == ("a", "as it is timed, b")
-    assert (both.looked_at, both.path_miss, both.kept) == (7, 0.5, ((2.0, 5.0),))
-    assert timed.beside(first).path_miss == 0.5
+    assert (both.checked, both.path_miss, both.kept) == (7, 0.5, ((2.0, 5.0),))
+    assert timed.merge_timed(first).path_miss == 0.5

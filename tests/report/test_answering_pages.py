@@ -17,7 +17,7 @@ import holdfast as hf
 from holdfast.present.arm.view import scene
 from holdfast.report import figures
 from holdfast.report.page import Callout, Code, Page, Picture, Section, Table, write
-from holdfast.words import interval, together
+from holdfast.words import format_interval, join_units
 
 NINE = hf.arms.load("pa10-9dof")
 REGION = hf.Region.box([0.968, 0, 0.041], 0.5, np.deg2rad([0, 174, 0]), np.deg2rad([90, 90, 90]))
@@ -79,8 +79,8 @@ def test_a_threshold_has_the_answers_that_python_gives(report, found):
     assert asked == sorted(asked)
     assert 0.29 in asked  # half of the bound, sqrt(3 / 9)
     shown = moved(report, "threshold", "[...box.querySelectorAll('[data-row]')].map(x => x.textContent)")
-    expected = [[interval(found.interval(at_least=x, optimised=o)) for o in (False, True)] for x in asked]
-    assert shown == [[together(text) for text in texts] for texts in expected]
+    expected = [[format_interval(found.interval(at_least=x, optimised=o)) for o in (False, True)] for x in asked]
+    assert shown == [[join_units(text) for text in texts] for texts in expected]
 
 
 def test_no_option_of_a_command_is_broken_behind_its_hyphens(report):
@@ -175,7 +175,7 @@ def test_play_plays_every_time_also_on_a_busy_page(browser, tmp_path):
     """While a page is busy, the first frame after a click carries a time from before the click."""
     time = np.linspace(0, 2, 11)
     view = scene(hf.arms.load("planar-3r"), np.stack([time, 0 * time, time], axis=1), time=time)
-    file = write(Page("t", "h", [Section("", [Picture(view.html("motion", "An arm"), "c")])]), tmp_path / "motion.html")
+    file = write(Page("t", "h", [Section("", [Picture(view.to_html("motion", "An arm"), "c")])]), tmp_path / "motion.html")
     opened, errors = browser.new_page(viewport={"width": 240, "height": 300}), []
     opened.on("pageerror", lambda error: errors.append(str(error)))
     opened.add_init_script(BUSY)
@@ -200,7 +200,7 @@ def test_where_the_axes_are_in_the_svg():
     axes = figure.add_subplot()
     axes.plot([0.3], [7.0], "o")
     axes.set(xlim=(0.1, 10), ylim=(5, 8), xscale="log")
-    frame = figures.frame(figures.finished(figure).axes[0])
+    frame = figures.locate_axes(figures.finished(figure).axes[0])
     markers = re.findall(r'<use [^>]*x="([\d.]+)" y="([\d.]+)"', str(figures.svg(figure, "a", "b")))
     left, top, right, bottom = frame["box"]
     part = np.log(0.3 / 0.1) / np.log(10 / 0.1)

@@ -6,7 +6,7 @@ import numpy as np
 from wellformed import check
 
 from holdfast.report import svg
-from holdfast.report.motions import Motion, Panel, drawn_motion
+from holdfast.report.motions import StickMotion, TimePanel, stick_motion_figure
 from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 from holdfast.report.views import View
 
@@ -42,12 +42,12 @@ def test_quantiles_and_differences_are_where_they_belong(rng):
 
 def test_a_drawn_motion_shows_lock_target_and_error(rng):
     chain = rng.normal(size=(7, 4, 3)).cumsum(axis=1)
-    motion = Motion(chain, np.zeros(4, dtype=bool), chain[[0, -1], -1], np.arange(4) == 1, chain[-1, -1])
+    motion = StickMotion(chain, np.zeros(4, dtype=bool), chain[[0, -1], -1], np.arange(4) == 1, chain[-1, -1])
     view = View(np.eye(3)[0], np.eye(3)[2], "Side view")
-    panel = Panel(
+    panel = TimePanel(
         np.linspace(0, 1, 7), np.geomspace(1, 1e-3, 7), "error, m", "Ends stuck", None, ((0.5, 0.03, "joint1 locks"),), True
     )
-    figure = drawn_motion(motion, [view], panel, "caption", "time, s")
+    figure = stick_motion_figure(motion, [view], panel, "caption", "time, s")
     text = str(svg(figure, "m", "motion"))
     check(f"<html>{text}</html>")
     for word in ("locked", "target", "joint1 locks", "Side view", "error, m"):

@@ -35,9 +35,18 @@ from holdfast.report import (
     view_figure,
     write,
 )
-from holdfast.report.figures import plain
+from holdfast.report.figures import format_label
 from holdfast.result import Result
-from holdfast.words import article, as_given, counted, either, fixed, number, percent, share
+from holdfast.words import (
+    format_as_given,
+    format_count,
+    format_decimals,
+    format_number,
+    format_percent,
+    format_share,
+    indefinite_article,
+    list_alternatives,
+)
 
 NASTY = '<script>alert("x")</script> & $\\frac$'
 
@@ -160,22 +169,27 @@ def test_writing_is_all_or_nothing(tmp_path: Path) -> None:
 
 
 def test_words() -> None:
-    assert [number(x) for x in (0.0, 1e-16, 0.20511, -0.5, 8.1e-4, 62.56, 1784.2, 2e8, np.inf, np.nan)] == [
+    assert [format_number(x) for x in (0.0, 1e-16, 0.20511, -0.5, 8.1e-4, 62.56, 1784.2, 2e8, np.inf, np.nan)] == [
         *("0", "0", "0.205", "−0.500", "8.1e−4", "62.6", "1,784", "2.0e8", "∞", "–")
     ]
-    assert [percent(x) for x in (0, 1e-5, 0.0725, 0.99999, 1)] == ["0 %", "<0.1 %", "7.2 %", ">99.9 %", "100 %"]
-    assert (fixed(-0.0001, 3), as_given(0.29), counted(1, "pose"), counted(2000, "pose")) == (
+    assert [format_percent(x) for x in (0, 1e-5, 0.0725, 0.99999, 1)] == ["0 %", "<0.1 %", "7.2 %", ">99.9 %", "100 %"]
+    assert (format_decimals(-0.0001, 3), format_as_given(0.29), format_count(1, "pose"), format_count(2000, "pose")) == (
         "0.000",
         "0.29",
         "1 pose",
         "2,000 poses",
     )
-    assert (article("index"), article("manipulability"), either(["a"]), either(["a", "b", "c"])) == (
+    assert (
+        indefinite_article("index"),
+        indefinite_article("manipulability"),
+        list_alternatives(["a"]),
+        list_alternatives(["a", "b", "c"]),
+    ) == (
         "an",
         "a",
         "a",
         "a, b or c",
     )
     # Clopper and Pearson, 145 of 2000: half of 5 % of the probability is beyond the count at 0.06152 and at 0.08477
-    assert share(145, 2000) == "145 (7.2 %, 95 % interval 6.2 to 8.5 %)"
-    assert plain("a$b$\n" + "x" * 80, 10) == "a\\$b\\$ xxxx…"
+    assert format_share(145, 2000) == "145 (7.2 %, 95 % interval 6.2 to 8.5 %)"
+    assert format_label("a$b$\n" + "x" * 80, 10) == "a\\$b\\$ xxxx…"

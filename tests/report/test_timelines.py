@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from wellformed import check
 
-from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
+from holdfast.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
 
 TIME = np.linspace(0, 4, 50)
 
@@ -22,7 +22,7 @@ def paths(text):
 
 def test_a_line_is_where_the_ticks_say():
     values = 3 + 20 * np.sin(TIME)
-    text = stacked_panels(TIME, [Timeline([Line(values, "a", "first")], "deg", "A title")], "about")
+    text = draw_stacked_panels(TIME, [Timeline([TimelineLine(values, "a", "first")], "deg", "A title")], "about")
     ((way, _),) = paths(text)
     found = points(way)
     ticks = re.findall(r'<text x="([\d.]+)" y="([\d.]+)" text-anchor="(middle|end)">([−\d.]+)</text>', text)
@@ -35,22 +35,24 @@ def test_a_line_is_where_the_ticks_say():
 
 def test_lines_are_broken_where_they_have_no_value():
     values = np.where(abs(TIME - 2) < 0.5, np.nan, TIME)
-    ((way, _),) = paths(stacked_panels(TIME, [Timeline([Line(values, "a")], "", "")], ""))
+    ((way, _),) = paths(draw_stacked_panels(TIME, [Timeline([TimelineLine(values, "a")], "", "")], ""))
     assert way.count("M") == 2
     assert len(points(way)) == np.isfinite(values).sum()
 
 
 def figures():
-    lines = [Line(np.sin(TIME + k), f"joint $ <{k}>") for k in range(9)]
+    lines = [TimelineLine(np.sin(TIME + k), f"joint $ <{k}>") for k in range(9)]
     return [
         Timeline(lines, "rad", "A title", (1.0, 2.0)),
-        Timeline([Line(1e-6 + TIME**4, "off", "first"), Line(np.ones(50), "cap", "compared")], "mm", "b", (), "log"),
-        Timeline([Line(TIME**7 - 1, "c", "second")], "N m", "c", (), "symlog", 0.1),
-        Timeline([Line(0 * TIME, "zero", "first")], "mm", "d", (), "log"),
+        Timeline(
+            [TimelineLine(1e-6 + TIME**4, "off", "first"), TimelineLine(np.ones(50), "cap", "compared")], "mm", "b", (), "log"
+        ),
+        Timeline([TimelineLine(TIME**7 - 1, "c", "second")], "N m", "c", (), "symlog", 0.1),
+        Timeline([TimelineLine(0 * TIME, "zero", "first")], "mm", "d", (), "log"),
     ]
 
 
-@pytest.mark.parametrize("drawn", [stacked_panels, small_multiples])
+@pytest.mark.parametrize("drawn", [draw_stacked_panels, draw_small_multiples])
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_everything_is_drawn_once_and_inside(drawn, count):
     text = drawn(TIME, figures()[:count], 'It\'s "about" <this>')
@@ -69,7 +71,7 @@ def test_everything_is_drawn_once_and_inside(drawn, count):
         assert 0 < float(y) < height
 
 
-@pytest.mark.parametrize("drawn", [stacked_panels, small_multiples])
+@pytest.mark.parametrize("drawn", [draw_stacked_panels, draw_small_multiples])
 def test_lines_of_a_panel_can_be_told_apart(drawn):
     text = drawn(TIME, figures()[:1], "about")
     looks = re.findall(r'<path d="M[^"hvHV]+" (fill="none" stroke="[^/]+)/>', text)
@@ -77,6 +79,6 @@ def test_lines_of_a_panel_can_be_told_apart(drawn):
 
 
 def test_long_names_leave_room_for_the_lines():
-    lines = [Line(TIME, "x" * 200), Line(-TIME, "y")]
-    ((way, _), *_) = paths(stacked_panels(TIME, [Timeline(lines, "", "t" * 300)], ""))
+    lines = [TimelineLine(TIME, "x" * 200), TimelineLine(-TIME, "y")]
+    ((way, _), *_) = paths(draw_stacked_panels(TIME, [Timeline(lines, "", "t" * 300)], ""))
     assert np.ptp(points(way)[:, 0]) > 300

@@ -38,9 +38,9 @@ def test_the_page_is_whole_and_asks_no_other_host():
 
 def test_the_library_is_in_a_page_once_and_only_where_there_are_views():
     arm = arms.load("planar-3r")
-    views = [page.Picture(scene(arm).html(f"view{k}", "An arm <b>"), "c") for k in range(3)]
+    views = [page.Picture(scene(arm).to_html(f"view{k}", "An arm <b>"), "c") for k in range(3)]
     html = page.render(page.Page("t", "h", [page.Section("", views)]))
-    assert html.count("WebGL") == viewer.page(scene(arm).html("alone", "An arm"), "t").count("WebGL")
+    assert html.count("WebGL") == viewer.build_view_page(scene(arm).to_html("alone", "An arm"), "t").count("WebGL")
     assert html.count('class="view3d"') == 3
     bare = page.render(page.Page("t", "h", [page.Section("", [page.Text("none")])]))
     assert "view3d" not in bare
@@ -85,12 +85,12 @@ def test_objects_of_a_cell_are_drawn_where_they_are(turn):
     ]
     shown = scene(arms.load("panda").with_base(base), cell=hf.Cell(solids))
     assert [x["name"] for x in shown.data["objects"]] == ["box", "cylinder", "capsule", "sphere"]
-    for solid, corners in zip(solids, shown.around, strict=True):
+    for solid, corners in zip(solids, shown.object_corners, strict=True):
         outside = solid.signed_distance(corners)
         assert np.abs(outside).min() < 1e-9  # its corners are on its surface
         assert outside.max() < 1e-9
         np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, pose[:3, 3], atol=0.002)
-    drawn = viewer.drawing(shown, "a cell")
+    drawn = viewer.draw_scene_svg(shown, "a cell")
     assert drawn.count("<polygon") == len(solids)
 
 
@@ -104,12 +104,12 @@ def test_meshes_are_thinned_and_packed(rng):
     a = k // 239 * 240 + k % 239
     faces = np.concatenate([np.stack([a, a + 240, a + 1], 1), np.stack([a + 1, a + 240, a + 241], 1)])
     vertices = 3 * sphere.reshape(-1, 3) + rng.normal(size=3)
-    few, corners = viewer.thinned(vertices, faces, 2000)
+    few, corners = viewer.simplify_mesh(vertices, faces, 2000)
     assert 800 < len(corners) <= 2000
     assert corners.max() == len(few) - 1
     radius = np.linalg.norm(few - (vertices.max(axis=0) + vertices.min(axis=0)) / 2, axis=1)
     assert np.abs(radius - 3).max() < 0.15
-    same, all_faces = viewer.thinned(few, corners, 2000)
+    same, all_faces = viewer.simplify_mesh(few, corners, 2000)
     assert same is few
     assert all_faces is corners
 
@@ -162,9 +162,9 @@ def test_meshes_never_blow_up_a_page(tmp_path):
     assert any("none.stl" in note for note in made.notes)
     [marked] = [p for p in made.data["parts"] if p.get("mark") and p["joint"] == 1]
     assert "tube" in marked
-    both = viewer.page(made.html("one", "x") + scene(arm).html("two", "x"), "t")
-    assert len(both) < 1.25 * len(viewer.page(made.html("one", "x"), "t")) < 350_000
-    assert len(scene(arm, meshes=False).html("three", "x")) < 15_000
+    both = viewer.build_view_page(made.to_html("one", "x") + scene(arm).to_html("two", "x"), "t")
+    assert len(both) < 1.25 * len(viewer.build_view_page(made.to_html("one", "x"), "t")) < 350_000
+    assert len(scene(arm, meshes=False).to_html("three", "x")) < 15_000
 
 
 # ---- in Chromium ---------------------------------------------------------------------------------------------------------
@@ -247,7 +247,7 @@ def test_a_motion_follows_its_slider_and_plays(opened):
         free=["joint2"],
         readings=[f"{t:.1f} s" for t in time],
     )
-    found = opened(viewer.page(html.html("motion", "An arm moving"), "t"))
+    found = opened(viewer.build_view_page(html.to_html("motion", "An arm moving"), "t"))
     before = painted(found)
     slider = found.get_by_role("slider", name="Time of the motion")
     slider.press("End")

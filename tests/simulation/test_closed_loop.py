@@ -12,7 +12,7 @@ import oracles
 from holdfast import arms
 from holdfast.control import Damped, FailureTolerant, Pseudoinverse
 from holdfast.kernels import compiled
-from holdfast.simulation import Outcome, Reason, batch, simulate
+from holdfast.simulation import Reason, RunOutcome, batch, simulate
 
 RAD = np.deg2rad
 
@@ -226,7 +226,7 @@ def test_only_what_goes_on_is_said_to_circle(three, random_runs, monkeypatch):
     """With few steps every long run is looked at; one that would end elsewhere must not be taken for a cycle."""
     from holdfast.simulation import batch as compiled
 
-    monkeypatch.setattr(compiled, "MOST_STEPS", 250)
+    monkeypatch.setattr(compiled, "MAX_STEPS", 250)
     q0, x, locked, runs = random_runs
     few = simulate(three, q0, x, locked=locked)
     assert (few.reason == Reason.STEPS).any()
@@ -265,7 +265,7 @@ def directions(rng, count):
 def test_terminal_points_and_outcomes_are_those_of_scipy(random_runs):
     q0, x, locked, runs = random_runs
     compared = 0
-    for k in np.flatnonzero((runs.code <= Outcome.STUCK) & (runs.time < 300))[:12]:
+    for k in np.flatnonzero((runs.code <= RunOutcome.STUCK) & (runs.time < 300))[:12]:
         mask = np.arange(3) != locked[k]
         found = reference(lambda q, k=k, mask=mask: planar_rates(q, x[k], mask), q0[k])
         q = found.y[:, -1]
@@ -363,7 +363,7 @@ def test_fixed_steps_end_where_adaptive_ones_do(three, random_runs):
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 200)[:60]
     fixed = simulate(three, q0[few], x[few], locked=locked[few], method="rk4", step=0.02)
-    smooth = np.isin(fixed.code, (Outcome.CONVERGED, Outcome.STUCK))
+    smooth = np.isin(fixed.code, (RunOutcome.CONVERGED, RunOutcome.STUCK))
     assert smooth.mean() > 0.9
     assert (fixed.code[smooth] == runs.code[few][smooth]).all()
     assert np.median(np.abs(fixed.x_final - runs.x_final[few])[smooth]) < 1e-7
@@ -388,10 +388,10 @@ def test_many_runs_are_computed_by_better_code_from_the_first_step_on(tmp_path, 
     monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
     q0, target = rng.uniform(-2, 2, (4, 3)), rng.uniform(-1, 1, (4, 2))
     ends = []
-    for calls, level in ((0, 0), (compiled.WORTH, 1)):
-        monkeypatch.setattr(batch, "CALLS", calls)
+    for calls, level in ((0, 0), (compiled.REPAYING_WORK, 1)):
+        monkeypatch.setattr(batch, "LOOP_CALLS_PER_RUN", calls)
         runs = simulate(Pseudoinverse(arms.load("planar-3r"), "planar"), q0, target, locked=[1])
-        assert runs._motion._steps.loop.step._compiled.level == level
+        assert runs._simulator._steps.loop.step._compiled.level == level
         ends.append(runs.q_final)
     np.testing.assert_array_equal(*ends)
 
@@ -516,7 +516,7 @@ def test_pose_tasks_of_a_seven_joint_arm_are_those_of_scipy(panda, rng):
 def test_a_law_of_many_operations_takes_its_stages_one_by_one(three, monkeypatch, random_runs):
     from holdfast.simulation import runge_kutta
 
-    monkeypatch.setattr(runge_kutta, "_SMALL", 10)
+    monkeypatch.setattr(runge_kutta, "_STAGED_OPERATIONS", 10)
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 100)[:20]
     staged = simulate(Pseudoinverse(three.arm, "planar"), q0[few], x[few], locked=locked[few])

@@ -15,8 +15,8 @@ import holdfast as hf
 import oracles
 from holdfast.cell import Box, Cell, Sphere
 from holdfast.clearance import Capsule, Capsules, Clearance
-from holdfast.clearance.contacts import first_contacts
-from holdfast.simulation import Outcome, Reason
+from holdfast.clearance.contacts import find_first_contacts
+from holdfast.simulation import Reason, RunOutcome
 
 TIP, AT = 0.05, np.arcsin(0.75)  # radius of the tip, m; where it touches the wall, rad
 SIDE = 0.8  # m: how far above joint 2 the wall begins
@@ -86,7 +86,7 @@ def test_a_run_that_stops_at_its_contact_ends_there(two, wall):
     assert contact.depth < 1e-8
     assert told.q_final == pytest.approx([0, AT], abs=1e-8)
     assert told.q_high[1] == pytest.approx(AT, abs=1e-8)
-    assert (Outcome(int(told.code)), Reason(int(told.reason))) == (Outcome.STUCK, Reason.CONTACT)
+    assert (RunOutcome(int(told.code)), Reason(int(told.reason))) == (RunOutcome.STUCK, Reason.CONTACT)
     assert told.lock_time.tolist() == free.lock_time.tolist() == [0, np.inf]
     assert told.error == pytest.approx(np.hypot(1.2 - 1 - np.cos(AT), 1.2 - np.sin(AT)), abs=1e-8)
     path = told.path(samples=50)
@@ -111,7 +111,7 @@ def test_a_ball_that_is_only_brushed_between_two_instants_is_seen(two, depth, se
     away = 1 + TIP + ball - depth
     at = (1 + away * np.cos(angle), away * np.sin(angle), 0)
     clearance = tip(two.arm, Cell([Sphere("ball", ball, pose=cells.placed(*at))]))
-    found = first_contacts(clearance, np.array([0.0, 1.0]), np.array([[0, 0.2], [0, 1.2]]))
+    found = find_first_contacts(clearance, np.array([0.0, 1.0]), np.array([[0, 0.2], [0, 1.2]]))
     assert bool(found) == seen
     if seen:
         # Cosine rule: centre of the tip at 1 from joint 2, of the ball at ``away``, TIP + ball apart.
@@ -141,7 +141,7 @@ def test_times_are_those_at_which_mujoco_sees_spheres_touch(panda):
             first = int((gaps[:, pair] < 0).argmax())
             if not first or gaps[first - 1, pair] < 0 or not gaps[first, pair] < 0:
                 continue
-            at = told._motion.recorded(told, k, float(told.time[k]))[1]
+            at = told._simulator.replay_run(told, k, float(told.time[k]))[1]
 
             def gap(t, pair=pair, pose=at):
                 return apart(pose(np.array([t])))[0, pair]

@@ -10,7 +10,7 @@ import holdfast as hf
 from holdfast.diagnosis import rehearsal
 from holdfast.errors import ArmError
 from holdfast.faults import FaultEvent
-from holdfast.physics.plant import Plant
+from holdfast.physics.plant import ServoPlant
 from holdfast.reaction import loop
 
 mujoco = pytest.importorskip("mujoco")
@@ -34,19 +34,19 @@ def rehearsed_cycle(arm, q, body):
     """One cycle of ``rehearse``: state (2n,) to state; the stiffness and the damping (n,)."""
 
     def cycle(state):
-        robot = rehearsal._Robot(arm, q[None], np.random.default_rng(0), body, (), ())
+        robot = rehearsal._RecordedRobot(arm, q[None], np.random.default_rng(0), body, (), ())
         robot.data.qpos[:], robot.data.qvel[:] = np.split(state, 2)
         rehearsal._run_cycles(arm, [robot])
         return np.concatenate([robot.data.qpos, robot.data.qvel])
 
-    robot = rehearsal._Robot(arm, q[None], np.random.default_rng(0), body, (), ())
+    robot = rehearsal._RecordedRobot(arm, q[None], np.random.default_rng(0), body, (), ())
     return cycle, robot.stiffness, robot.damping
 
 
 def reacting_robot(arm, q, body, faults=()):
     law = hf.control.damped(arm, 0.02, task="planar" if arm.n < 4 else "position")
     given = {"faults": faults, "episode": 0, "horizon": 1.0, "seed": 0, "pose": False}
-    return loop._Robot(law, q, body, hf.Servos(rate=1000.0), **given)
+    return loop._SimulatedRobot(law, q, body, hf.Servos(rate=1000.0), **given)
 
 
 def reacting_cycle(arm, q, body):
@@ -66,13 +66,13 @@ def reacting_cycle(arm, q, body):
 def physical_cycle(arm, q, body):
     """One cycle of ``simulate_physics``, likewise; it has the masses of the arm's model."""
     servos = hf.Servos()
-    plant = Plant(arm, q, np.zeros(arm.n), np.ones(arm.n, dtype=bool), servos)
+    plant = ServoPlant(arm, q, np.zeros(arm.n), np.ones(arm.n, dtype=bool), servos)
     stiffness, damping = servos.gains(arm, mujoco, plant.model, start=q)
-    plant.tune(stiffness, damping)
+    plant.set_gains(stiffness, damping)
 
     def cycle(state):
         plant.data.qpos[:], plant.data.qvel[:] = state[: arm.n] - q, state[arm.n :]
-        plant.follow(q)
+        plant.step_towards(q)
         return np.concatenate([plant.q, plant.rates])
 
     return cycle, stiffness, damping
@@ -135,7 +135,7 @@ def test_a_recorded_torque_is_what_moved_the_arm():
 def test_a_healthy_robot_needs_a_few_newton_metres(name):
     """Gravity, inertia and friction; the noise of the joint sensors adds less than 2 % of each motor's effort."""
     arm = hf.arms.load(name)
-    log = hf.diagnosis.rehearse(arm, 3.0)
+    log = hf.diagnosis.simulate_log(arm, 3.0)
     effort = np.array([joint.effort for joint in arm.joints])
     beyond_gravity = log.tau - arm.gravity_torque(log.q)
     assert np.sqrt((beyond_gravity**2).mean(axis=0)).max() < 3.0

@@ -9,10 +9,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
-from holdfast.simulation import Outcome, Reason, simulate
+from holdfast.simulation import Reason, RunOutcome, simulate
 
 LIMITS = (5.0, 10.0, 20.0, 60.0, 3000.0, 20_000.0)
-DECIDED = (Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING)
+DECIDED = (RunOutcome.CONVERGED, RunOutcome.STUCK, RunOutcome.MOVING)
 
 
 def random_motions(arm, count, generator):
@@ -27,19 +27,19 @@ def test_a_longer_limit_contradicts_no_shorter_one(name, task, count, rng):
     law = hf.control.pseudoinverse(arm, task)
     q0, target, locked = random_motions(arm, count, rng)
     runs = [simulate(law, q0, target, locked=locked, time_limit=limit) for limit in LIMITS]
-    known = np.full(count, Outcome.UNDECIDED)
+    known = np.full(count, RunOutcome.UNDECIDED)
     for limit, found in zip(LIMITS, runs, strict=True):
         decided = np.isin(found.code, DECIDED)
-        both = decided & (known != Outcome.UNDECIDED)
+        both = decided & (known != RunOutcome.UNDECIDED)
         np.testing.assert_array_equal(found.code[both], known[both])
         # A run that was at rest stays so; one that repeats its motion may run out of steps only.
-        rested = np.isin(known, (Outcome.CONVERGED, Outcome.STUCK))
+        rested = np.isin(known, (RunOutcome.CONVERGED, RunOutcome.STUCK))
         assert decided[rested].all()
         known[decided] = found.code[decided]
         for k in np.flatnonzero(found.reason == Reason.TIME_LIMIT)[:3]:
             assert found.time[k] == pytest.approx(limit)
             assert found.ending_sentence(k) == f"is still moving at the limit of {limit:g} s"
-    assert (known == Outcome.UNDECIDED).mean() < 0.1
+    assert (known == RunOutcome.UNDECIDED).mean() < 0.1
 
 
 def test_what_never_stops_repeats_itself(rng):

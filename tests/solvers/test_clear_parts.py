@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import holdfast as hf
-from holdfast.solvers.clear_parts import FINEST, Clear
+from holdfast.solvers.clear_parts import MIN_BOUNDED_CHANGE, CurveConstraint
 from holdfast.solvers.curve_tracing import Component
 
 
@@ -25,9 +25,9 @@ def test_a_part_ends_where_the_curve_is_lost(rng):
     q = np.column_stack([np.linspace(0, 2, 9), np.zeros(9)])
     whole = Component(q=q, closed=False, bounded_by=(0, None), length=2.0)
     # A room of which less is left than any of the pieces may use up, so that all are halved.
-    clear = Clear(lambda q: np.full((len(q), 1), 0.01), np.ones((1, 2)), ["room"])
-    (part,) = clear.parts(Astray(rng), np.eye(4), whole)
+    clear = CurveConstraint(lambda q: np.full((len(q), 1), 0.01), np.ones((1, 2)), ["room"])
+    (part,) = clear.find_free_parts(Astray(rng), np.eye(4), whole)
     assert part.bounded_by == (0, None)
     np.testing.assert_array_equal(part.q[0], q[0])
-    assert 1 - FINEST <= part.q[-1, 0] <= 1
+    assert 1 - MIN_BOUNDED_CHANGE <= part.q[-1, 0] <= 1
     assert np.diff(part.q[:, 0]).max() <= 0.02

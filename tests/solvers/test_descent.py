@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from holdfast.solvers.descent import descend
+from holdfast.solvers.descent import minimise_constrained
 
 
 def problem(rng):
@@ -52,7 +52,7 @@ def test_it_ends_at_a_local_minimum_that_slsqp_cannot_better():
     fine = 0
     for seed in range(40):
         look, start, low, high = problem(np.random.default_rng(seed))
-        x = descend(look, start, low, high, 1)
+        x = minimise_constrained(look, start, low, high, 1)
         assert (x >= low).all()
         assert (x <= high).all()
         kept = look(x)[2]
@@ -68,9 +68,9 @@ def test_the_nearest_point_of_a_circle():
         return away @ away, 2 * away, np.array([x @ x - 1]), 2 * x[None]
 
     free = np.full(2, np.inf)
-    np.testing.assert_allclose(descend(look, np.array([1.0, 0]), -free, free, 1), [0.6, 0.8], atol=1e-8)
+    np.testing.assert_allclose(minimise_constrained(look, np.array([1.0, 0]), -free, free, 1), [0.6, 0.8], atol=1e-8)
     standing = np.array([1.0, np.inf])
-    np.testing.assert_array_equal(descend(look, np.array([1.0, 0]), np.array([1.0, -np.inf]), standing, 1), [1, 0])
+    np.testing.assert_array_equal(minimise_constrained(look, np.array([1.0, 0]), np.array([1.0, -np.inf]), standing, 1), [1, 0])
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
@@ -79,7 +79,7 @@ def test_where_nothing_is_known_it_stays(value):
         return value, np.full(2, value), np.full(1, value), np.full((1, 2), value)
 
     start = np.array([0.3, 0.4])
-    np.testing.assert_array_equal(descend(look, start, np.zeros(2), np.ones(2), 1), start)
+    np.testing.assert_array_equal(minimise_constrained(look, start, np.zeros(2), np.ones(2), 1), start)
 
 
 def test_what_has_no_limit_does_not_matter():
@@ -88,4 +88,4 @@ def test_what_has_no_limit_does_not_matter():
     def look(x):
         return x @ x, 2 * x, np.array([np.inf]), np.zeros((1, 2))
 
-    np.testing.assert_allclose(descend(look, np.ones(2), np.full(2, -5.0), np.full(2, 5.0), 0), 0, atol=1e-8)
+    np.testing.assert_allclose(minimise_constrained(look, np.ones(2), np.full(2, -5.0), np.full(2, 5.0), 0), 0, atol=1e-8)

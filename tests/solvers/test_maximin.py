@@ -11,8 +11,8 @@ from scipy.optimize import linprog
 
 import oracles
 from holdfast.arm import kinematics
-from holdfast.indices import CustomIndex, Manipulability, Part, RelativeManipulability
-from holdfast.linalg import householder
+from holdfast.indices import CustomIndex, Manipulability, ObjectivePart, RelativeManipulability
+from holdfast.linalg import factor_householder
 from holdfast.solvers.maximin import maximin_step
 
 RADIUS = 0.3
@@ -25,7 +25,7 @@ def compiled(functions: int, r: int, limits: int) -> ca.Function:
     rows, low, high = ca.SX.sym("a", limits, r), ca.SX.sym("low", limits), ca.SX.sym("high", limits)
     radius = ca.SX.sym("radius")
     z = maximin_step(
-        [Part(1.0, ca.vertsplit(values), [[slopes[k, i] for i in range(r)] for k in range(functions)])],
+        [ObjectivePart(1.0, ca.vertsplit(values), [[slopes[k, i] for i in range(r)] for k in range(functions)])],
         [[rows[k, i] for i in range(r)] for k in range(limits)],
         [low[k] for k in range(limits)],
         [high[k] for k in range(limits)],
@@ -119,7 +119,7 @@ def test_a_weighted_sum_of_minima(sizes, scales, rng):
     values, slopes = ca.SX.sym("s", functions), ca.SX.sym("g", functions, r)
     rows, low, high = ca.SX.sym("a", limits, r), ca.SX.sym("low", limits), ca.SX.sym("high", limits)
     parts = [
-        Part(
+        ObjectivePart(
             w / c,
             [values[k] for k in np.flatnonzero(owner == p)],
             [ca.horzsplit(slopes[k, :]) for k in np.flatnonzero(owner == p)],
@@ -157,7 +157,7 @@ def evaluated(index):
     """A function q -> scores (F,), slopes (F, r), null-space directions (n, r), as the ascent builds them."""
     q = kinematics.joint_symbols(index.arm)
     j = kinematics.invariant_jacobian(index.arm, q) if index.task.invariant else index.task.jacobian(index.arm, q)
-    qr = householder(j)
+    qr = factor_householder(j)
     rows = qr.null_rows()
     directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(index.arm.n - index.task.m)]
     values, slopes = index.scores(q, j, qr, directions)

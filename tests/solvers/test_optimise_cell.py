@@ -71,13 +71,13 @@ def test_exhaustive_search_among_discs(index, clearance, rng):
 
 
 def test_a_step_is_compiled_once_for_all_cells(index, clearance):
-    one = objective_ascent(index, None, clearance, MARGIN)._clear_step
+    one = objective_ascent(index, None, clearance, MARGIN)._collision_free_step
     other = hf.Clearance(
         index.arm, clearance.capsules, hf.Cell([Box("box", [1, 1, 1], pose=cells.placed(3, 0, 0))]), itself=False
     )
-    two = objective_ascent(index, None, other, MARGIN)._clear_step
-    assert one.made_of == two.made_of
-    assert one.made_of is not None
+    two = objective_ascent(index, None, other, MARGIN)._collision_free_step
+    assert one.source_digest == two.source_digest
+    assert one.source_digest is not None
 
 
 def test_the_best_of_a_panda_over_a_bench_touches_nothing(rng):
@@ -85,7 +85,7 @@ def test_the_best_of_a_panda_over_a_bench_touches_nothing(rng):
     index = hf.indices.relative_manipulability(arm)
     q = oracles.inside(arm, rng, 2000)
     clearance = hf.Clearance(arm, cell=cell, itself=False)
-    near = clearance.room(q)
+    near = clearance.margin_left(q)
     q = q[(near > 0) & (near < 0.06)][:40]
     best = optimise(arm, oracles.forward(arm, q), index, clearance=False, cell=cell, starts=24)
     assert best.clearance.cell is cell
@@ -93,7 +93,7 @@ def test_the_best_of_a_panda_over_a_bench_touches_nothing(rng):
     good = best.success
     assert good.mean() > 0.9
     assert not cells.touches(arm, clearance.capsules, cell, best.q[good]).any()
-    assert (clearance.room(best.q[good]) >= 0).all()
+    assert (clearance.margin_left(best.q[good]) >= 0).all()
     assert any("&" in name for name in best.obstacles)
 
 

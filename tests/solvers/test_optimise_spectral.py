@@ -14,7 +14,7 @@ from holdfast.arm import kinematics
 from holdfast.errors import TaskError
 from holdfast.indices import Index, SpectralIndex
 from holdfast.kernels import Kernel
-from holdfast.linalg import householder
+from holdfast.linalg import factor_householder
 from holdfast.solvers import optimise, solver
 from holdfast.status import Status
 
@@ -43,7 +43,7 @@ def scores_kernel(index):
     arm = index.arm
     q = kinematics.joint_symbols(arm)
     j = kinematics.invariant_jacobian(arm, q) if index.task.invariant else index.task.jacobian(arm, q)
-    qr = householder(j)
+    qr = factor_householder(j)
     rows = qr.null_rows()
     directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(arm.n - index.task.m)]
     values, slopes = index.scores(q, j, qr, directions)
@@ -214,10 +214,10 @@ def test_what_is_measured_are_scores_and_their_gradients(mixed5, rng):
 
 def test_an_index_without_scores(mixed5, rng):
     class Bare(Index):
-        def _by_failure(self, q):
+        def _evaluate_by_failure(self, q):
             raise NotImplementedError
 
-        def _gradient(self, q):
+        def _evaluate_gradient(self, q):
             raise NotImplementedError
 
     poses = oracles.forward(mixed5, oracles.inside(mixed5, rng, 1))

@@ -96,7 +96,7 @@ def test_samples_of_larger_manifolds_drop_what_is_not_clear(arm):
         hf.self_motion(arm, np.eye(4), ["vx"], spacing=0.4, starts=16, clearance=each) for each in (among(arm, *discs), None)
     )
     assert 50 < len(found.q) < len(whole.q)
-    np.testing.assert_array_equal(found.q, whole.q[found.clearance.room(whole.q) >= 0])
+    np.testing.assert_array_equal(found.q, whole.q[found.clearance.margin_left(whole.q) >= 0])
     assert room(found.q, *discs).min() >= 0
     with pytest.raises(hf.InputError, match="samples"):
         found.arcs()

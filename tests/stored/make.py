@@ -19,10 +19,10 @@ import numpy as np
 
 import holdfast as hf
 from holdfast import arms, control
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 from holdfast.recovery import write_waypoints
 from holdfast.studies import read
-from holdfast.studies.results import assessed, driven
+from holdfast.studies.results import read_assessment, read_convergence
 from holdfast.teleop import simulate_experiment
 from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.trials import End
@@ -71,9 +71,13 @@ def write() -> dict[str, Any]:
     Path("small.yaml").write_text(STUDY)
     asked = read("small.yaml")
     study = Study.create("study", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    problems = study.run(asked.cells, Threads(1))
+    problems = study.run(asked.cells, ThreadRunner(1))
     assert not problems
-    told["study"] = {"mean": assessed(study, 0).plain.mean, "ends": driven(study, 1).ends.tolist(), "digest": study.digest}
+    told["study"] = {
+        "mean": read_assessment(study, 0).plain.mean,
+        "ends": read_convergence(study, 1).ends.tolist(),
+        "digest": study.digest,
+    }
 
     found = hf.workspace(law, **WORKSPACE, store="workspace")
     told["workspace"] = {name: values.tolist() for name, values in found.measures.items()} | {"ends": found.ends.tolist()}
@@ -85,7 +89,7 @@ def write() -> dict[str, Any]:
     few = replace(one, scenarios=whole.scenarios[:2], training=quick, subjects=1, substeps=1)
     with simulate_experiment("experiment", few, 1, seed=2) as records:
         entries = records.entries()
-        trials = records.trials(entries)
+        trials = records.read_trials(entries)
         told["experiment"] = {
             "subjects": [s.code for s in records.subjects()], "ends": [End(e).name for e in trials.end],
             "ratings": [e.rating for e in entries], "last": trials.q_end.tolist(),

@@ -10,10 +10,10 @@ import pytest
 
 import cells
 import holdfast as hf
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import InputError
 from holdfast.studies import read
-from holdfast.studies.results import driven
+from holdfast.studies.results import read_convergence
 
 AT, RADIUS, WIDTH = (0.9, 0.9), 0.3, 0.04
 FILE = """
@@ -43,9 +43,9 @@ def folder(tmp_path):
 def test_a_study_counts_what_hits_its_cell_and_resumes_with_its_files_elsewhere(folder):
     asked = read(folder / "study" / "study.yaml")
     study = Study.create(folder / "results", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    assert study.run(asked.cells, Threads(1)) == {}
-    store = study.store(0)
-    rows = [store.read(k, ("q", "from_each", "index")) for k in range(2)]
+    assert study.run(asked.cells, ThreadRunner(1)) == {}
+    store = study.cell_store(0)
+    rows = [store.read_chunk(k, ("q", "from_each", "index")) for k in range(2)]
     q, hit, value = (np.concatenate([row[name] for row in rows]) for name in ("q", "from_each", "index"))
     reached = np.isfinite(value)
     gap = cells.from_disc([1, 1, 1], WIDTH, q[reached], AT, RADIUS).ravel()
@@ -57,7 +57,7 @@ def test_a_study_counts_what_hits_its_cell_and_resumes_with_its_files_elsewhere(
     again = read(folder / "moved" / "study.yaml")
     assert [cell.digest for cell in again.cells] == [cell.digest for cell in asked.cells]
     assert json.dumps(again.cells[0].plan) != json.dumps(asked.cells[0].plan)
-    assert Study.open(folder / "results").run(again.cells, Threads(1)) == {}
+    assert Study.open(folder / "results").run(again.cells, ThreadRunner(1)) == {}
     np.save(folder / "moved" / "around" / "scan.npy", np.array([[9.0, 9.0, 8.0]]))
     assert read(folder / "moved" / "study.yaml").cells[0].digest != asked.cells[0].digest
 
@@ -69,8 +69,8 @@ def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
     file.write_text(f"seed: 7\nposes: 4\nchunk: 2\narms: [planar-3r]\n{block}\n")
     asked = read(file)
     study = Study.create(folder / "results", asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    assert study.run(asked.cells, Threads(1)) == {}
-    rows = [study.store(0).read(k, ("q0", "target", "touched", "code")) for k in range(2)]
+    assert study.run(asked.cells, ThreadRunner(1)) == {}
+    rows = [study.cell_store(0).read_chunk(k, ("q0", "target", "touched", "code")) for k in range(2)]
     q0, target, touched, code = (np.concatenate([row[name] for row in rows]) for name in ("q0", "target", "touched", "code"))
     law, seen = hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), 0
     for p, k in np.ndindex(4, 4):
@@ -81,7 +81,7 @@ def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
             seen += 1
     assert seen > 10
     assert 0 < touched.mean() < 1
-    found = driven(study, 0)
+    found = read_convergence(study, 0)
     assert found.touched == touched[:, :3].mean()
     shutil.move(folder / "study", folder / "moved")
     again = read(folder / "moved" / "study.yaml")
@@ -91,10 +91,10 @@ def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
     plain = read(file)
     assert plain.cells[0].digest != asked.cells[0].digest
     other = Study.create(folder / "plain", plain.name, plain.seed, cells=plain.cells, source=plain.text)
-    assert other.run(plain.cells, Threads(1)) == {}
-    assert driven(other, 0).touched is None
-    store = other.store(0)
-    np.testing.assert_array_equal(np.concatenate([store.read(k, ("code",))["code"] for k in range(2)]), code)
+    assert other.run(plain.cells, ThreadRunner(1)) == {}
+    assert read_convergence(other, 0).touched is None
+    store = other.cell_store(0)
+    np.testing.assert_array_equal(np.concatenate([store.read_chunk(k, ("code",))["code"] for k in range(2)]), code)
 
 
 def test_a_cell_that_cannot_be_used_is_said(folder):

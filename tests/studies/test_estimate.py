@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from holdfast.engine import Cell, Column
+from holdfast.engine import Column, SweepCell
 from holdfast.studies import estimate
 
 
@@ -52,7 +52,7 @@ def test_what_is_compiled_once_is_not_counted_with_every_row(once, a_chunk, a_ro
     """A sweep of designs compiled its kernels in the first eight rows: their time times all designs was announced."""
     job = Costs(once, a_chunk, a_row)
     watch(job, monkeypatch)
-    (found,) = estimate.estimates([Cell("c", job, {}, rows=rows, chunk=chunk)], 0)
+    (found,) = estimate.estimate_cells([SweepCell("c", job, {}, rows=rows, chunk=chunk)], 0)
     chunks = -(-rows // chunk)
     assert found.size == 24 * rows
     if a_chunk * 4 > 3:  # one try says nothing of how rows and chunks share it
@@ -65,13 +65,13 @@ def test_what_is_compiled_once_is_not_counted_with_every_row(once, a_chunk, a_ro
 def test_writing_a_chunk_counts(monkeypatch):
     """Chunks of a counts study are quickly computed: writing 4,000 of them took most of the time."""
     job = Costs(0.0, 0.001, 0.0)
-    write = estimate.Store.write
+    write = estimate.Store.commit_chunk
 
     def slow(self, *given, **options):
         job.now += 0.25
         write(self, *given, **options)
 
     watch(job, monkeypatch)
-    monkeypatch.setattr(estimate.Store, "write", slow)
-    (found,) = estimate.estimates([Cell("c", job, {}, rows=1000, chunk=10)], 0)
+    monkeypatch.setattr(estimate.Store, "commit_chunk", slow)
+    (found,) = estimate.estimate_cells([SweepCell("c", job, {}, rows=1000, chunk=10)], 0)
     assert found.seconds == pytest.approx(100 * 0.251)

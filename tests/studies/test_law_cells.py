@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.convergence.analysis import NAMES
+from holdfast.convergence.analysis import MEASURE_NAMES
 from holdfast.convergence.places import read_places
-from holdfast.engine import Chunk, Study, Threads
+from holdfast.engine import Chunk, Study, ThreadRunner
 from holdfast.errors import InputError
 from holdfast.present.studies.page import write
 from holdfast.studies import read
-from holdfast.teleop.bank.tasks import task_bank
+from holdfast.teleop.bank.tasks import make_task_bank
 from holdfast.teleop.trials.scenarios import Scenario
 
 SEED = 7
@@ -38,7 +38,7 @@ def begun(folder, file) -> Study:
 
 
 def bits(study: Study) -> dict[tuple[int, int], str]:
-    return {(k, n): e.digest for k in range(len(study.cells)) for n, e in study.entries(k).items()}
+    return {(k, n): e.digest for k in range(len(study.cells)) for n, e in study.cell_entries(k).items()}
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +47,8 @@ def straight(tmp_path_factory) -> Study:
     folder = tmp_path_factory.mktemp("straight")
     file = asked(folder)
     study = begun(folder / "s", file)
-    assert study.run(file.cells, Threads(1)) == {}
-    assert study.complete
+    assert study.run(file.cells, ThreadRunner(1)) == {}
+    assert study.is_complete
     return study
 
 
@@ -68,7 +68,7 @@ def test_a_chunk_of_a_workspace_is_the_workspace_of_its_starts_and_seed(straight
     for c in chunks(straight, 0):
         w = hf.workspace(law, [1.2, 0.4], places.poses[c.start : c.stop], configurations=2, points=1, seed=c.own_seed)
         rows = found(straight, 0, c.number)
-        for name, values in zip(NAMES, (*w.reach.parts, *w.finish.parts), strict=True):
+        for name, values in zip(MEASURE_NAMES, (*w.reach.parts, *w.finish.parts), strict=True):
             np.testing.assert_array_equal(rows[name], values, err_msg=name)
         for name in ("configurations", "lost", "ends"):
             np.testing.assert_array_equal(rows[name], getattr(w, name))
@@ -78,7 +78,7 @@ def test_a_chunk_of_a_workspace_is_the_workspace_of_its_starts_and_seed(straight
 def test_a_chunk_of_a_bank_is_the_task_bank_of_its_seed(straight):
     scenarios = [Scenario(1, "pseudoinverse", failed=False), Scenario(2, "pseudoinverse", failed=True)]
     for c in chunks(straight, 1):
-        bank = task_bank(ARM, len(c), distance=0.5, seed=c.own_seed, scenarios=scenarios)
+        bank = make_task_bank(ARM, len(c), distance=0.5, seed=c.own_seed, scenarios=scenarios)
         rows = found(straight, 1, c.number)
         for joint in range(3):
             mine = bank.tasks.joint == joint
@@ -92,9 +92,9 @@ def test_two_threads_and_a_stop_change_no_bit(tmp_path, straight):
     file = asked(tmp_path)
     study = begun(tmp_path / "s", file)
     seen = []
-    study.run(file.cells, Threads(2), lambda *x: seen.append(x), stop=lambda: len(seen) > 1)
+    study.run(file.cells, ThreadRunner(2), lambda *x: seen.append(x), stop=lambda: len(seen) > 1)
     assert 0 < len(bits(study)) < len(bits(straight))
-    assert begun(tmp_path / "s", file).run(file.cells, Threads(2)) == {}
+    assert begun(tmp_path / "s", file).run(file.cells, ThreadRunner(2)) == {}
     assert bits(study) == bits(straight)
 
 

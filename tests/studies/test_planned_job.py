@@ -29,13 +29,13 @@ _JOBS = [
 
 @pytest.mark.parametrize("k", range(len(_JOBS)))
 def test_a_copy_shares_what_its_job_has_and_no_other_job_does(k, monkeypatch):
-    monkeypatch.setattr(process, "_made", OrderedDict())
+    monkeypatch.setattr(process, "_compiled_by_job", OrderedDict())
     job, copy = _JOBS[k], pickle.loads(pickle.dumps(_JOBS[k]))
     assert copy == job
     assert hash(copy) == hash(job)
     mine = object()
-    assert process.shared(job, lambda: mine) is mine
-    assert process.shared(copy, object) is mine
+    assert process.compile_once(job, lambda: mine) is mine
+    assert process.compile_once(copy, object) is mine
     for other in _JOBS[:k] + _JOBS[k + 1 :]:
         assert other != job
-        assert process.shared(other, object) is not mine
+        assert process.compile_once(other, object) is not mine

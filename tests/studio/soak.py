@@ -97,7 +97,7 @@ def main() -> None:
             while not studio.windows:
                 page.wait_for_timeout(20)
             window = next(iter(studio.windows.values()))
-            window.settle()
+            window.wait_until_done()
             for _ in range(3):
                 one_round(window, page, rng, arm)
                 rounds += 1

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 import holdfast as hf
 from holdfast.arm.poses import pose_numbers
 from holdfast.arm.task import as_task
-from holdfast.studio.aside import Aside
-from holdfast.studio.scene.cloud import Cloud, read_cloud
+from holdfast.studio.aside import WorkerProcess
+from holdfast.studio.scene.cloud import RegionCloud, read_cloud
 from holdfast.studio.state import State
 from holdfast.studio.work import Cancelled
 
@@ -22,7 +22,7 @@ def arm():
 
 @pytest.fixture(scope="module")
 def aside(arm):
-    beside = Aside(arm, as_task(arm, "planar"))
+    beside = WorkerProcess(arm, as_task(arm, "planar"))
     yield beside
     beside.stop()
 
@@ -75,7 +75,7 @@ def test_motions_are_those_of_the_closed_loop(aside, arm):
 
 def test_region_is_coloured_by_the_index_of_its_configurations(aside, arm, tmp_path):
     cloud, seen = go(aside, "region", state_of(arm))
-    assert isinstance(cloud, Cloud)
+    assert isinstance(cloud, RegionCloud)
     assert seen[-1] == (1200, 1200)
     sound = np.isfinite(cloud.q).all(axis=1)
     assert sound.mean() > 0.5

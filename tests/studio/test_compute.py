@@ -12,15 +12,15 @@ from holdfast.arm.poses import pose_numbers
 from holdfast.arm.task import as_task
 from holdfast.solvers import optima
 from holdfast.studio import State
-from holdfast.studio.compute import best_worst
-from holdfast.studio.motions import law_motions
-from holdfast.studio.scene.machine import Machine
+from holdfast.studio.compute import find_best_and_worst
+from holdfast.studio.motions import simulate_law_motions
+from holdfast.studio.scene.machine import CompiledArm
 
 
 @pytest.fixture(scope="module")
 def machine():
     arm = hf.arms.load("planar-3r")
-    return Machine(arm, as_task(arm, "planar"))
+    return CompiledArm(arm, as_task(arm, "planar"))
 
 
 def state(machine, q, **more):
@@ -40,7 +40,7 @@ def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objecti
 
     monkeypatch.setattr(optima, "optimise", found)
     for q, place in ((low, 1), (high, 0)):
-        extremes = best_worst(machine, state(machine, q, objective=objective), lambda *_: None)
+        extremes = find_best_and_worst(machine, state(machine, q, objective=objective), lambda *_: None)
         best, worst, here = extremes.values
         assert here == float(index(q))
         assert sign * best >= sign * here >= sign * worst
@@ -53,9 +53,11 @@ def test_a_target_where_the_hand_is_is_no_error(machine):
     q = (0.3, 0.8, 0.9)
     at = pose_numbers(machine.hand(np.array(q)))
     assert machine.apart(np.array(q), machine.hand(np.array(q))) == 0
-    motions = law_motions(machine, state(machine, q, target=tuple(at), laws=("pseudoinverse", "damped:0.1")), lambda *_: None)
+    motions = simulate_law_motions(
+        machine, state(machine, q, target=tuple(at), laws=("pseudoinverse", "damped:0.1")), lambda *_: None
+    )
     for motion in motions:
-        np.testing.assert_array_equal(motion.at(0.0), q)
+        np.testing.assert_array_equal(motion.configuration_at(0.0), q)
 
 
 def test_how_far_the_hand_is_from_its_target_is_seen_by_the_task(machine):

@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.studio import serve
-from holdfast.studio.page.entrance import Entrance, welcome
+from holdfast.studio.page.entrance import AccessFilter, is_own_request
 
 viser = pytest.importorskip("viser")
 
@@ -41,14 +41,14 @@ viser = pytest.importorskip("viser")
     ],
 )
 def test_who_is_welcome(host, origin, served, let_in):
-    assert welcome([] if host is None else [host], [] if origin is None else [origin], served) is let_in
+    assert is_own_request([] if host is None else [host], [] if origin is None else [origin], served) is let_in
 
 
 def test_a_header_that_is_there_twice_is_no_header():
     host, origin = "127.0.0.1:8123", "http://127.0.0.1:8123"
-    assert welcome([host], [origin], "127.0.0.1")
-    assert not welcome([host, host], [origin], "127.0.0.1")
-    assert not welcome([host], [origin, origin], "127.0.0.1")
+    assert is_own_request([host], [origin], "127.0.0.1")
+    assert not is_own_request([host, host], [origin], "127.0.0.1")
+    assert not is_own_request([host], [origin, origin], "127.0.0.1")
 
 
 def test_pages_of_others_are_refused_and_its_own_are_not():
@@ -95,5 +95,8 @@ def test_pages_of_others_are_refused_and_its_own_are_not():
 
 
 def test_a_server_that_does_not_ask_is_not_served():
-    with pytest.raises(hf.HoldfastError, match="cannot be kept from pages of others"), Entrance("127.0.0.1").before():
+    with (
+        pytest.raises(hf.HoldfastError, match="cannot be kept from pages of others"),
+        AccessFilter("127.0.0.1").filter_requests(),
+    ):
         pass

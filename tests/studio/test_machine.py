@@ -7,12 +7,12 @@ import pytest
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.studio.scene.machine import TOLERANCE, Machine
+from holdfast.studio.scene.machine import REACH_TOLERANCE, CompiledArm
 
 
 @pytest.fixture(scope="module")
 def machine(mixed7):
-    return Machine(mixed7, as_task(mixed7, "pose"))
+    return CompiledArm(mixed7, as_task(mixed7, "pose"))
 
 
 def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
@@ -76,11 +76,11 @@ def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
 
 def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():
     arm = hf.arms.load("ur5")
-    reading = Machine(arm, as_task(arm, "pose")).read(
+    reading = CompiledArm(arm, as_task(arm, "pose")).evaluate(
         np.array(hf.arms.about("ur5").home), (), "relative-manipulability", "torque"
     )
     assert "not redundant" in reading.bars
-    assert reading.hit == ()
+    assert reading.failure_joints == ()
     assert not isinstance(reading.weights, str)
 
 
@@ -100,15 +100,15 @@ def test_laws_are_made_once_and_misspelt_ones_refused(machine):
 def test_a_target_beside_the_arm_is_within_its_limits_and_away(rng):
     for name in ("panda", "ur5-rail", "planar-3r"):
         arm = hf.arms.load(name)
-        machine = Machine(arm, as_task(arm, hf.arms.about(name).task))
+        machine = CompiledArm(arm, as_task(arm, hf.arms.about(name).task))
         low, high = (np.where(np.isfinite(x), x, s) for x, s in ((arm.lower, -3.0), (arm.upper, 3.0)))
         for q in (*rng.uniform(low, high, (20, arm.n)), low, high):
-            near = machine.beside(q)
+            near = machine.nearby_configuration(q)
             assert ((near >= arm.lower) & (near <= arm.upper)).all()
-            assert machine.apart(q, machine.hand(near)) > TOLERANCE
+            assert machine.pose_error_norm(q, machine.tool_pose(near)) > REACH_TOLERANCE
 
 
 def test_only_what_has_a_weight_swings():
     arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0)] * 3)
-    assert not Machine(arm, as_task(arm, "planar")).swings
-    assert Machine(hf.arms.load("panda"), as_task(hf.arms.load("panda"), "pose")).swings
+    assert not CompiledArm(arm, as_task(arm, "planar")).can_swing
+    assert CompiledArm(hf.arms.load("panda"), as_task(hf.arms.load("panda"), "pose")).can_swing

@@ -13,7 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 import holdfast as hf
-from holdfast.cli.program import assembled
+from holdfast.cli.program import build_app
 from holdfast.studio import State, serve, server
 from holdfast.studio.motions import read_motion
 
@@ -45,7 +45,7 @@ def opened(monkeypatch):
 
 
 def run(command):
-    result = CliRunner().invoke(assembled(), shlex.split(command)[1:], catch_exceptions=False)
+    result = CliRunner().invoke(build_app(), shlex.split(command)[1:], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return result.output
 
@@ -111,7 +111,7 @@ def test_defaults_are_the_home_of_the_arm_and_this_machine(opened):
 )
 def test_bad_input_is_one_sentence(options, sentence):
     with pytest.raises(hf.HoldfastError, match=re.escape(sentence)):
-        CliRunner().invoke(assembled(), ["studio", "panda", *shlex.split(options)], catch_exceptions=False)
+        CliRunner().invoke(build_app(), ["studio", "panda", *shlex.split(options)], catch_exceptions=False)
 
 
 def test_a_port_in_use_is_named():
@@ -180,10 +180,10 @@ def test_motions_that_the_library_writes_are_read(tmp_path):
     np.testing.assert_array_equal(motion.q, q)
     assert motion.unit in ("s", "rad")
     assert read_motion(arm, tmp_path).label == "waypoints.csv"
-    np.testing.assert_allclose(motion.at(motion.time[1]), q[1])
-    np.testing.assert_allclose(motion.at(0.5 * (motion.time[0] + motion.time[1])), q[:2].mean(axis=0))
-    np.testing.assert_allclose(motion.at(-1), q[0])
-    np.testing.assert_allclose(motion.at(1e9), q[-1])
+    np.testing.assert_allclose(motion.configuration_at(motion.time[1]), q[1])
+    np.testing.assert_allclose(motion.configuration_at(0.5 * (motion.time[0] + motion.time[1])), q[:2].mean(axis=0))
+    np.testing.assert_allclose(motion.configuration_at(-1), q[0])
+    np.testing.assert_allclose(motion.configuration_at(1e9), q[-1])
     line = hf.paths.line([1.5, 1.0, 0], [1.2, 1.2, 0])
     trajectory = hf.follow(
         arm, hf.paths.TimedPath(line, hf.paths.Constant(1.0)), hf.indices.relative_manipulability(arm, "planar")

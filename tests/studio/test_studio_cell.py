@@ -40,7 +40,7 @@ def cell_studio():
 def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_studio, visit, tmp_path):
     page, window = visit(cell_studio)
     clear = hf.Clearance.by_default(window.machine.arm, CELL)
-    gap = clear.obstacles.gap(window.q)
+    gap = clear.obstacles.find_nearest_gap(window.q)
     wait_for(
         page,
         lambda: (
@@ -80,7 +80,7 @@ def test_where_it_is_nearest_is_on_both_surfaces(rng):
     arm = arms.load("panda")
     clear = hf.Clearance.by_default(arm, CELL)
     for q in rng.uniform(arm.lower, arm.upper, (20, arm.n)):
-        gap = clear.obstacles.gap(q)
+        gap = clear.obstacles.find_nearest_gap(q)
         solid = CELL.objects[clear.obstacles.pairs[gap.pair][1]]
         assert abs(solid.signed_distance(gap.on_object)) < 1e-5
         if gap.distance > 0:

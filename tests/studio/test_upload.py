@@ -21,12 +21,12 @@ def test_an_arm_is_read_as_from_its_file():
     machine, state, parts, note = upload.read_machine("C:\\arms\\crane.urdf", CRANE.read_bytes())
     same = hf.Arm.from_urdf(CRANE)
     q = np.array(state.q)
-    np.testing.assert_array_equal(machine.hand(q), same.frames(q)[-1])
+    np.testing.assert_array_equal(machine.tool_pose(q), same.frames(q)[-1])
     assert state.arm == "crane.urdf"
     assert state.names == same.joint_names
     assert len(parts) > 8
     assert "camera.stl" in note
-    table = dh_file.text(dh_table(hf.arms.load("pa10-7dof")), "mine")
+    table = dh_file.format_dh_file(dh_table(hf.arms.load("pa10-7dof")), "mine")
     machine, state, parts, note = upload.read_machine("mine.yaml", table.encode())
     assert (machine.arm.name, machine.arm.n, state.task, note) == ("mine", 7, "pose", "")
 
@@ -59,7 +59,7 @@ def test_no_path_of_a_file_is_followed(tmp_path):
         ("a.urdf", b"<robot name='x'><link name='a'/></robot>", "no moving joint"),
         ("a.yaml", b"rows: []", "rows"),
         ("a.yaml", b"\xff\xfe\x00", "a.yaml"),
-        ("a.urdf", b" " * (upload.LARGEST + 1), "too large; at most 4 MiB"),
+        ("a.urdf", b" " * (upload.MAX_FILE_BYTES + 1), "too large; at most 4 MiB"),
         ("a.yaml", b"rows:\n" + b"- {a: 1, alpha: 0}\n" * 41, "has 41 joints"),
     ],
 )
@@ -76,7 +76,7 @@ def test_bad_files_are_refused_in_one_sentence_that_names_them(name, content, se
     ("name", "found"), [("a.urdf", "arm"), ("A.XML", "arm"), ("a.yml", "arm"), ("x/trajectory.csv", "motion")]
 )
 def test_what_a_file_is(name, found):
-    assert upload.kind(name) == found
+    assert upload.detect_file_kind(name) == found
 
 
 @pytest.mark.parametrize(
@@ -84,7 +84,7 @@ def test_what_a_file_is(name, found):
 )
 def test_what_a_file_is_not(name, sentence):
     with pytest.raises(hf.InputError, match=sentence):
-        upload.kind(name)
+        upload.detect_file_kind(name)
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_what_a_file_is_not(name, sentence):
     ],
 )
 def test_names_are_tidied(name, tidied):
-    assert upload.tidy(name) == tidied
+    assert upload.sanitise_file_name(name) == tidied
 
 
 def test_what_is_too_large_is_not_even_kept():
@@ -118,7 +118,7 @@ def test_what_is_too_large_is_not_even_kept():
     from viser._messages import FileTransferStartUpload
 
     handlers[FileTransferStartUpload] = gui._handle_file_transfer_start
-    upload.limit(gui, refused.append)
+    upload.limit_uploads(gui, refused.append)
     (handler,) = handlers.values()
 
     def start(size, parts):
@@ -126,7 +126,7 @@ def test_what_is_too_large_is_not_even_kept():
 
     start(1000, 1)
     assert (len(begun), refused) == (1, [])
-    for size, parts in ((upload.LARGEST + 1, 9), (1000, 100_000), (-1, 1)):
+    for size, parts in ((upload.MAX_FILE_BYTES + 1, 9), (1000, 100_000), (-1, 1)):
         start(size, parts)
     assert len(begun) == 1
     assert len(refused) == len(sent) == 3

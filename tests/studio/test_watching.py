@@ -11,8 +11,8 @@ from studio_pages import wait_for
 import axe
 from holdfast.errors import InputError
 from holdfast.studio import State
-from holdfast.studio.motions import Motion
-from holdfast.studio.watching import Watched, watched, watched_html
+from holdfast.studio.motions import PlayedMotion
+from holdfast.studio.watching import MonitorDemo, monitor_html, simulate_monitor_demo
 
 pytest.importorskip("mujoco")
 NAMES = ("a", "b")
@@ -32,11 +32,13 @@ def some(**more):
         "untold": ("a did not",),
         "record": "",
     }
-    return Watched(motion=Motion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more})
+    return MonitorDemo(
+        motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more}
+    )
 
 
 def test_what_is_known_comes_with_time():
-    before, noticed, known, end = (watched_html(some(), NAMES, t) for t in (0.9, 1.21, 1.5, 4.0))
+    before, noticed, known, end = (monitor_html(some(), NAMES, t) for t in (0.9, 1.21, 1.5, 4.0))
     assert "over: none" in before
     assert "hf-named" not in noticed
     assert "b is &lt;locked&gt;" in known
@@ -49,7 +51,7 @@ def test_what_is_known_comes_with_time():
 
 def test_there_must_be_a_target():
     with pytest.raises(InputError, match="there is no target"):
-        watched(None, State("x", NAMES, (0.0, 0.0)), lambda *_: None)
+        simulate_monitor_demo(None, State("x", NAMES, (0.0, 0.0)), lambda *_: None)
 
 
 def test_a_fault_in_the_page_is_named(studio, visit):

@@ -34,7 +34,7 @@ def open_page(browser, name, q, **state):
     page.goto(served.url)
     wait_for(page, lambda: bool(served.windows), 120)
     window = next(iter(served.windows.values()))
-    window.settle(180)
+    window.wait_until_done(180)
     close = page.get_by_role("alert").get_by_role("button")  # the browser says that it draws without a graphics card
     if close.count():
         close.first.click()

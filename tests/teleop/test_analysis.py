@@ -13,9 +13,9 @@ from cards import check_card
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.present.teleop.motions import ring
 from holdfast.teleop.analysis import analyse
-from holdfast.teleop.analysis.groups import in_groups
+from holdfast.teleop.analysis.groups import group_by_difficulty
 from holdfast.teleop.protocol.protocol import read_protocol
-from holdfast.teleop.trials.performance import cpm
+from holdfast.teleop.trials.performance import compute_cpm
 
 NAMES = [f"M{k}" for k in range(1, 13)]
 SCENARIOS = (
@@ -80,7 +80,7 @@ def computer(rng):
 def test_cells_are_means_of_the_cpm_over_tasks(table, computer):
     a = analyse(table, computer)
     check_card(a)
-    mine = table.assign(cpm=cpm(table[NAMES].to_numpy()).values)
+    mine = table.assign(cpm=compute_cpm(table[NAMES].to_numpy()).values)
     np.testing.assert_allclose(a.observed.normalisers, table[NAMES].max())
     third = mine[mine["scenario"] == 3].groupby("task")["cpm"].median().sort_values()
     assert a.groups.names == ("easy", "medium", "difficult")
@@ -106,7 +106,7 @@ def test_difficulties_are_medians_over_operators(table, computer):
     a = analyse(table, computer)
     of_tasks = a.table("tasks").set_index("task").sort_index()
     machine = computer[computer["scenario"] == 3].sort_values("task")
-    anticipated = cpm(computer[NAMES[:11]].to_numpy()).values[(computer["scenario"] == 3).to_numpy()]
+    anticipated = compute_cpm(computer[NAMES[:11]].to_numpy()).values[(computer["scenario"] == 3).to_numpy()]
     np.testing.assert_allclose(of_tasks["anticipated"], anticipated[np.argsort(machine["task"])])
     felt = table[table["scenario"] == 3].groupby("task")["M12"].median()
     np.testing.assert_allclose(of_tasks["perceived"], felt)
@@ -252,7 +252,7 @@ def test_who_never_arrives_counts_as_worst(table):
 
 
 def test_any_number_of_groups(table):
-    found = in_groups(np.array([3.0, np.nan, 1.0, np.inf, 2.0, 0.5, 7.0]), 3, "operators")
+    found = group_by_difficulty(np.array([3.0, np.nan, 1.0, np.inf, 2.0, 0.5, 7.0]), 3, "operators")
     assert found.sizes.tolist() == [3, 2, 2]
     assert found.of_task.tolist() == [1, 2, 0, 2, 0, 0, 1]
     a = analyse(table, groups=4)
@@ -403,7 +403,7 @@ def test_people_three_laws_and_a_mixed_model(rng, tmp_path):
     page = a.save(tmp_path, show=[])[0].read_text(encoding="utf-8")
     assert "simulated" not in page.lower()
     assert "simulated" not in " ".join(a.describe())
-    assert a.who == "6 subjects"
+    assert a.subject_phrase == "6 subjects"
     assert "Mixed model: Wald tests" in page
     assert "restricted maximum likelihood" in page
     assert not (tmp_path / "anova.csv").exists()

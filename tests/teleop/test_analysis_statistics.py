@@ -10,7 +10,7 @@ from scipy import integrate, stats
 from statsmodels.stats.power import TTestPower
 
 from holdfast.errors import InputError
-from holdfast.teleop.analysis import anova, correlation, holm, paired, power, subjects_for_f, subjects_for_t
+from holdfast.teleop.analysis import anova, compare_pairs, correct_by_holm, correlate, power, subjects_for_f, subjects_for_t
 
 
 def reference_data():
@@ -52,7 +52,7 @@ def test_reference_data_set():
     assert [(e.df, e.df_error) for e in found.effects] == [(1, 23), (2, 46), (2, 46)]
     y = reference_data()
     for b, (t, p) in enumerate([(-9.1228790, 4.196e-9), (1.2931936, 0.208783), (12.2386006, 1.491e-11)]):
-        pair = paired(y[:, 0, b], y[:, 1, b])
+        pair = compare_pairs(y[:, 0, b], y[:, 1, b])
         assert pair.t == pytest.approx(t, abs=1e-7)
         assert pair.p == pytest.approx(p, rel=1e-3)
 
@@ -136,7 +136,7 @@ def test_no_error_to_test_against_is_refused(rng):
 def test_paired_equal_to_pingouin(rng):
     x, y = rng.normal(size=(2, 15))
     y += 0.4 * x
-    found = paired(x, y)
+    found = compare_pairs(x, y)
     theirs = pg.ttest(x, y, paired=True).iloc[0]
     low, high = next(v for name, v in theirs.items() if name.startswith("CI95"))
     np.testing.assert_allclose([found.t, found.df, found.p], [theirs["T"], theirs["dof"], theirs["p_val"]], rtol=1e-8)
@@ -155,7 +155,7 @@ def test_wilcoxon_by_enumeration(rng, ties):
     ranks = stats.rankdata(np.abs(d[d != 0]))
     sums = np.array([ranks @ np.array(signs) for signs in product((-1, 1), repeat=12)])
     expected = np.mean(np.abs(sums) >= abs(ranks @ np.sign(d[d != 0])) - 1e-9)
-    found = paired(d, np.zeros(len(d)))
+    found = compare_pairs(d, np.zeros(len(d)))
     d = d[d != 0]
     assert found.wilcoxon == pytest.approx(expected, rel=1e-9)
     assert found.rank_biserial == pytest.approx(ranks @ np.sign(d) / ranks.sum())
@@ -169,7 +169,7 @@ def test_wilcoxon_with_ties_at_twenty_pairs():
     chance = stats.binom.pmf(np.arange(13), 12, 0.5)[:, None] * stats.binom.pmf(np.arange(9), 8, 0.5)
     middle, seen = 105.0, 9 * one + 6 * two
     expected = chance[np.abs(sums - middle) >= abs(seen - middle) - 1e-9].sum()
-    assert paired(d, np.zeros(20)).wilcoxon == pytest.approx(expected, rel=1e-12)
+    assert compare_pairs(d, np.zeros(20)).wilcoxon == pytest.approx(expected, rel=1e-12)
 
 
 def noncentral_t_below(t, df, z):
@@ -182,7 +182,7 @@ def noncentral_t_below(t, df, z):
 
 @pytest.mark.parametrize(("n", "shift"), [(6, 0.0), (10, 0.7), (24, -3.0)])
 def test_interval_of_dz_is_that_of_the_noncentral_t(rng, n, shift):
-    found = paired(rng.normal(shift, 1.0, n), np.zeros(n), confidence=0.9)
+    found = compare_pairs(rng.normal(shift, 1.0, n), np.zeros(n), confidence=0.9)
     assert found.dz == pytest.approx(found.t / np.sqrt(n))
     assert noncentral_t_below(found.t, n - 1, found.dz_low * np.sqrt(n)) == pytest.approx(0.95, abs=1e-6)
     assert noncentral_t_below(found.t, n - 1, found.dz_high * np.sqrt(n)) == pytest.approx(0.05, abs=1e-6)
@@ -191,32 +191,32 @@ def test_interval_of_dz_is_that_of_the_noncentral_t(rng, n, shift):
 @pytest.mark.parametrize("size", [1.0, 30.0, 1e4])
 def test_effects_of_any_size_have_an_interval(rng, size):
     for n in (2, 3, 24):
-        found = paired(size * (1 + 0.1 * rng.random(n)), np.zeros(n))
+        found = compare_pairs(size * (1 + 0.1 * rng.random(n)), np.zeros(n))
         assert found.dz_low < found.dz < found.dz_high
 
 
 def test_pairs_with_nothing_in_them(rng):
     x = rng.normal(size=6)
-    same = paired(x, x)
+    same = compare_pairs(x, x)
     assert (same.n, same.difference) == (6, 0.0)
     assert np.isnan([same.t, same.p, same.dz, same.wilcoxon]).all()
-    alone = paired([1.0, np.nan], [0.5, 2.0])
+    alone = compare_pairs([1.0, np.nan], [0.5, 2.0])
     assert (alone.n, alone.difference) == (1, 0.5)
     assert np.isnan(alone.p)
-    assert paired([np.nan], [1.0]).n == 0
+    assert compare_pairs([np.nan], [1.0]).n == 0
     with pytest.raises(InputError, match=r"same length"):
-        paired([1.0], [1.0, 2.0])
+        compare_pairs([1.0], [1.0, 2.0])
     with pytest.raises(InputError, match=r"confidence is 95"):
-        paired(x, x + 1, confidence=95)
+        compare_pairs(x, x + 1, confidence=95)
 
 
 def test_holm_equal_to_pingouin(rng):
     p = rng.random(7) ** 3
-    np.testing.assert_allclose(holm(p), pg.multicomp(p, method="holm")[1], rtol=1e-12)
+    np.testing.assert_allclose(correct_by_holm(p), pg.multicomp(p, method="holm")[1], rtol=1e-12)
     with_nan = np.insert(p, 2, np.nan)
-    np.testing.assert_allclose(np.delete(holm(with_nan), 2), holm(p))
-    assert np.isnan(holm(with_nan)[2])
-    assert np.isnan(holm([np.nan])).all()
+    np.testing.assert_allclose(np.delete(correct_by_holm(with_nan), 2), correct_by_holm(p))
+    assert np.isnan(correct_by_holm(with_nan)[2])
+    assert np.isnan(correct_by_holm([np.nan])).all()
 
 
 # ---- correlations --------------------------------------------------------------------------------------------------------
@@ -225,7 +225,7 @@ def test_holm_equal_to_pingouin(rng):
 def test_correlation_equal_to_pingouin(rng):
     x = rng.normal(size=20)
     y = 0.6 * x + rng.normal(size=20)
-    found = correlation(x, y)
+    found = correlate(x, y)
     row = pg.corr(x, y).iloc[0]
     assert found.r == pytest.approx(row["r"], rel=1e-8)
     assert found.p == pytest.approx(row["p_val"], rel=1e-6)
@@ -237,14 +237,14 @@ def test_correlation_equal_to_pingouin(rng):
 def test_correlation_lists_what_it_leaves_out(rng):
     x, y = rng.normal(size=(2, 9))
     x[4], y[7] = np.nan, np.inf
-    found = correlation(x, y, ("a", "b"), labels=[f"task {k + 1}" for k in range(9)])
+    found = correlate(x, y, ("a", "b"), labels=[f"task {k + 1}" for k in range(9)])
     assert (found.n, found.left_out) == (7, ("task 5", "task 8"))
     keep = [k for k in range(9) if k not in (4, 7)]
     assert found.r == pytest.approx(np.corrcoef(x[keep], y[keep])[0, 1])
-    assert np.isnan(correlation(np.ones(5), rng.normal(size=5)).r)
-    assert np.isnan(correlation([1.0, 2.0], [1.0, 2.0]).r)
+    assert np.isnan(correlate(np.ones(5), rng.normal(size=5)).r)
+    assert np.isnan(correlate([1.0, 2.0], [1.0, 2.0]).r)
     with pytest.raises(InputError, match=r"same length"):
-        correlation(x, y[:3])
+        correlate(x, y[:3])
 
 
 # ---- power ---------------------------------------------------------------------------------------------------------------
@@ -282,8 +282,8 @@ def test_power_of_f_by_experiments(rng):
     """Many experiments with normal spherical data: the share with a significant interaction."""
     n, effect = 6, np.array([[0.5, 0.0, -0.5], [-0.5, 0.0, 0.5]])
     y = rng.normal(size=(20_000, n, 2, 3)) + effect
-    sums = power.squares(y)
-    df, df_error = power.freedom(n, 2, 3)
+    sums = power.sums_of_squares(y)
+    df, df_error = power.degrees_of_freedom(n, 2, 3)
     f = (sums.effects / df) / (sums.errors / df_error)
     share = (f[:, 2] > stats.f.isf(0.05, 2, 2 * (n - 1))).mean()
     assert share == pytest.approx(power.f_power(float((effect**2).sum()), 2, n), abs=0.015)
@@ -291,16 +291,16 @@ def test_power_of_f_by_experiments(rng):
 
 def test_lower_end_of_the_noncentrality():
     for f, df, df_error in [(188.0, 1, 23), (5.0, 2, 46)]:
-        low = power.least_noncentrality(f, df, df_error, 0.9)
+        low = power.lower_noncentrality_limit(f, df, df_error, 0.9)
         assert 0 < low < f * df
         assert stats.ncf.cdf(f, df, df_error, low) == pytest.approx(0.95, abs=1e-8)
-    assert power.least_noncentrality(0.5, 2, 46) == 0.0
+    assert power.lower_noncentrality_limit(0.5, 2, 46) == 0.0
 
 
 def test_subsets_of_all_subjects_are_the_experiment(rng):
     y = correlated(rng, 9, 2, 3)
     significant = [e.p < 0.05 for e in anova(y).effects]
-    assert power.resampled(y, 9, draws=50).tolist() == [float(s) for s in significant]
-    few = power.resampled(y, 4, draws=300, seed=5)
-    assert (few == power.resampled(y, 4, draws=300, seed=5)).all()
+    assert power.estimate_power(y, 9, draws=50).tolist() == [float(s) for s in significant]
+    few = power.estimate_power(y, 4, draws=300, seed=5)
+    assert (few == power.estimate_power(y, 4, draws=300, seed=5)).all()
     assert ((few >= 0) & (few <= 1)).all()

@@ -10,7 +10,7 @@ import pytest
 import flips
 import holdfast as hf
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.tables import cycle_table, export, trial_table
+from holdfast.teleop.records.tables import cycle_table, export_tables, trial_table
 
 CHANGES = int(os.environ.get("HOLDFAST_CHANGES", "40"))
 
@@ -45,6 +45,6 @@ def test_every_table_refuses_a_changed_rating(experiment, tmp_path):
     flips.copied(experiment, tmp_path / "copy")
     with Records.open(tmp_path / "copy") as records:
         records._db.execute("UPDATE trials SET rating = 0 WHERE id = 4")
-    for table in (trial_table, cycle_table, lambda records: export(records, tmp_path / "tables")):
+    for table in (trial_table, cycle_table, lambda records: export_tables(records, tmp_path / "tables")):
         assert not is_refused(experiment, table)
         assert is_refused(tmp_path / "copy", table)

@@ -4,27 +4,29 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop.trials.driving import Rules, drive
-from holdfast.teleop.trials.operators import Person, SimulatedPeople, population, rate
-from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.driving import EndRules, drive_trials
+from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfort, sample_people
+from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import SCENARIOS
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 PERFECT = Person(delay=0, lag=0, noise=0, bias=0, slowing=0, gives_up=1e6)
-RULES = Rules(at_rest=True, cycle_limit=5000, patience=10_000)
+RULES = EndRules(at_rest=True, cycle_limit=5000, patience=10_000)
 
 
 @pytest.fixture(scope="module")
 def plant():
-    return Plant(SCENARIOS[0].make_law(hf.arms.load("planar-3r")))
+    return JoystickPlant(SCENARIOS[0].make_law(hf.arms.load("planar-3r")))
 
 
 def run(plant, people, rate=6.0, q0=(0.3, 0.8, 0.6), target=(-0.4, 1.6), healthy=(1, 1, 1), seed=0):
     n = len(people)
-    operator = SimulatedPeople(people, rate, Stick(), radius=0.1, seed=seed)
+    operator = SimulatedPeople(people, rate, Joystick(), radius=0.1, seed=seed)
     q0, target, healthy = (np.tile(np.asarray(a, dtype=float), (n, 1)) for a in (q0, target, healthy))
-    return drive([plant], np.zeros(n, int), q0, target=target, healthy=healthy, operator=operator, stick=Stick(), rules=RULES)
+    return drive_trials(
+        [plant], np.zeros(n, int), q0, target=target, healthy=healthy, operator=operator, stick=Joystick(), rules=RULES
+    )
 
 
 def test_a_perfect_person_goes_straight(plant):
@@ -75,7 +77,7 @@ def test_who_is_led_away_tries_another_way(plant):
     """The folded trap: a straight way stands still for ever; a person looks for another and arrives."""
     angle = np.pi / 4 + np.arccos(1 / np.hypot(1.5, 1.5))
     q0 = (angle, *np.deg2rad([-66.0098, 155.7258]))
-    trials = run(plant, population(12, 2), q0=q0, target=(1.5, 1.5), healthy=(0, 1, 1))
+    trials = run(plant, sample_people(12, 2), q0=q0, target=(1.5, 1.5), healthy=(0, 1, 1))
     assert trials.completed.sum() >= 3
     stubborn = [Person(noise=0, bias=0, look_back=130, gives_up=120)] * 3
     assert (run(plant, stubborn, q0=q0, target=(1.5, 1.5), healthy=(0, 1, 1)).end == End.ABORTED).all()
@@ -88,14 +90,14 @@ def test_gives_up_in_time(plant):
 
 
 def test_same_seed_same_trials(plant):
-    people = population(6, 1)
+    people = sample_people(6, 1)
     a, b, c = (run(plant, people, seed=s) for s in (4, 4, 5))
     np.testing.assert_array_equal(a.q, b.q)
     assert len(a.q) != len(c.q) or (a.q != c.q).any()
 
 
 def test_people_differ_around_the_middle():
-    people = population(400, 3)
+    people = sample_people(400, 3)
     delays = np.log([p.delay for p in people])
     assert abs(delays.mean() - np.log(0.24)) < 0.03
     assert abs(delays.std() - 0.15) < 0.03
@@ -103,17 +105,17 @@ def test_people_differ_around_the_middle():
 
 def test_rating_grows_with_time():
     ratio = np.repeat([1.0, 1.9, 3.0, 10.0], 500)
-    level = rate(40 * ratio, 40, seed=1).reshape(4, 500).mean(axis=1)
+    level = rate_comfort(40 * ratio, 40, seed=1).reshape(4, 500).mean(axis=1)
     assert (np.diff(level) > 0.5).all()
     assert level[0] < 0.1
     assert level[3] > 2.9
-    np.testing.assert_array_equal(rate([np.nan, np.nan], 40), [3, 3])
+    np.testing.assert_array_equal(rate_comfort([np.nan, np.nan], 40), [3, 3])
 
 
 def test_bad_input_is_refused(plant):
     with pytest.raises(hf.InputError, match="lag is -1"):
         Person(lag=-1)
     with pytest.raises(hf.InputError, match="1 or more"):
-        population(0)
+        sample_people(0)
     with pytest.raises(hf.InputError, match="one for each"):
-        SimulatedPeople([Person()], 6.0, Stick(), radius=0.1).begin(np.zeros((2, 2)), np.ones((2, 2)))
+        SimulatedPeople([Person()], 6.0, Joystick(), radius=0.1).begin(np.zeros((2, 2)), np.ones((2, 2)))

@@ -17,15 +17,15 @@ import pytest
 import holdfast as hf
 from cards import check_card
 from holdfast.teleop.protocol.protocol import Training, read_protocol
-from holdfast.teleop.records.check import replay
-from holdfast.teleop.records.entries import Kind, State
+from holdfast.teleop.records.check import replay_trials
+from holdfast.teleop.records.entries import SubjectState, TrialKind
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import Session, training_tasks
-from holdfast.teleop.records.tables import computer_table, cycle_table, dictionary, export, trial_table
-from holdfast.teleop.records.verification import verify
+from holdfast.teleop.records.tables import computer_table, cycle_table, describe_columns, export_tables, trial_table
+from holdfast.teleop.records.verification import verify_records
 from holdfast.teleop.rehearsal import simulate_experiment
-from holdfast.teleop.trials.performance import measures
-from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.performance import compute_measures
+from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
 
@@ -53,11 +53,11 @@ def records(protocol, tmp_path):
 
 def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
     session = Session(records, code)
-    todo = session.next()
+    todo = session.next_trial()
     number = records.begin_trial(code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task)
     generator = np.random.default_rng(number) if rng is None else rng
     plant = records.protocol.plants[todo.scenario]
-    mask = todo.tasks.healthy(records.protocol.scenarios[todo.scenario].failed)[0]
+    mask = todo.tasks.healthy_mask(records.protocol.scenarios[todo.scenario].failed)[0]
     q, written = todo.tasks.q0[0], []
     for k in range(cycles):
         v = records.protocol.stick.limited(generator.normal(0, 0.03, 2))
@@ -78,11 +78,11 @@ def test_what_is_written_is_read(records):
     number, written, last = one_trial(records, code)
     records.rate(number, 2, {"comment": "slow"})
     with Records.open(records.folder) as again:
-        (entry,) = again.entries(kind=Kind.TRIAL)
-        trials = again.trials([entry])
+        (entry,) = again.entries(kind=TrialKind.TRIAL)
+        trials = again.read_trials([entry])
         assert (entry.subject, entry.kind, entry.end, entry.rating, entry.answers) == (
             code,
-            Kind.TRIAL,
+            TrialKind.TRIAL,
             End.ARRIVED,
             2,
             {"comment": "slow"},
@@ -90,12 +90,12 @@ def test_what_is_written_is_read(records):
         np.testing.assert_array_equal(trials.velocity, [v for v, _ in written])
         np.testing.assert_array_equal(trials.configurations(0), [*(q for _, q in written), last])
         np.testing.assert_allclose(trials.x[:, 0], np.cos(np.cumsum(trials.q, axis=1)).sum(axis=1), atol=1e-12)
-        np.testing.assert_allclose(again.times(entry), np.arange(7) / 6)
+        np.testing.assert_allclose(again.read_times(entry), np.arange(7) / 6)
         assert again.versions["holdfast"] == hf.__version__
 
 
 def test_replay_gives_the_recorded_path(made):
-    result = replay(made)
+    result = replay_trials(made)
     assert len(result.entries) > 6 * 12
     np.testing.assert_array_equal(result.difference, 0.0)
     check_card(result, False)
@@ -108,7 +108,7 @@ def test_replay_finds_a_changed_record(records):
     with sqlite3.connect(records.folder / "records.sqlite") as db:
         db.execute("UPDATE cycles SET q = ? WHERE trial = ? AND k = 4", (np.array([0.1, 0.2, 0.3]).tobytes(), number))
     db.close()
-    assert [e.id for e in replay(records).differs] == [number]
+    assert [e.id for e in replay_trials(records).differing_entries] == [number]
 
 
 def test_replay_finds_a_trial_that_should_have_been_over(records):
@@ -116,10 +116,10 @@ def test_replay_finds_a_trial_that_should_have_been_over(records):
     plant = records.protocol.plants[0]
     q = tasks.q0  # a target around the start, and a command to stand
     there = PointTasks(q, plant.position(q), tasks.joint)
-    number = records.begin_trial(code, Kind.TRIAL, 0, scenario=0, tasks=there, task=0)
+    number = records.begin_trial(code, TrialKind.TRIAL, 0, scenario=0, tasks=there, task=0)
     records.append(number, 0, np.zeros(1), velocity=np.zeros((1, 2)), q=q)
     records.finish(number, End.ABORTED, q[0])
-    assert replay(records).difference.tolist() == [np.inf]
+    assert replay_trials(records).difference.tolist() == [np.inf]
 
 
 def test_simulated_experiment_follows_the_protocol(made, protocol):
@@ -127,12 +127,12 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
     assert {s.kind for s in subjects} == {"simulated"}
     assert sorted(s.row for s in subjects) == list(range(6))
     for s in subjects:
-        assert s.state == State.COMPLETED
+        assert s.state == SubjectState.COMPLETED
         session = protocol.session(s.row, s.number)
-        entries = made.entries(s.code, Kind.TRIAL)
+        entries = made.entries(s.code, TrialKind.TRIAL)
         assert [[e.task, e.scenario] for e in entries] == session.tolist()
         assert all(e.rating is not None for e in entries)
-        training = made.entries(s.code, Kind.TRAINING)
+        training = made.entries(s.code, TrialKind.TRAINING)
         trials = made.trials(training)
         times = np.where(trials.completed, trials.cycles, np.nan).tolist()
         assert protocol.training.trained(times)
@@ -153,21 +153,21 @@ def test_tables_say_what_the_records_say(made, protocol, tmp_path):
 
     table = trial_table(made)
     assert len(table) == 6 * 3 * 4
-    entries = made.entries(kind=Kind.TRIAL)
-    by_hand = measures(made.trials(entries))
+    entries = made.entries(kind=TrialKind.TRIAL)
+    by_hand = compute_measures(made.trials(entries))
     np.testing.assert_array_equal(table[[f"M{k}" for k in range(1, 12)]].to_numpy(), by_hand)
     assert set(table["law"]) == {"pseudoinverse", "failure-tolerant"}
-    files = export(made, tmp_path / "csv")
+    files = export_tables(made, tmp_path / "csv")
     back = pd.read_csv(tmp_path / "csv" / "trials.csv", keep_default_na=False, na_values=[""])
     np.testing.assert_array_equal(back.query("task > 0")["M2"], table["M2"])  # CSV keeps every digit
     cycles = pd.read_csv(tmp_path / "csv" / "cycles.csv")
     assert len(cycles) == len(cycle_table(made)) == sum(made.trials(made.entries()).cycles + 1)
-    about = dictionary(protocol)
+    about = describe_columns(protocol)
     for name in ("trials", "cycles"):
         columns = list(pd.read_csv(tmp_path / "csv" / f"{name}.csv", nrows=1).columns)
         assert columns == about.query("table == @name")["column"].tolist()
     assert {f.name for f in files} >= {"subjects.csv", "events.csv", "dictionary.csv", "protocol.yaml"}
-    export(made, tmp_path / "parquet", parquet=True)
+    export_tables(made, tmp_path / "parquet", parquet=True)
     assert pd.read_parquet(tmp_path / "parquet" / "trials.parquet")["M1"].equals(pd.read_csv(files[0])["M1"])
 
 
@@ -176,7 +176,7 @@ def test_the_table_of_cycles_is_what_was_recorded(records, monkeypatch):
     code = records.add_subject().code
     for end, cycles in ((End.ARRIVED, 5), (None, 4), (None, 0), (End.ABORTED, 0)):
         one_trial(records, code, end=end, cycles=cycles)
-    monkeypatch.setattr(Plant, "cycles", None)
+    monkeypatch.setattr(JoystickPlant, "step_batch", None)
     table, position = cycle_table(records), records.protocol.plants[0].position
     assert table.groupby("trial").size().tolist() == [6, 4, 1, 1]
     for e in records.entries():
@@ -204,35 +204,35 @@ def test_a_session_goes_on_where_it_stopped(records):
     code = records.add_subject().code
     for _ in range(3):
         one_trial(records, code, cycles=5)
-    todo = Session(records, code).next()
-    assert (todo.kind, todo.position) == (Kind.TRIAL, 0)
+    todo = Session(records, code).next_trial()
+    assert (todo.kind, todo.position) == (TrialKind.TRIAL, 0)
     one_trial(records, code, end=None)  # broken off: done again
-    assert Session(records, code).next().position == 0
+    assert Session(records, code).next_trial().position == 0
     one_trial(records, code)
     one_trial(records, code, end=End.ABORTED)  # given up: not done again
-    todo = Session(records, code).next()
+    todo = Session(records, code).next_trial()
     assert todo.position == 2
     order = records.protocol.session(0, 0)
     assert [todo.task, todo.scenario] == order[2].tolist()
     for _ in range(10):
         one_trial(records, code)
-    assert Session(records, code).next() is None
-    assert records.subject(code).state == State.COMPLETED
+    assert Session(records, code).next_trial() is None
+    assert records.subject(code).state == SubjectState.COMPLETED
 
 
 def test_who_never_meets_the_criterion_is_sent_home(records):
     code = records.add_subject().code
     for _ in range(12):
         one_trial(records, code, cycles=3, end=End.ABORTED)
-    assert Session(records, code).next() is None
-    assert records.subject(code).state == State.OPEN  # the experimenter decides
+    assert Session(records, code).next_trial() is None
+    assert records.subject(code).state == SubjectState.OPEN  # the experimenter decides
 
 
 def test_drop_outs_are_replaced(records):
     codes = [records.add_subject().code for _ in range(6)]
     assert [records.subject(c).row for c in codes] == list(range(6))
-    records.set_state(codes[4], State.DROPPED)
-    records.set_state(codes[1], State.COMPLETED)
+    records.set_state(codes[4], SubjectState.DROPPED)
+    records.set_state(codes[1], SubjectState.COMPLETED)
     assert records.add_subject().row == 4
 
 
@@ -307,7 +307,7 @@ def test_arm_files_travel_with_the_experiment(tmp_path):
     arm = tmp_path / "mine.yaml"
     rows = "".join(f"  - {{name: j{k}, a: {0.5 + 0.1 * k}, alpha: 0, d: 0}}\n" for k in range(3))
     arm.write_text("name: mine\nrows:\n" + rows)
-    text = read_protocol().text().replace("arm: planar-3r", "arm: mine.yaml")
+    text = read_protocol().to_yaml().replace("arm: planar-3r", "arm: mine.yaml")
     for k in (1, 2, 3):
         text = text.replace(f"joint: joint{k}", f"joint: j{k - 1}")
     (tmp_path / "p.yaml").write_text(text)
@@ -348,13 +348,13 @@ def test_killed_at_any_moment(tmp_path, kills):
     assert len(acknowledged) > kills
     with Records.open(folder) as again:  # checks that the file is sound
         entries = again.entries("P1")
-        trials = again.trials(entries)
+        trials = again.read_trials(entries)
         row = {e.id: i for i, e in enumerate(entries)}
         for (number, k), q in acknowledged.items():
             assert trials.configurations(row[number])[k].tobytes().hex() == q
         assert {e.id for e in entries if e.end == End.ARRIVED} >= ended
-        assert replay(again).differs == []
-        assert Session(again, "P1").next() is not None or again.subject("P1").state == State.COMPLETED
+        assert replay_trials(again).differing_entries == []
+        assert Session(again, "P1").next_trial() is not None or again.subject("P1").state == SubjectState.COMPLETED
 
 
 @pytest.fixture
@@ -382,10 +382,10 @@ def test_a_read_only_archive_is_read(archive):
     with Records.open(archive) as records:
         assert records.read_only
         (entry,) = records.entries()
-        assert records.trials([entry]).cycles.tolist() == [7]
+        assert records.read_trials([entry]).cycles.tolist() == [7]
         with pytest.raises(hf.StoreError, match="cannot be written; copy it"):
             records.add_subject()
-    assert verify(archive).damaged == []
+    assert verify_records(archive).damages == []
     assert sorted(f.name for f in archive.iterdir()) == ["protocol.yaml", "records.sqlite"]
 
 
@@ -419,7 +419,7 @@ def test_events_are_exported_as_json_and_text_is_no_formula(records, tmp_path):
     records.set_note(code, "@SUM(1)")
     data = {"count": 3, "why": "it's \u00fc", "ok": True}
     records.event("dropped-frames", code, data=data)
-    export(records, tmp_path / "csv")
+    export_tables(records, tmp_path / "csv")
     events = pd.read_csv(tmp_path / "csv" / "events.csv")
     assert json.loads(events["data"][0]) == data
     (subject,) = pd.read_csv(tmp_path / "csv" / "subjects.csv").to_dict("records")

@@ -13,8 +13,8 @@ from holdfast.teleop import rehearsal
 from holdfast.teleop.protocol.protocol import Training, read_protocol
 from holdfast.teleop.records import file, records
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.tables import export
-from holdfast.teleop.records.verification import verify
+from holdfast.teleop.records.tables import export_tables
+from holdfast.teleop.records.verification import verify_records
 from holdfast.teleop.rehearsal import simulate_experiment
 from holdfast.teleop.trials.operators import Person
 
@@ -54,8 +54,8 @@ def copy(complete, tmp_path):
 def run(protocol, folder):
     """Run or resume the experiment: all tables as SQL, and the bytes of the exported tables."""
     with simulate_experiment(folder, protocol, OPERATORS, seed=4) as finished:
-        tables = {path.name: path.read_bytes() for path in export(finished, folder.with_name(f"{folder.name} tables"))}
-    assert verify(folder).damaged == []
+        tables = {path.name: path.read_bytes() for path in export_tables(finished, folder.with_name(f"{folder.name} tables"))}
+    assert verify_records(folder).damages == []
     with closing(sqlite3.connect(folder / "records.sqlite")) as db:
         return "\n".join(db.iterdump()), tables
 
@@ -91,7 +91,7 @@ def test_a_stopped_experiment_ends_with_the_same_bytes(protocol, complete, tmp_p
 
 
 def test_a_complete_experiment_stays_as_it_is(protocol, complete, copy, monkeypatch, capfd):
-    monkeypatch.setattr(rehearsal, "_driven", None)
+    monkeypatch.setattr(rehearsal, "_drive_people", None)
     assert run(protocol, copy) == complete[1]
     assert f"already holds 18 training tasks and the sessions of 3 of {OPERATORS} operators" in capfd.readouterr().err
 
@@ -138,5 +138,5 @@ def test_other_folders_are_refused(protocol, copy, tmp_path):
 
 
 def test_two_programs_do_not_write_at_the_same_time(protocol, copy, tmp_path):
-    with file.alone(copy), pytest.raises(hf.StoreError, match="another program is writing"):
+    with file.lock_records_folder(copy), pytest.raises(hf.StoreError, match="another program is writing"):
         simulate_experiment(copy, protocol, OPERATORS, seed=4)

@@ -5,12 +5,12 @@ import pytest
 
 import holdfast as hf
 from holdfast.kernels import Kernel
-from holdfast.teleop.trials.driving import Computer, Operator, Recorded, Rules, drive
-from holdfast.teleop.trials.performance import cpm, measures
-from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.driving import ComputerOperator, EndRules, Operator, RecordedOperator, drive_trials
+from holdfast.teleop.trials.performance import compute_cpm, compute_measures
+from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +20,7 @@ def arm():
 
 @pytest.fixture(scope="module")
 def plants(arm):
-    return [Plant(SCENARIOS[k].make_law(arm)) for k in (0, 1)]
+    return [JoystickPlant(SCENARIOS[k].make_law(arm)) for k in (0, 1)]
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ class Wanderer(Operator):
     def begin(self, x, target):
         self._patience = self._rng.integers(5, 80, len(x))
 
-    def wanted(self, rows, cycle, x, target):
+    def command_velocity(self, rows, cycle, x, target):
         v = target - x + self._rng.normal(0, 0.05, x.shape)
         return np.where(self._rng.random(rows.size)[:, None] < 0.2, 0.0, v)
 
@@ -51,43 +51,43 @@ class Wanderer(Operator):
 
 def wandered(plants, tasks, rng):
     which = rng.integers(0, 2, len(tasks))
-    return which, drive(
+    return which, drive_trials(
         plants,
         which,
         tasks.q0,
         target=tasks.target,
         healthy=tasks.healthy(True),
         operator=Wanderer(rng),
-        stick=Stick(),
-        rules=Rules(at_rest=True),
+        stick=Joystick(),
+        rules=EndRules(at_rest=True),
     )
 
 
 def test_computer_drives_as_the_closed_loop_in_cycles(arm, tasks):
     law = hf.control.failure_tolerant(arm, task="planar", gain=1.0, speed_limit=0.05)
     runs = hf.simulate(law, tasks.q0, tasks.target, locked=tasks.joint, cycles=True)
-    trials = drive(
-        [Plant(law)],
+    trials = drive_trials(
+        [JoystickPlant(law)],
         np.zeros(len(tasks), int),
         tasks.q0,
         target=tasks.target,
         healthy=tasks.healthy(True),
-        operator=Computer(),
-        stick=Stick(0.05, 0.0),
+        operator=ComputerOperator(),
+        stick=Joystick(0.05, 0.0),
     )
     arrived = runs.outcome == "converged"
     assert arrived.sum() > 5
-    np.testing.assert_array_equal(trials.completed, arrived)
+    np.testing.assert_array_equal(trials.is_completed, arrived)
     np.testing.assert_array_equal(trials.cycles[arrived], runs.time[arrived])
     np.testing.assert_allclose(trials.q_end[arrived], runs.q_final[arrived], atol=1e-9)
-    np.testing.assert_allclose(measures(trials)[arrived, 1], runs.path_length[arrived], atol=1e-9)
+    np.testing.assert_allclose(compute_measures(trials)[arrived, 1], runs.path_length[arrived], atol=1e-9)
 
 
 def test_one_cycle_is_ten_euler_steps_of_the_law(arm, rng):
     law = hf.control.damped(arm, 0.3, task="planar")
-    plant = Plant(law)
+    plant = JoystickPlant(law)
     q, v, healthy = rng.uniform(-3, 3, (20, 3)), rng.normal(0, 0.05, (20, 2)), (rng.random((20, 3)) > 0.3).astype(float)
-    after, actual = plant.cycles(q, v, healthy)
+    after, actual = plant.step_batch(q, v, healthy)
     step = np.array(q)
     for k in range(10):
         rates = healthy * law.velocity(step, v)
@@ -96,7 +96,7 @@ def test_one_cycle_is_ten_euler_steps_of_the_law(arm, rng):
             np.testing.assert_allclose(actual, np.einsum("kij,kj->ki", jacobian, rates), atol=1e-14)
         step = step + rates / 10
     np.testing.assert_allclose(after, step, atol=1e-13)
-    alone = [plant.cycle(*row) for row in zip(q, v, healthy, strict=True)]
+    alone = [plant.step_one(*row) for row in zip(q, v, healthy, strict=True)]
     np.testing.assert_array_equal([a for a, _ in alone], after)
     np.testing.assert_array_equal([a for _, a in alone], actual)
 
@@ -104,13 +104,13 @@ def test_one_cycle_is_ten_euler_steps_of_the_law(arm, rng):
 def test_code_for_single_cycles_is_made_when_one_is_asked_for(arm, monkeypatch):
     """Batches do without it: simulated operators, and what is read from records."""
     made = []
-    single = Kernel.single
-    monkeypatch.setattr(Kernel, "single", lambda kernel: made.append(kernel) or single(kernel))
-    plant = Plant(hf.control.pseudoinverse(arm, "planar"))
-    plant.cycles(np.full((2, 3), 0.3), np.zeros((2, 2)), np.ones((2, 3)))
+    single = Kernel.single_row
+    monkeypatch.setattr(Kernel, "single_row", lambda kernel: made.append(kernel) or single(kernel))
+    plant = JoystickPlant(hf.control.pseudoinverse(arm, "planar"))
+    plant.step_batch(np.full((2, 3), 0.3), np.zeros((2, 2)), np.ones((2, 3)))
     assert made == []
     for _ in range(2):
-        plant.cycle(np.full(3, 0.3), np.zeros(2), np.ones(3))
+        plant.step_one(np.full(3, 0.3), np.zeros(2), np.ones(3))
     assert len(made) == 1
 
 
@@ -122,26 +122,26 @@ def test_singular_arm_stands(plants):
 
 
 def test_stick_has_a_dead_zone_and_a_limit(rng):
-    stick = Stick()
-    v = stick.velocity(rng.uniform(-1, 1, (2000, 2)))
+    stick = Joystick()
+    v = stick.command_velocity(rng.uniform(-1, 1, (2000, 2)))
     speed = np.linalg.norm(v, axis=1)
     assert speed.max() <= 0.05 * (1 + 1e-15)
     assert not ((speed > 0) & (speed < 0.005)).any()
-    np.testing.assert_allclose(stick.velocity([0.5, 0.0]), [0.025, 0.0])
-    np.testing.assert_array_equal(stick.velocity([0.09, 0.0]), [0, 0])
+    np.testing.assert_allclose(stick.command_velocity([0.5, 0.0]), [0.025, 0.0])
+    np.testing.assert_array_equal(stick.command_velocity([0.09, 0.0]), [0, 0])
 
 
 def test_replay_gives_the_same_bits(plants, tasks, rng):
     which, trials = wandered(plants, tasks, rng)
-    again = drive(
+    again = drive_trials(
         plants,
         which,
         tasks.q0,
         target=tasks.target,
         healthy=tasks.healthy(True),
-        operator=Recorded(trials),
+        operator=RecordedOperator(trials),
         stick=None,
-        rules=Rules(at_rest=True),
+        rules=EndRules(at_rest=True),
     )
     for name in ("velocity", "q", "x", "actual", "first", "q_end", "x_end", "end"):
         np.testing.assert_array_equal(getattr(again, name), getattr(trials, name), err_msg=name)
@@ -150,11 +150,11 @@ def test_replay_gives_the_same_bits(plants, tasks, rng):
 def test_trials_can_be_taken_and_joined(plants, tasks, rng):
     _, trials = wandered(plants, tasks, rng)
     rows = rng.permutation(len(trials))
-    again = Trials.joined([trials.take(rows[:11]), trials.take(rows[11:])])
+    again = Trials.concatenate([trials.take(rows[:11]), trials.take(rows[11:])])
     for new, old in enumerate(rows):
         np.testing.assert_array_equal(again.path(new), trials.path(int(old)))
         np.testing.assert_array_equal(again.configurations(new), trials.configurations(int(old)))
-    np.testing.assert_array_equal(measures(again), measures(trials)[rows])
+    np.testing.assert_array_equal(compute_measures(again), compute_measures(trials)[rows])
 
 
 def _measured(trials, i):
@@ -192,7 +192,7 @@ def _measured(trials, i):
 
 def test_measures_are_what_their_definitions_say(plants, tasks, rng):
     _, trials = wandered(plants, tasks, rng)
-    ms = measures(trials)
+    ms = compute_measures(trials)
     assert {End.ARRIVED, End.ABORTED} <= set(trials.end)
     for i in range(len(trials)):
         if trials.end[i] == End.ARRIVED:
@@ -203,30 +203,36 @@ def test_measures_are_what_their_definitions_say(plants, tasks, rng):
 
 def test_trial_that_begins_in_the_circle_has_no_cycles(plants, tasks):
     start = plants[0].position(tasks.q0)
-    trials = drive(
-        plants, np.zeros(40, int), tasks.q0, target=start, healthy=tasks.healthy(False), operator=Computer(), stick=Stick()
+    trials = drive_trials(
+        plants,
+        np.zeros(40, int),
+        tasks.q0,
+        target=start,
+        healthy=tasks.healthy(False),
+        operator=ComputerOperator(),
+        stick=Joystick(),
     )
-    assert trials.completed.all()
-    np.testing.assert_array_equal(measures(trials), 0)
+    assert trials.is_completed.all()
+    np.testing.assert_array_equal(compute_measures(trials), 0)
 
 
 def test_cpm_divides_by_the_largest(rng):
     m = rng.uniform(0, 5, (6, 4, 11))
     m[2, 3] = np.nan
     m[..., 5] = 0
-    found = cpm(m)
+    found = compute_cpm(m)
     expected = sum(m[..., k] / np.nanmax(m[..., k]) for k in range(11) if k != 5)
     np.testing.assert_allclose(found.values, expected)
     assert np.isnan(found.values[2, 3])
-    np.testing.assert_allclose(cpm(m[0], found.normalisers).values, found.values[0])
+    np.testing.assert_allclose(compute_cpm(m[0], found.normalisers).values, found.values[0])
 
 
 def test_bad_input_is_refused(arm, plants, tasks):
     with pytest.raises(hf.TaskError, match="use planar or position"):
-        Plant(hf.control.pseudoinverse(hf.arms.load("panda"), task="pose"))
+        JoystickPlant(hf.control.pseudoinverse(hf.arms.load("panda"), task="pose"))
     with pytest.raises(hf.InputError, match="dead zone"):
-        Stick(0.05, 0.06)
+        Joystick(0.05, 0.06)
     with pytest.raises(hf.InputError, match="q0 has shape"):
-        drive(plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy(True), operator=Computer())
+        drive_trials(plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy(True), operator=ComputerOperator())
     with pytest.raises(hf.InputError, match="0 or more"):
-        cpm([[-1.0]])
+        compute_cpm([[-1.0]])

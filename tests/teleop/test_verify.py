@@ -13,9 +13,9 @@ import pytest
 import flips
 import holdfast as hf
 from holdfast.teleop.protocol.protocol import read_protocol
-from holdfast.teleop.records.entries import Kind
+from holdfast.teleop.records.entries import TrialKind
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.verification import verify
+from holdfast.teleop.records.verification import verify_records
 from holdfast.teleop.trials.recordings import End
 
 
@@ -36,17 +36,17 @@ def changed(experiment, tmp_path):
         with closing(sqlite3.connect(tmp_path / "copy" / "records.sqlite")) as db, db:
             for statement in statements:
                 assert db.execute(statement).rowcount == 1
-        return verify(tmp_path / "copy")
+        return verify_records(tmp_path / "copy")
 
     return change
 
 
 def test_what_was_written_is_sound(experiment):
-    found = verify(experiment)
-    assert found.damaged == []
-    assert found.without == []
+    found = verify_records(experiment)
+    assert found.damages == []
+    assert found.trials_without_digest == []
     assert found.trials == 6
-    assert len(found.whole) == 64
+    assert len(found.overall_digest) == 64
 
 
 def by_hand(folder):
@@ -114,7 +114,7 @@ def test_a_stranger_gets_the_same_digests(experiment):
     chains = by_hand(experiment)
     assert set(chains) == {None, "S01", "S02"}
     together = b"".join(chains[s] for s in (None, "S01", "S02"))
-    assert hashlib.sha256(together).hexdigest() == verify(experiment).whole
+    assert hashlib.sha256(together).hexdigest() == verify_records(experiment).overall_digest
 
 
 @pytest.mark.parametrize(
@@ -153,7 +153,7 @@ def test_a_changed_protocol_is_found(experiment, tmp_path):
     flips.copied(experiment, tmp_path / "copy")
     with (tmp_path / "copy" / "protocol.yaml").open("a") as file:
         file.write("# nothing\n")
-    assert verify(tmp_path / "copy").damaged == ["the file protocol.yaml is not as it was when the experiment began"]
+    assert verify_records(tmp_path / "copy").damages == ["the file protocol.yaml is not as it was when the experiment began"]
 
 
 def test_an_older_folder_is_read_and_goes_on_with_digests(experiment, tmp_path):
@@ -161,34 +161,34 @@ def test_an_older_folder_is_read_and_goes_on_with_digests(experiment, tmp_path):
     flips.copied(experiment, folder)
     flips.older(folder)
     before = (folder / "records.sqlite").read_bytes()
-    assert verify(folder).without == [1, 2, 3, 4, 5, 6]
+    assert verify_records(folder).trials_without_digest == [1, 2, 3, 4, 5, 6]
     with Records.open(folder) as records:
         assert len(records.entries()) == 7
-    assert verify(folder).damaged == []
+    assert verify_records(folder).damages == []
     assert (folder / "records.sqlite").read_bytes() == before  # reading adds nothing
     with Records.open(folder) as records:
         records.set_note("S01", "seen")
         flips.trial(records, "S02", np.random.default_rng(1))
-    found = verify(folder)
-    assert (found.damaged, found.without, found.trials) == ([], [1, 2, 3, 4, 5, 6], 8)
+    found = verify_records(folder)
+    assert (found.damages, found.trials_without_digest, found.trials) == ([], [1, 2, 3, 4, 5, 6], 8)
     by_hand(folder)
 
 
 def test_what_is_not_an_experiment(tmp_path):
     with pytest.raises(hf.StoreError, match="holds no experiment"):
-        verify(tmp_path)
+        verify_records(tmp_path)
 
 
 def test_a_deleted_subject_leaves_sound_records(experiment, tmp_path):
     flips.copied(experiment, tmp_path / "copy")
     with Records.open(tmp_path / "copy") as records:
         records.delete_subject("S01")
-    found = verify(tmp_path / "copy")
-    assert (found.damaged, found.trials) == ([], 2)
+    found = verify_records(tmp_path / "copy")
+    assert (found.damages, found.trials) == ([], 2)
     with Records.open(tmp_path / "copy") as records:
         records.add_subject()
         flips.trial(records, "S03", np.random.default_rng(1))
-    assert verify(tmp_path / "copy").damaged == []
+    assert verify_records(tmp_path / "copy").damages == []
 
 
 def test_a_rolled_back_change_leaves_no_digest(tmp_path):
@@ -196,14 +196,14 @@ def test_a_rolled_back_change_leaves_no_digest(tmp_path):
     with Records.create(tmp_path / "experiment", protocol) as records:
 
         def fails():
-            with records.together():
+            with records.transaction():
                 flips.trial(records, records.add_subject().code, np.random.default_rng(0))
                 raise ZeroDivisionError
 
         with pytest.raises(ZeroDivisionError):
             fails()
         records.add_subject()
-    assert verify(tmp_path / "experiment").damaged == []
+    assert verify_records(tmp_path / "experiment").damages == []
     with Records.open(tmp_path / "experiment") as records:
-        assert records.entries(kind=Kind.TRIAL) == []
+        assert records.entries(kind=TrialKind.TRIAL) == []
         assert End.ABORTED not in [e.end for e in records.entries()]

@@ -33,7 +33,7 @@ def shots() -> Iterator[Shot]:
     chain = hf.simulate_faults(law, START, GOAL, monitor=monitor, **asked).require_ok()
 
     def state(run: hf.FaultRun, row: int) -> str:
-        off = f"{1000 * run.miss[row]:.0f} mm to go"
+        off = f"{1000 * run.position_error[row]:.0f} mm to go"
         done = [a for a in run.actions if a.what in ("alarm", "brake") and a.time <= run.time[row]]
         return f"{done[-1].what} after {1000 * (done[-1].time - WHEN):.0f} ms, {off}" if done else off
 

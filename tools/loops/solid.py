@@ -11,9 +11,9 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.cell.nodes import cut
-from holdfast.present.arm.visuals import part_of
-from holdfast.present.cell.bodies import body
+from holdfast.cell.nodes import split_triangles
+from holdfast.present.arm.visuals import make_part
+from holdfast.present.cell.bodies import mesh_solid
 from holdfast.report.views import View
 from holdfast.shapes.reading import read_pieces
 
@@ -28,18 +28,18 @@ _SPLIT = 0.12  # m: larger triangles are halved, so that their middles tell what
 def arm_bodies(arm: hf.Arm) -> list[tuple[int, Triangles]]:
     """The collision shapes of an arm: the frame that each moves with (0 is the base), and its triangles there."""
     pieces, _ = read_pieces(arm, "collision")
-    return [(part.frame, part.vertices[part.faces]) for part in map(part_of, pieces)]
+    return [(part.frame, part.vertices[part.faces]) for part in map(make_part, pieces)]
 
 
 def box(size: Sequence[float], middle: Sequence[float]) -> Triangles:
     """A box of full sizes about a point, m."""
-    corners, faces = body(hf.cell.Box("box", list(size)), 1.0)
+    corners, faces = mesh_solid(hf.cell.Box("box", list(size)), 1.0)
     return (corners + np.asarray(middle))[faces]
 
 
 def rod(radius: float, begin: Sequence[float], length: float) -> Triangles:
     """A cylinder along z from a point, m."""
-    corners, faces = body(hf.cell.Cylinder("rod", radius, length), 1.0)
+    corners, faces = mesh_solid(hf.cell.Cylinder("rod", radius, length), 1.0)
     return (corners + np.asarray(begin) + [0, 0, length / 2])[faces]
 
 
@@ -47,7 +47,7 @@ def cell_bodies(cell: hf.Cell) -> list[Triangles]:
     """The objects of a cell, in the world."""
     found = []
     for solid in cell:
-        corners, faces = body(solid, 1.0)
+        corners, faces = mesh_solid(solid, 1.0)
         found.append((corners @ solid.pose[:3, :3].T + solid.pose[:3, 3])[faces])
     return found
 
@@ -62,7 +62,7 @@ def draw(axes: Axes, view: View, bodies: Sequence[tuple[Triangles, str]]) -> Non
     toward = np.cross(view.right, view.up)
     triangles, colors = [], []
     for given, color in bodies:
-        pieces = cut(given, _SPLIT)
+        pieces = split_triangles(given, _SPLIT)
         normal = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
         near = normal @ toward > 0  # triangles wind outward, so the others are at the back

@@ -55,7 +55,7 @@ def shots(count: int = 32) -> Iterator[Shot]:
         while not served.windows:
             page.wait_for_timeout(50)
         window = next(iter(served.windows.values()))
-        window.settle(120)
+        window.wait_until_done(120)
         close = page.get_by_role("alert").get_by_role("button")  # the browser says that it draws without a graphics card
         if close.count():
             close.first.click()
@@ -66,10 +66,10 @@ def shots(count: int = 32) -> Iterator[Shot]:
         window.client.camera.fov = FIELD
 
         def shot(q: np.ndarray, text: str, ms: int, locked: bool = False) -> Shot:
-            window.live.put("at", lambda: window._place(q))
-            window.ask("fail", (JOINT, "locked" if locked else "healthy"))
-            window.ask("losses", locked)
-            window.settle(30)
+            window.live.submit("at", lambda: window._set_configuration(q))
+            window.request_action("fail", (JOINT, "locked" if locked else "healthy"))
+            window.request_action("losses", locked)
+            window.wait_until_done(30)
             window.stage.before.visible = True
             page.evaluate("() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))")
             page.wait_for_timeout(120)

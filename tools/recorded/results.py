@@ -36,7 +36,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "arm": lambda: hf.Arm.from_urdf(INPUTS / "arm.urdf", tip="link7"),
     "task": lambda: [control.pseudoinverse(PANDA, rows).task for rows in ("pose", "pointing", ["vx", "vy", "wz"])],
     "index_values": lambda: [
-        hf.indices.by_name(label, PANDA).evaluate(HOME) for label in sorted(hf.registry.INDICES.labels(PANDA))
+        hf.indices.by_name(label, PANDA).evaluate(HOME) for label in sorted(hf.registry.INDEX_REGISTRY.labels(PANDA))
     ],
     "susceptibilities": lambda: [
         make(PANDA).evaluate(HOME) for make in (hf.susceptibility.torque, hf.susceptibility.swing_angle)
@@ -82,10 +82,12 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "trajectory": lambda: hf.follow(
         PANDA, hf.paths.TimedPath.load(INPUTS / "line.yaml"), minimise=hf.susceptibility.torque(PANDA), samples=21
     ),
-    "designs": lambda: hf.design(FLAT, VARY, region=BENCH, task="planar", poses=12, designs=6, climbs=1, fresh=40),
-    "convergence_designs": lambda: hf.design_for_convergence(LAW, VARY, designs=4, climbs=1, keep_reach=True),
+    "designs": lambda: hf.design(
+        FLAT, VARY, region=BENCH, task="planar", poses=12, designs=6, local_searches=1, check_poses=40
+    ),
+    "convergence_designs": lambda: hf.design_for_convergence(LAW, VARY, designs=4, local_searches=1, keep_reach=True),
     "clearance": lambda: [x(HOME) for x in (CLEAR, CLEAR.gradient, CLEAR.by_pair)],
-    "task_bank": lambda: teleop.task_bank(FLAT, 4, seed=1),
+    "task_bank": lambda: teleop.make_task_bank(FLAT, 4, seed=1),
     "analysis": lambda: analyse(
         teleop.trial_table(teleop.simulate_experiment("exp", teleop.read_protocol(INPUTS / "tiny.yaml"), 6, seed=2)),
         missing="complete",

@@ -16,8 +16,8 @@ found = hf.design(
     task="planar",
     poses=32,
     designs=24,
-    climbs=2,
-    fresh=200,
+    local_searches=2,
+    check_poses=200,
     seed=1,
 )
 for line in found.describe():

@@ -11,7 +11,7 @@ import holdfast as hf
 from holdfast import teleop
 
 arm = hf.arms.load("planar-3r")
-bank = teleop.task_bank(arm, per_joint=40, seed=1)
+bank = teleop.make_task_bank(arm, per_joint=40, seed=1)
 choice = teleop.choose_tasks(bank, arm, count=12)
 for line in choice.describe():
     print(line)

@@ -14,7 +14,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast import studies
-from holdfast.engine import Study, Threads
+from holdfast.engine import Study, ThreadRunner
 
 ASKED = """
 seed: 1
@@ -29,9 +29,9 @@ with tempfile.TemporaryDirectory() as folder:
     file.write_text(ASKED)
     asked = studies.read(file)
     study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
-    study.run(asked.cells, Threads(2))
+    study.run(asked.cells, ThreadRunner(2))
     for number in range(len(study.cells)):
-        run = hf.load(study.folder(number))
+        run = hf.load(study.cell_folder(number))
         h, axes = np.linspace(0, run.distribution.quantile(0.995), 200), panels[number % 2]
         axes.plot(h, 1 - run.cdf(h), lw=2, label=run.arm.name)
         axes.set_xlabel(f"{run.index.name}, worst lock")

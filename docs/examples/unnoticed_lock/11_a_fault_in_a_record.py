@@ -10,14 +10,14 @@ import holdfast as hf
 
 panda = hf.arms.load("panda")
 friction = {"coulomb": [0.5] * 7, "viscous": [0.3] * 7}
-healthy = [hf.diagnosis.rehearse(panda, 3, seed=k, body=0) for k in range(4)]
+healthy = [hf.diagnosis.simulate_log(panda, 3, seed=k, robot=0) for k in range(4)]
 bounds = hf.diagnosis.calibrate(panda, healthy, **friction)
 
 # %%
 # The same robot with a lock after 1.5 s:
 
 fault = hf.faults.FaultEvent("locked", "panda_joint3", 1.5)
-record = hf.diagnosis.rehearse(panda, 3, seed=9, body=0, faults=[fault])
+record = hf.diagnosis.simulate_log(panda, 3, seed=9, robot=0, faults=[fault])
 found = hf.diagnosis.diagnose(panda, record, bounds)
 print("\n".join(found.describe()))
 found.plot()

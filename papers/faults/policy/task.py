@@ -49,7 +49,7 @@ def environment(faulty: faults.Fault | None, seed: int) -> faults.FaultWrapper:
     import gymnasium
 
     env = gymnasium.make(NAME, max_episode_steps=STEPS + 1)
-    return faults.FaultWrapper(env, faults.Faults([] if faulty is None else [faulty], seed), joints=JOINTS)
+    return faults.FaultWrapper(env, faults.FaultModel([] if faulty is None else [faulty], seed), joints=JOINTS)
 
 
 def off(env: Any) -> float:

@@ -1,4 +1,6 @@
-"""The machine: joints, links, limits, tool, gravity; from DH tables, URDF or MJCF files or built in; symbolic kinematics."""
+"""Model of a serial arm: joints, links, limits, tool, and gravity, with symbolic kinematics, statics, and dynamics; arms come
+from DH tables, URDF or MJCF files, or are built in.
+"""
 
 from holdfast._lazy import offer
 

@@ -1,37 +1,39 @@
-"""Configurations as arrays: checked input, and limits to draw them between."""
+"""Check configurations and finite joint limits to sample between."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.machine import Machine
+from holdfast.arm.machine import ArmData
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 
 
-def as_configurations(arm: Machine, q: ArrayLike) -> tuple[Array, bool]:
-    """``q`` as (N, n), and whether it was a single configuration, which must then be finite.
+def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[Array, bool]:
+    """Return ``q`` as (N, n), and whether it was a single configuration, which must then be finite.
 
     Raises:
         InputError: Wrong shape; NaN or infinity in a single configuration.
     """
-    a = arm.check_configurations(q)
-    single = a.ndim == 1
-    if single and not np.isfinite(a).all():
+    checked_q = arm.check_configurations(q)
+    single = checked_q.ndim == 1
+    if single and not np.isfinite(checked_q).all():
         raise InputError(f"q for '{arm.name}' holds NaN or infinity; give {arm.n} finite numbers")
-    return np.atleast_2d(a), single
+    return np.atleast_2d(checked_q), single
 
 
-def finite_limits(arm: Machine) -> tuple[Array, Array]:
-    """(n,) lower and upper limits to draw between: where there is none, +-pi rad or +-1 m, or that far beyond the other."""
-    return made_finite(arm.lower, arm.upper, arm.prismatic)
+def finite_limits(arm: ArmData) -> tuple[Array, Array]:
+    """Return (n,) lower and upper limits to sample between; a missing limit is +-pi rad or +-1 m, or lies that far beyond the
+    other limit.
+    """
+    return make_limits_finite(arm.lower, arm.upper, arm.prismatic)
 
 
-def made_finite(lower: Array, upper: Array, prismatic: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """As :func:`finite_limits` for limits (..., n) that are not those of one arm."""
-    free = np.where(prismatic, 1.0, np.pi)
-    low = np.where(np.isfinite(lower), lower, np.minimum(-free, upper - free))
-    high = np.where(np.isfinite(upper), upper, np.maximum(free, lower + free))
-    return low, high
+def make_limits_finite(lower: Array, upper: Array, prismatic: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Replace infinite limits (..., n), which need not belong to one arm, as :func:`finite_limits` does."""
+    default_bound = np.where(prismatic, 1.0, np.pi)
+    finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))
+    finite_upper = np.where(np.isfinite(upper), upper, np.maximum(default_bound, lower + default_bound))
+    return finite_lower, finite_upper

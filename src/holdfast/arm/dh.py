@@ -1,4 +1,4 @@
-"""Arms from Denavit-Hartenberg tables, in Python or as YAML files."""
+"""Build arms from Denavit-Hartenberg tables."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
-from holdfast.arm.machine import Joint, JointType, Link, Machine, snapped, transform
+from holdfast.arguments import check_constructor
+from holdfast.arm.machine import ArmData, Joint, JointType, Link, check_transform, snap_exact_values
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
 class DH:
     """One row of a Denavit-Hartenberg table.
@@ -47,23 +47,23 @@ class DH:
     armature: float = 0.0
 
 
-def _rot_x(angle: float) -> Array:
-    c, s = np.cos(angle), np.sin(angle)
-    return snapped(np.array([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1.0]]))
+def _rotation_about_x(angle: float) -> Array:
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return snap_exact_values(np.array([[1, 0, 0, 0], [0, cosine, -sine, 0], [0, sine, cosine, 0], [0, 0, 0, 1.0]]))
 
 
-def _rot_z(angle: float) -> Array:
-    c, s = np.cos(angle), np.sin(angle)
-    return snapped(np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
+def _rotation_about_z(angle: float) -> Array:
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return snap_exact_values(np.array([[cosine, -sine, 0, 0], [sine, cosine, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
 
 
-def _shift(x: float, z: float) -> Array:
-    t = np.eye(4)
-    t[0, 3], t[2, 3] = x, z
-    return t
+def _translation(x: float, z: float) -> Array:
+    pose = np.eye(4)
+    pose[0, 3], pose[2, 3] = x, z
+    return pose
 
 
-def build(
+def build_from_rows(
     rows: Sequence[DH],
     links: Sequence[Link | None] | None,
     convention: str,
@@ -73,8 +73,8 @@ def build(
     payload: Link | None,
     name: str,
     source: str,
-) -> Machine:
-    """See :meth:`holdfast.Arm.from_dh`.
+) -> ArmData:
+    """Build the machine data of an arm from DH rows; see :meth:`holdfast.Arm.from_dh`.
 
     A row is a fixed transform, the joint's own motion about or along z, and another fixed transform. Between two
     motions the fixed ones multiply; a link given in its row's frame moves with the joint that comes before it.
@@ -86,25 +86,25 @@ def build(
     joints: list[Joint] = []
     bodies: list[Link | None] = []
     pending = np.eye(4)  # fixed transform since the last joint's moving frame
-    after = np.eye(4)  # row frame in the moving frame of its joint
-    for k, row in enumerate(rows):
-        label = row.name or f"joint{k + 1}"
+    row_frame = np.eye(4)  # row frame in the moving frame of its joint
+    for row_index, row in enumerate(rows):
+        label = row.name or f"joint{row_index + 1}"
         for field in ("a", "alpha", "d", "theta"):
             value = getattr(row, field)
             if not isinstance(value, (int, float, np.floating, np.integer)) or not np.isfinite(value):
-                raise ArmError(f"DH row {k + 1} ('{label}'): {field} is {value!r}; it must be a finite number")
+                raise ArmError(f"DH row {row_index + 1} ('{label}'): {field} is {value!r}; it must be a finite number")
         if row.type not in ("revolute", "prismatic"):
-            raise ArmError(f"DH row {k + 1} ('{label}') has type '{row.type}'; use revolute or prismatic")
+            raise ArmError(f"DH row {row_index + 1} ('{label}') has type '{row.type}'; use revolute or prismatic")
         sliding = row.type == "prismatic"
-        offset = _rot_z(row.theta) @ _shift(0, row.d)  # rotation about z and translation along z commute
-        along_x = _rot_x(row.alpha) @ _shift(row.a, 0)
+        offset = _rotation_about_z(row.theta) @ _translation(0, row.d)  # rotation about z and translation along z commute
+        along_x = _rotation_about_x(row.alpha) @ _translation(row.a, 0)
         if convention == "standard":
             # The constant part of the motion along the joint's own axis may be on either side of it.
-            origin, after = pending @ (_rot_z(row.theta)), _shift(0, row.d) @ along_x
+            origin, row_frame = pending @ (_rotation_about_z(row.theta)), _translation(0, row.d) @ along_x
             if sliding:
-                origin, after = pending @ offset, along_x
+                origin, row_frame = pending @ offset, along_x
         else:
-            origin, after = pending @ along_x @ offset, np.eye(4)
+            origin, row_frame = pending @ along_x @ offset, np.eye(4)
         limited = row.lower is not None or row.upper is not None
         kind: JointType = "prismatic" if sliding else ("revolute" if limited else "continuous")
         joints.append(
@@ -121,18 +121,18 @@ def build(
                 armature=float(row.armature),
             )
         )
-        link = links[k] if links is not None else None
-        bodies.append(None if link is None else link.moved(after))
-        pending = after
-    hand = after if tool is None else after @ transform(tool, f"tool of arm '{name}'")
-    return Machine(
+        link = links[row_index] if links is not None else None
+        bodies.append(None if link is None else link.moved(row_frame))
+        pending = row_frame
+    tool_frame = row_frame if tool is None else row_frame @ check_transform(tool, f"tool of arm '{name}'")
+    return ArmData(
         name=name,
         joints=tuple(joints),
         links=tuple(bodies),
         base=np.eye(4) if base is None else np.asarray(base, dtype=np.float64),
-        tool=hand,
+        tool=tool_frame,
         gravity=np.asarray(gravity, dtype=np.float64),
-        payload=None if payload is None else payload.moved(after),
+        payload=None if payload is None else payload.moved(row_frame),
         source=source,
-        flange=after,
+        flange=row_frame,
     )

@@ -1,4 +1,4 @@
-"""The data of a machine: joints, links, tool, base, gravity and payload; checked and immutable."""
+"""Checked, immutable data of an arm: joints, links, tool, base, gravity, and payload."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class, real_numbers
-from holdfast.arm.poses import motion
+from holdfast.arguments import check_constructor, require_real_numbers
+from holdfast.arm.poses import joint_motion
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
 from holdfast.files.reading import is_unicode
@@ -23,13 +23,13 @@ GRAVITY = (0.0, 0.0, -9.81)
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
 FARTHEST_LIMIT_RAD = 200 * np.pi
 FARTHEST_LIMIT_M = 1000.0
-_MOST = 1e12  # of any number, so that their products stay finite
+_MAX_ABSOLUTE_VALUE = 1e12  # of any number, so that their products stay finite
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """One degree of freedom: its frame sits at ``origin`` in the previous link frame, it moves about or along ``axis``.
+    """One degree of freedom: its frame sits at ``origin`` in the previous link frame, and it moves about or along ``axis``.
 
     Attributes:
         name: Unique in the arm.
@@ -61,13 +61,13 @@ class Joint:
             raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
         if not is_unicode(self.name):
             raise ArmError(f"the joint name {self.name!a} holds half of a surrogate pair; give a name of whole characters")
-        object.__setattr__(self, "origin", transform(self.origin, f"origin of joint '{self.name}'"))
-        axis = _numbers(self.axis, f"axis of joint '{self.name}'")
-        length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < _MOST else 0.0
+        object.__setattr__(self, "origin", check_transform(self.origin, f"origin of joint '{self.name}'"))
+        axis = _as_float_array(self.axis, f"axis of joint '{self.name}'")
+        length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < _MAX_ABSOLUTE_VALUE else 0.0
         if not (np.isfinite(length) and length > 1e-9):
             raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers below 1e12, not all 0")
         # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.
-        object.__setattr__(self, "axis", _frozen(snapped(axis if abs(length - 1) < 4e-15 else axis / length)))
+        object.__setattr__(self, "axis", _as_read_only(snap_exact_values(axis if abs(length - 1) < 4e-15 else axis / length)))
         for field_name in _JOINT_NUMBERS:
             value = float(getattr(self, field_name))
             sign = "" if field_name in ("lower", "upper") else " of 0 or more"
@@ -100,11 +100,11 @@ class Joint:
         return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
 
     def motion(self, value: float) -> Array:
-        """(4, 4) pose of what moves with the joint in the joint's own frame; ``value`` in rad or m."""
-        return motion(self.type, self.axis, value)
+        """Return the pose (4, 4) of the moving link in the joint's own frame; ``value`` in rad or m."""
+        return joint_motion(self.type, self.axis, value)
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
 class Link:
     """Inertial data of a rigid body.
@@ -125,45 +125,45 @@ class Link:
 
     def __post_init__(self) -> None:
         label = f"link '{self.name}'" if self.name else "link"
-        com, inertia = _numbers(self.com, f"com of {label}"), _numbers(self.inertia, f"inertia of {label}")
+        com, inertia = _as_float_array(self.com, f"com of {label}"), _as_float_array(self.inertia, f"inertia of {label}")
         if com.shape != (3,) or inertia.shape != (3, 3):
             raise ArmError(f"{label}: com has shape {com.shape} and inertia {inertia.shape}; they must be (3,) and (3, 3)")
         if not (np.isfinite(self.mass) and np.isfinite(com).all() and np.isfinite(inertia).all()):
             raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
         if self.mass < 0:
             raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
-        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MOST:
-            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MOST:g}; give kg, m and kg m^2")
+        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MAX_ABSOLUTE_VALUE:
+            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MAX_ABSOLUTE_VALUE:g}; give kg, m and kg m^2")
         if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
             raise ArmError(f"{label}: the inertia matrix is not symmetric")
         object.__setattr__(self, "mass", float(self.mass))
-        object.__setattr__(self, "com", _frozen(com))
-        object.__setattr__(self, "inertia", _frozen((inertia + inertia.T) / 2))
+        object.__setattr__(self, "com", _as_read_only(com))
+        object.__setattr__(self, "inertia", _as_read_only((inertia + inertia.T) / 2))
 
     def moved(self, transform: ArrayLike) -> Link:
-        """The same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new one."""
-        t = np.asarray(transform, dtype=np.float64)
-        rotation = t[:3, :3]
-        return Link(self.mass, rotation @ self.com + t[:3, 3], rotation @ self.inertia @ rotation.T, name=self.name)
+        """Return the same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new frame."""
+        pose = np.asarray(transform, dtype=np.float64)
+        rotation = pose[:3, :3]
+        return Link(self.mass, rotation @ self.com + pose[:3, 3], rotation @ self.inertia @ rotation.T, name=self.name)
 
     @staticmethod
     def joined(bodies: Sequence[Link], name: str | None = None) -> Link:
-        """Rigidly connected bodies, all in one frame, as one (parallel axis theorem)."""
-        mass = sum(b.mass for b in bodies)
+        """Return rigidly connected bodies, all in one frame, as one body (parallel axis theorem)."""
+        mass = sum(body.mass for body in bodies)
         if mass <= 0:
-            total = np.sum([b.inertia for b in bodies], axis=0) if bodies else np.zeros((3, 3))
-            return Link(0.0, np.zeros(3), total, name=name)
-        com = np.sum([b.mass * b.com for b in bodies], axis=0) / mass
+            inertia_sum = np.sum([body.inertia for body in bodies], axis=0) if bodies else np.zeros((3, 3))
+            return Link(0.0, np.zeros(3), inertia_sum, name=name)
+        com = np.sum([body.mass * body.com for body in bodies], axis=0) / mass
         inertia = np.zeros((3, 3))
-        for b in bodies:
-            r = b.com - com
-            inertia += b.inertia + b.mass * (r @ r * np.eye(3) - np.outer(r, r))
+        for body in bodies:
+            offset = body.com - com
+            inertia += body.inertia + body.mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
         return Link(mass, com, inertia, name=name)
 
 
 @dataclass(frozen=True)
 class Chain:
-    """Which part of a file an arm is.
+    """Part of a file that makes up an arm.
 
     Attributes:
         base: Link that it is mounted on.
@@ -187,8 +187,8 @@ class Chain:
 
 
 @dataclass(frozen=True, eq=False)
-class Machine:
-    """What is known about a serial arm.
+class ArmData:
+    """Geometry, limits, and inertial data of a serial arm.
 
     Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.
 
@@ -226,24 +226,28 @@ class Machine:
         joints = tuple(self.joints)
         if not joints:
             raise ArmError(f"arm '{self.name}' has no joints; it needs at least one")
-        names = [j.name for j in joints]
-        double = sorted({x for x in names if names.count(x) > 1})
+        names = [joint.name for joint in joints]
+        double = sorted({joint_name for joint_name in names if names.count(joint_name) > 1})
         if double:
             raise ArmError(f"arm '{self.name}': the joint name '{double[0]}' is used more than once; names must be unique")
         links = tuple(self.links) or (None,) * len(joints)
         if len(links) != len(joints):
             raise ArmError(f"arm '{self.name}' has {len(joints)} joints and {len(links)} links; it needs one link per joint")
-        gravity = _numbers(self.gravity, f"gravity of arm '{self.name}'")
+        gravity = _as_float_array(self.gravity, f"gravity of arm '{self.name}'")
         if gravity.shape != (3,) or not np.isfinite(gravity).all():
             raise ArmError(f"arm '{self.name}': gravity must be 3 finite numbers, m/s^2, for example {GRAVITY}")
         object.__setattr__(self, "joints", joints)
         object.__setattr__(self, "links", links)
-        object.__setattr__(self, "base", transform(self.base, f"base of arm '{self.name}'"))
-        object.__setattr__(self, "tool", transform(self.tool, f"tool of arm '{self.name}'"))
-        object.__setattr__(self, "flange", transform(self.flange, f"flange of arm '{self.name}'"))
-        object.__setattr__(self, "gravity", _frozen(gravity))
+        object.__setattr__(self, "base", check_transform(self.base, f"base of arm '{self.name}'"))
+        object.__setattr__(self, "tool", check_transform(self.tool, f"tool of arm '{self.name}'"))
+        object.__setattr__(self, "flange", check_transform(self.flange, f"flange of arm '{self.name}'"))
+        object.__setattr__(self, "gravity", _as_read_only(gravity))
         # An arm made by replace() may have other joints than the states were written for.
-        states = {name: _frozen(q) for name, q in self.states.items() if np.shape(q) == (len(joints),)}
+        states = {
+            name: _as_read_only(configuration)
+            for name, configuration in self.states.items()
+            if np.shape(configuration) == (len(joints),)
+        }
         object.__setattr__(self, "states", states)
 
     @property
@@ -253,28 +257,28 @@ class Machine:
 
     @cached_property
     def lower(self) -> Array:
-        """(n,) lower limits, rad or m; -inf where there is none."""
-        return _frozen(np.array([j.lower for j in self.joints]))
+        """Lower limits (n,), rad or m; -inf where there is none."""
+        return _as_read_only(np.array([j.lower for j in self.joints]))
 
     @cached_property
     def upper(self) -> Array:
-        """(n,) upper limits, rad or m; inf where there is none."""
-        return _frozen(np.array([j.upper for j in self.joints]))
+        """Upper limits (n,), rad or m; inf where there is none."""
+        return _as_read_only(np.array([j.upper for j in self.joints]))
 
     @cached_property
     def joint_names(self) -> tuple[str, ...]:
-        """Names from base to tip."""
+        """Joint names from base to tip."""
         return tuple(j.name for j in self.joints)
 
     @cached_property
     def prismatic(self) -> NDArray[np.bool_]:
-        """(n,) True for prismatic joints."""
-        sliding = np.array([j.prismatic for j in self.joints])
-        sliding.setflags(write=False)
-        return sliding
+        """Array (n,) that is True for prismatic joints."""
+        is_prismatic = np.array([j.prismatic for j in self.joints])
+        is_prismatic.setflags(write=False)
+        return is_prismatic
 
     def joint_index(self, joint: str | int) -> int:
-        """Index from 0 of a joint given by name or index from 0.
+        """Return the index from 0 of a joint given by name or index from 0.
 
         Raises:
             InputError: There is no such joint; the message lists those there are.
@@ -288,26 +292,26 @@ class Machine:
         raise InputError(f"'{self.name}' has no joint '{joint}'; its joints are {', '.join(self.joint_names)}")
 
     def joint_indices(self, joints: Iterable[str | int]) -> tuple[int, ...]:
-        """Indices from 0, sorted, of joints given by name or index from 0; see :meth:`joint_index`."""
-        return tuple(sorted(self.joint_index(j) for j in joints))
+        """Return the indices from 0, sorted, of joints given by name or index from 0; see :meth:`joint_index`."""
+        return tuple(sorted(self.joint_index(joint) for joint in joints))
 
     @cached_property
     def frames_at_zero(self) -> Array:
-        """(n + 1, 4, 4) poses in the world of the joint frames and of the tool, all joints at 0."""
+        """World poses (n + 1, 4, 4) of the joint frames and of the tool with all joints at 0."""
         frames, pose = [], self.base
         for joint in self.joints:
             pose = pose @ joint.origin
             frames.append(pose)
-        return _frozen(np.array([*frames, pose @ self.tool]))
+        return _as_read_only(np.array([*frames, pose @ self.tool]))
 
     @cached_property
     def axes_at_zero(self) -> Array:
-        """(n, 3) unit vectors in the world of the joint axes, all joints at 0."""
-        return _frozen(np.array([t[:3, :3] @ j.axis for t, j in zip(self.frames_at_zero, self.joints, strict=False)]))
+        """World unit vectors (n, 3) of the joint axes with all joints at 0."""
+        return _as_read_only(np.array([t[:3, :3] @ j.axis for t, j in zip(self.frames_at_zero, self.joints, strict=False)]))
 
     @cached_property
     def length_unit(self) -> float:
-        """A length of about the arm's own size, m: its links end to end and the tool, rounded to a power of two.
+        """Length close to the arm's own size, m: the sum of its link lengths and the tool, rounded to a power of two.
 
         Errors are divided by it before they are compared with a threshold. A power of two rounds nothing in that: copies of
         an arm in sizes a power of two apart do the same to the last bit. 1 m where nothing has a length.
@@ -317,80 +321,84 @@ class Machine:
 
     @property
     def end_to_end(self) -> float:
-        """Links behind the first joint, the tool, and what slides with limits travel, m: the tool is never farther off."""
+        """Upper bound of the distance from the first joint to the tool, m: link lengths behind the first joint, the tool, and
+        the limited travel of prismatic joints.
+        """
         size = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in self.joints[1:])
         size += float(np.linalg.norm(self.tool[:3, 3]))
-        slides = [max(abs(j.lower), abs(j.upper)) for j in self.joints if j.prismatic]
-        return size + sum(x for x in slides if np.isfinite(x))
+        travels = [max(abs(j.lower), abs(j.upper)) for j in self.joints if j.prismatic]
+        return size + sum(x for x in travels if np.isfinite(x))
 
     @cached_property
     def fingerprint(self) -> str:
-        """SHA-256 of the numbers that define the arm (not its name or source): the same arm has the same one."""
+        """SHA-256 of the numbers that define the arm, without its name and source; equal arms have equal fingerprints."""
         data: dict[str, Any] = {
             "joints": [
                 [j.name, j.type, j.origin.tolist(), j.axis.tolist(), *(getattr(j, key) for key in _JOINT_NUMBERS)]
                 for j in self.joints
             ],
-            "links": [x and [x.mass, x.com.tolist(), x.inertia.tolist()] for x in (*self.links, self.payload)],
+            "links": [body and [body.mass, body.com.tolist(), body.inertia.tolist()] for body in (*self.links, self.payload)],
             "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist(), self.flange.tolist()],
         }
         return hashlib.sha256(json.dumps(data).encode()).hexdigest()
 
     def check_configurations(self, q: ArrayLike) -> Array:
-        """``q`` as float64, ``(n,)`` or ``(N, n)``.
+        """Return ``q`` as float64, ``(n,)`` or ``(N, n)``.
 
         Raises:
             InputError: Wrong number of joint values, or not numbers.
         """
-        a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
-        if a.ndim > 2:
-            raise InputError(f"q for '{self.name}' has the shape {a.shape}; it must be ({self.n},) or (N, {self.n})")
-        if a.ndim == 0 or a.shape[-1] != self.n:
-            got = a.shape[-1] if a.ndim else 0
-            raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
-        return a
+        array = require_real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
+        if array.ndim > 2:
+            raise InputError(f"q for '{self.name}' has the shape {array.shape}; it must be ({self.n},) or (N, {self.n})")
+        if array.ndim == 0 or array.shape[-1] != self.n:
+            value_count = array.shape[-1] if array.ndim else 0
+            raise InputError(
+                f"q for '{self.name}' has {value_count} values per configuration; it must have {self.n}, one per joint"
+            )
+        return array
 
     def __getstate__(self) -> dict[str, Any]:
-        """The data alone: what was compiled from them cannot go to another process."""
+        """Return the fields alone, because compiled kernels cannot be sent to another process."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name!r}, {self.n} joints)"
 
 
-def _frozen(a: Array) -> Array:
-    b = np.array(a, dtype=np.float64)
-    b.setflags(write=False)
-    return b
+def _as_read_only(a: Array) -> Array:
+    copied = np.array(a, dtype=np.float64)
+    copied.setflags(write=False)
+    return copied
 
 
-def _numbers(value: ArrayLike, what: str) -> Array:
+def _as_float_array(value: ArrayLike, label: str) -> Array:
     try:
         return np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise ArmError(f"{what} must be numbers in an array of the right shape") from error
+        raise ArmError(f"{label} must be numbers in an array of the right shape") from error
 
 
-def snapped(a: Array) -> Array:
-    """Rounding noise of cos(pi/2) and the like becomes exactly 0, 1 or -1, so that symbolic products vanish."""
-    b = a.copy()
+def snap_exact_values(a: Array) -> Array:
+    """Replace rounding noise such as cos(pi/2) by exactly 0, 1, or -1, so that symbolic products vanish."""
+    exact = a.copy()
     for value in (-1.0, 0.0, 1.0):
-        b[np.abs(b - value) < 1e-15] = value
-    return b
+        exact[np.abs(exact - value) < 1e-15] = value
+    return exact
 
 
-def transform(value: ArrayLike, what: str) -> Array:
-    """A pose (4, 4) from a caller, checked; ``what`` is what an error calls it."""
-    t = _numbers(value, what)
-    if t.shape != (4, 4) or not np.isfinite(t).all():
-        raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
-    if np.abs(t).max() > _MOST:
-        raise ArmError(f"{what} is beyond {_MOST:g} m; give lengths in metres")
-    rotation = t[:3, :3]
+def check_transform(value: ArrayLike, label: str) -> Array:
+    """Return a checked pose (4, 4) from a caller; ``label`` names it in error messages."""
+    pose = _as_float_array(value, label)
+    if pose.shape != (4, 4) or not np.isfinite(pose).all():
+        raise ArmError(f"{label} must be a 4x4 array of finite numbers, got shape {pose.shape}")
+    if np.abs(pose).max() > _MAX_ABSOLUTE_VALUE:
+        raise ArmError(f"{label} is beyond {_MAX_ABSOLUTE_VALUE:g} m; give lengths in metres")
+    rotation = pose[:3, :3]
     if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
-        raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")
-    if not np.allclose(t[3], [0, 0, 0, 1]):
-        raise ArmError(f"{what}: its last row is {t[3].tolist()}; it must be 0, 0, 0, 1")
-    out = t.copy()
-    out[:3, :3] = snapped(rotation)
-    return _frozen(out)
+        raise ArmError(f"{label}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")
+    if not np.allclose(pose[3], [0, 0, 0, 1]):
+        raise ArmError(f"{label}: its last row is {pose[3].tolist()}; it must be 0, 0, 0, 1")
+    exact = pose.copy()
+    exact[:3, :3] = snap_exact_values(rotation)
+    return _as_read_only(exact)

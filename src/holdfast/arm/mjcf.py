@@ -1,4 +1,4 @@
-"""Arms from MJCF files: MuJoCo reads and compiles the file, one chain of its tree of bodies is the arm.
+"""Read arms from MJCF files: MuJoCo compiles the file, and one chain of its tree of bodies is the arm.
 
 What MuJoCo adds to the format (defaults, includes, inertia from shapes, degrees) is therefore as MuJoCo means it.
 """
@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm import mjcf_limits
-from holdfast.arm.machine import Link, Machine, snapped
-from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
+from holdfast.arm.machine import ArmData, Link, snap_exact_values
+from holdfast.arm.tree import LinkTree, LockedJoints, TreeJoint, build_chain, resolve_ends
 from holdfast.errors import ArmError, HoldfastError
 from holdfast.words import list_names
 
@@ -27,7 +27,7 @@ UNNAMED_MODEL = "MuJoCo Model"
 
 
 def import_mujoco() -> ModuleType:
-    """MuJoCo, which is not one of the packages that holdfast always brings.
+    """Import MuJoCo, which is an optional dependency of holdfast.
 
     Raises:
         HoldfastError: It is not installed.
@@ -42,28 +42,28 @@ def import_mujoco() -> ModuleType:
 
 
 @contextmanager
-def quiet() -> Iterator[None]:
+def silence_mujoco() -> Iterator[None]:
     """Keep MuJoCo from writing its warnings to stdout and to MUJOCO_LOG.TXT in the working folder."""
     mujoco = import_mujoco()
-    before = mujoco.get_mju_user_warning()
+    previous_handler = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda _: None)
     try:
         yield
     finally:
-        mujoco.set_mju_user_warning(before)
+        mujoco.set_mju_user_warning(previous_handler)
 
 
-@checked
-def load(
+@check_arguments
+def load_mjcf(
     path: str | Path,
     base: str | None = None,
     tip: str | None = None,
     hold: Mapping[str, float] | None = None,
     name: str | None = None,
-) -> Machine:
-    """The serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast[physics]``).
+) -> ArmData:
+    """Return the serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast[physics]``).
 
-    As :func:`holdfast.arm.urdf.load` does it: bodies without a joint are folded away, and what hangs on the chain without
+    As :func:`holdfast.arm.urdf.load_urdf` does it: bodies without a joint are folded away, and what hangs on the chain without
     being part of it becomes part of the body it hangs on, its own joints held where the file puts them. Hinges are
     revolute with a range and continuous without one, slides are prismatic. Several joints of one body become joints with
     massless links in between. ``links[i]`` is given in a frame with the axes of the body and the anchor of joint i as
@@ -93,37 +93,37 @@ def load(
     path = Path(path)
     mujoco = import_mujoco()
     try:
-        model, label = _compiled(mujoco, path)
+        model, label = _compile_model(mujoco, path)
         if not model.njnt:
             raise ArmError("the model has no joint; an arm needs at least one")
-        tree = _tree(mujoco, model, label, tip)
-        arm = _arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
+        tree = _read_tree(mujoco, model, label, tip)
+        arm = _build_arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
         return replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
 
-def compiled_tree(path: Path) -> tuple[Any, Tree]:
-    """The model of a file as MuJoCo compiles it, and its bodies and joints.
+def compile_tree(path: Path) -> tuple[Any, LinkTree]:
+    """Return the model of a file as MuJoCo compiles it, and the tree of its bodies and joints.
 
     Raises:
         ArmError: MuJoCo cannot read the file.
         HoldfastError: MuJoCo is not installed.
     """
     mujoco = import_mujoco()
-    model, label = _compiled(mujoco, path)
-    return model, _tree(mujoco, model, label, None)
+    model, label = _compile_model(mujoco, path)
+    return model, _read_tree(mujoco, model, label, None)
 
 
 def body_name(model: Any, body: int) -> str:
-    """What the tree calls a body of the model."""
+    """Return the name of a body of the model in the tree."""
     return model.body(body).name or f"body{body}"
 
 
-def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
-    text = mjcf_limits.check(path)
+def _compile_model(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
+    text = mjcf_limits.read_checked_model(path)
     try:
-        with quiet():
+        with silence_mujoco():
             if path.suffix.lower() == ".xml":
                 spec = mujoco.MjSpec.from_file(str(path))
             else:  # MuJoCo goes by the ending
@@ -133,15 +133,15 @@ def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
     except ValueError as error:
         reason = " ".join(str(error).split())
         raise ArmError(f"MuJoCo cannot read this ({reason}); give a valid MJCF file, with the files that it names") from error
-    named = spec.modelname
-    return model, named if named and named != UNNAMED_MODEL else path.stem
+    model_name = spec.modelname
+    return model, model_name if model_name and model_name != UNNAMED_MODEL else path.stem
 
 
 # ---- the tree ----------------------------------------------------------------------------------------------------
 
 
-def pose_of(position: ArrayLike, wxyz: ArrayLike) -> Array:
-    """(4, 4) from a position, m, and a unit quaternion, w first."""
+def pose_from_wxyz(position: ArrayLike, wxyz: ArrayLike) -> Array:
+    """Return the pose (4, 4) of a position, m, and a unit quaternion, w first."""
     w, x, y, z = np.asarray(wxyz, dtype=np.float64)
     pose = np.eye(4)
     pose[:3, :3] = [
@@ -149,20 +149,20 @@ def pose_of(position: ArrayLike, wxyz: ArrayLike) -> Array:
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
     ]
-    pose[:3, :3] = snapped(pose[:3, :3])
+    pose[:3, :3] = snap_exact_values(pose[:3, :3])
     pose[:3, 3] = position
     return pose
 
 
-def _names(count: int, accessor: Callable[[int], Any], word: str, start: int) -> list[str]:
-    """Names of all bodies or joints; what has none gets its number, counted from ``start``."""
-    given = [str(accessor(k).name) for k in range(count)]
-    return [name or f"{word}{k + start}" for k, name in enumerate(given)]
+def _names_or_numbers(count: int, accessor: Callable[[int], Any], kind: str, start: int) -> list[str]:
+    """Return the names of all bodies or joints; an unnamed one gets its number, counted from ``start``."""
+    names = [str(accessor(k).name) for k in range(count)]
+    return [name or f"{kind}{k + start}" for k, name in enumerate(names)]
 
 
-def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
-    bodies = _names(model.nbody, model.body, "body", 0)
-    joint_names = _names(model.njnt, model.joint, "joint", 1)
+def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> LinkTree:
+    bodies = _names_or_numbers(model.nbody, model.body, "body", 0)
+    joint_names = _names_or_numbers(model.njnt, model.joint, "joint", 1)
     kinds = {
         int(mujoco.mjtJoint.mjJNT_HINGE): "hinge",
         int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
@@ -171,139 +171,162 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
     }
     links: dict[str, Link | None] = {bodies[0]: None}
     joints: dict[str, TreeJoint] = {}
-    for b in range(1, model.nbody):
-        body, link = bodies[b], bodies[int(model.body_parentid[b])]
-        pending = pose_of(model.body_pos[b], model.body_quat[b])  # of the body, in the link reached so far
-        first, count = int(model.body_jntadr[b]), int(model.body_jntnum[b])
-        for j in range(first, first + count):
+    for body_index in range(1, model.nbody):
+        body, link = bodies[body_index], bodies[int(model.body_parentid[body_index])]
+        pending = pose_from_wxyz(
+            model.body_pos[body_index], model.body_quat[body_index]
+        )  # of the body, in the link reached so far
+        first, count = int(model.body_jntadr[body_index]), int(model.body_jntnum[body_index])
+        for joint_index in range(first, first + count):
             anchor = np.eye(4)
-            anchor[:3, 3] = model.jnt_pos[j]
-            last_here = j == first + count - 1 and not model.jnt_pos[j].any()
-            child = body if last_here else f"{body} at {joint_names[j]}"
-            joint = _joint(mujoco, model, j, joint_names[j], kinds[int(model.jnt_type[j])])
+            anchor[:3, 3] = model.jnt_pos[joint_index]
+            last_here = joint_index == first + count - 1 and not model.jnt_pos[joint_index].any()
+            child = body if last_here else f"{body} at {joint_names[joint_index]}"
+            joint = _read_joint(mujoco, model, joint_index, joint_names[joint_index], kinds[int(model.jnt_type[joint_index])])
             # At its reference value, not at 0, the joint leaves the body where the file puts it.
             joint = replace(joint, parent=link, child=child, origin=pending @ anchor)
-            joints[joint.name] = replace(joint, origin=joint.at(-joint.rest))
+            joints[joint.name] = replace(joint, origin=joint.child_pose(-joint.rest))
             links[child] = Link(0.0, np.zeros(3), np.zeros((3, 3)), name=child)
             link, pending = child, np.asarray(np.linalg.inv(anchor), dtype=np.float64)
-        links[body] = _body(model, b, body)
+        links[body] = _read_body(model, body_index, body)
         if link != body:
-            joints[f"{body} (fixed)"] = _fixed(body, link, pending)
+            joints[f"{body} (fixed)"] = _fixed_joint(body, link, pending)
     if tip is not None and tip not in links:
-        for k in range(model.nsite):
-            if model.site(k).name == tip:
-                carrier = bodies[int(model.site_bodyid[k])]
+        for site_index in range(model.nsite):
+            if model.site(site_index).name == tip:
+                carrier = bodies[int(model.site_bodyid[site_index])]
                 links[tip] = None
-                joints[f"{tip} (fixed)"] = _fixed(tip, carrier, pose_of(model.site_pos[k], model.site_quat[k]))
-    tied = frozenset(joint_names[j] for _, _, those, _ in _ties(mujoco, model) if len(those) > 1 for j in those)
-    return Tree(label, links, joints, limits_required=False, tied=tied)
+                joints[f"{tip} (fixed)"] = _fixed_joint(
+                    tip, carrier, pose_from_wxyz(model.site_pos[site_index], model.site_quat[site_index])
+                )
+    tied = frozenset(
+        joint_names[joint_index]
+        for _, _, tied_joints, _ in _find_ties(mujoco, model)
+        if len(tied_joints) > 1
+        for joint_index in tied_joints
+    )
+    return LinkTree(label, links, joints, limits_required=False, tied=tied)
 
 
-def _fixed(child: str, parent: str, origin: Array) -> TreeJoint:
-    none = np.inf
-    return TreeJoint(f"{child} (fixed)", "fixed", parent, child, origin, np.zeros(3), -none, none, none, none, 0.0)
+def _fixed_joint(child: str, parent: str, origin: Array) -> TreeJoint:
+    no_limit = np.inf
+    return TreeJoint(
+        f"{child} (fixed)", "fixed", parent, child, origin, np.zeros(3), -no_limit, no_limit, no_limit, no_limit, 0.0
+    )
 
 
-def _body(model: Any, b: int, name: str) -> Link | None:
-    mass, moments = float(model.body_mass[b]), np.array(model.body_inertia[b])
+def _read_body(model: Any, body_index: int, name: str) -> Link | None:
+    mass, moments = float(model.body_mass[body_index]), np.array(model.body_inertia[body_index])
     if mass == 0 and not moments.any():
         return None
-    return Link(mass, np.zeros(3), np.diag(moments), name=name).moved(pose_of(model.body_ipos[b], model.body_iquat[b]))
+    return Link(mass, np.zeros(3), np.diag(moments), name=name).moved(
+        pose_from_wxyz(model.body_ipos[body_index], model.body_iquat[body_index])
+    )
 
 
-def _joint(mujoco: ModuleType, model: Any, j: int, name: str, kind: str) -> TreeJoint:
-    """A joint without its place in the tree."""
-    reference = float(model.qpos0[model.jnt_qposadr[j]]) if kind in ("hinge", "prismatic") else 0.0
-    limited = bool(model.jnt_limited[j])
-    lower, upper = (float(x) for x in model.jnt_range[j]) if limited else (-np.inf, np.inf)
+def _read_joint(mujoco: ModuleType, model: Any, joint_index: int, name: str, kind: str) -> TreeJoint:
+    """Read a joint without its place in the tree."""
+    reference = float(model.qpos0[model.jnt_qposadr[joint_index]]) if kind in ("hinge", "prismatic") else 0.0
+    limited = bool(model.jnt_limited[joint_index])
+    lower, upper = (float(limit) for limit in model.jnt_range[joint_index]) if limited else (-np.inf, np.inf)
     if kind == "hinge":
         kind = "revolute" if limited else "continuous"
-    dof = int(model.jnt_dofadr[j])
+    dof_address = int(model.jnt_dofadr[joint_index])
     return TreeJoint(
         name=name,
         type=kind,
         parent="",
         child="",
         origin=np.eye(4),
-        axis=np.array(model.jnt_axis[j]),
+        axis=np.array(model.jnt_axis[joint_index]),
         lower=lower,
         upper=upper,
         velocity=np.inf,
-        effort=_effort(mujoco, model, j),
-        friction=float(model.dof_damping[dof]),
-        armature=float(model.dof_armature[dof]),
+        effort=_actuator_effort(mujoco, model, joint_index),
+        friction=float(model.dof_damping[dof_address]),
+        armature=float(model.dof_armature[dof_address]),
         rest=reference,
     )
 
 
-def _effort(mujoco: ModuleType, model: Any, j: int) -> float:
-    """Largest torque or force of the actuators of a joint; infinite if not given."""
-    if model.jnt_actfrclimited[j]:
-        return float(np.abs(model.jnt_actfrcrange[j]).max())
-    total, found = 0.0, False
-    direct = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
-    for a in range(model.nu):
-        if int(model.actuator_trntype[a]) not in direct or int(model.actuator_trnid[a, 0]) != j:
+def _actuator_effort(mujoco: ModuleType, model: Any, joint_index: int) -> float:
+    """Return the largest torque or force of the actuators of a joint; infinite if not given."""
+    if model.jnt_actfrclimited[joint_index]:
+        return float(np.abs(model.jnt_actfrcrange[joint_index]).max())
+    total, has_actuator = 0.0, False
+    joint_transmissions = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+    for actuator in range(model.nu):
+        if (
+            int(model.actuator_trntype[actuator]) not in joint_transmissions
+            or int(model.actuator_trnid[actuator, 0]) != joint_index
+        ):
             continue
-        gear, found = abs(float(model.actuator_gear[a, 0])), True
-        fixed = int(model.actuator_gaintype[a]) == int(mujoco.mjtGain.mjGAIN_FIXED)
-        motor = fixed and int(model.actuator_biastype[a]) == int(mujoco.mjtBias.mjBIAS_NONE)
-        if model.actuator_forcelimited[a]:
-            total += gear * float(np.abs(model.actuator_forcerange[a]).max())
-        elif motor and model.actuator_ctrllimited[a]:
-            total += gear * abs(float(model.actuator_gainprm[a, 0])) * float(np.abs(model.actuator_ctrlrange[a]).max())
+        gear, has_actuator = abs(float(model.actuator_gear[actuator, 0])), True
+        has_fixed_gain = int(model.actuator_gaintype[actuator]) == int(mujoco.mjtGain.mjGAIN_FIXED)
+        is_motor = has_fixed_gain and int(model.actuator_biastype[actuator]) == int(mujoco.mjtBias.mjBIAS_NONE)
+        if model.actuator_forcelimited[actuator]:
+            total += gear * float(np.abs(model.actuator_forcerange[actuator]).max())
+        elif is_motor and model.actuator_ctrllimited[actuator]:
+            total += (
+                gear * abs(float(model.actuator_gainprm[actuator, 0])) * float(np.abs(model.actuator_ctrlrange[actuator]).max())
+            )
         else:
             return np.inf
-    return total if found and total > 0 else np.inf
+    return total if has_actuator and total > 0 else np.inf
 
 
 # ---- the arm -----------------------------------------------------------------------------------------------------
 
 
-def _arm(
+def _build_arm(
     mujoco: ModuleType,
     model: Any,
-    tree: Tree,
+    tree: LinkTree,
     base: str | None,
     tip: str | None,
     hold: dict[str, float],
     name: str,
     source: str,
-) -> Machine:
-    base, tip = check_ends(tree, base, tip)
-    on_chain = {joint.name for joint in tree.path(base, tip) if not tree.stands(joint, hold)}
-    _refuse_ties(mujoco, model, tree, on_chain)
-    mount = Held(tree, on_chain, hold).pose(base)
+) -> ArmData:
+    base, tip = resolve_ends(tree, base, tip)
+    on_chain = {joint.name for joint in tree.joint_path(base, tip) if not tree.is_fixed(joint, hold)}
+    _reject_ties(mujoco, model, tree, on_chain)
+    base_pose = LockedJoints(tree, on_chain, hold).link_pose(base)
     weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
     gravity = np.zeros(3) if weightless else np.array(model.opt.gravity)
-    arm = chain(tree, base, tip, hold, name, gravity.tolist(), source, mount)
-    joints = _names(model.njnt, model.joint, "joint", 1)
-    at = [int(model.jnt_qposadr[joints.index(joint)]) for joint in arm.joint_names]
-    return replace(arm, states={str(model.key(k).name): model.key_qpos[k][at] for k in range(model.nkey) if model.key(k).name})
+    arm = build_chain(tree, base, tip, hold, name, gravity.tolist(), source, base_pose)
+    joints = _names_or_numbers(model.njnt, model.joint, "joint", 1)
+    addresses = [int(model.jnt_qposadr[joints.index(joint)]) for joint in arm.joint_names]
+    return replace(
+        arm, states={str(model.key(k).name): model.key_qpos[k][addresses] for k in range(model.nkey) if model.key(k).name}
+    )
 
 
-def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str]) -> None:
-    """No equality and no tendon may act on the chain; between bodies that do not move against each other they do nothing."""
-    joints = _names(model.njnt, model.joint, "joint", 1)
-    bodies = _names(model.nbody, model.body, "body", 0)
+def _reject_ties(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[str]) -> None:
+    """Reject equalities and tendons that act on the chain; those between bodies that do not move relative to each other are
+    harmless.
+    """
+    joints = _names_or_numbers(model.njnt, model.joint, "joint", 1)
+    bodies = _names_or_numbers(model.nbody, model.body, "body", 0)
 
-    def carrier(body: int) -> str:
-        """The joint of the chain that carries a body, or nothing."""
+    def carrying_joint(body: int) -> str:
+        """Return the name of the joint of the chain that carries a body, or an empty text."""
         link = bodies[body]
-        while link in tree.above and tree.above[link].name not in on_chain:
-            link = tree.above[link].parent
-        return tree.above[link].name if link in tree.above else ""
+        while link in tree.joint_above and tree.joint_above[link].name not in on_chain:
+            link = tree.joint_above[link].parent
+        return tree.joint_above[link].name if link in tree.joint_above else ""
 
-    for kind, name, tied_joints, tied_bodies in _ties(mujoco, model):
+    for kind, name, tied_joints, tied_bodies in _find_ties(mujoco, model):
         if kind == "tendon" and len(tied_joints) == 1 and not tied_bodies:
             continue  # it carries a motor or a spring of this joint and ties it to nothing
-        caught = [joints[j] for j in tied_joints if joints[j] in on_chain]
-        if caught:
+        tied_names = [joints[joint] for joint in tied_joints if joints[joint] in on_chain]
+        if tied_names:
             raise ArmError(
-                f"{kind} '{name}' ties joint {list_names(caught)} of the chain, which is then no degree of freedom of its own; "
+                f"{kind} '{name}' ties joint {list_names(tied_names)} of the chain, which is then no degree of freedom "
+                f"of its own; "
                 "a serial arm needs independent joints, so remove it or choose another base and tip"
             )
-        carriers = {carrier(b) for b in tied_bodies}
+        carriers = {carrying_joint(b) for b in tied_bodies}
         if len(carriers) > 1:
             raise ArmError(
                 f"{kind} '{name}' ties the bodies {list_names([bodies[b] for b in tied_bodies])}, which closes a loop over "
@@ -311,27 +334,32 @@ def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str])
             )
 
 
-def _ties(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, str, list[int], list[int]]]:
-    """Word, name, joints and bodies of every active equality and every tendon."""
-    eq, wrap, obj = mujoco.mjtEq, mujoco.mjtWrap, mujoco.mjtObj
-    for k in range(model.neq):
-        if not model.eq_active0[k]:
+def _find_ties(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, str, list[int], list[int]]]:
+    """Yield word, name, joints, and bodies of every active equality and every tendon."""
+    equality_types, wrap_types, object_types = mujoco.mjtEq, mujoco.mjtWrap, mujoco.mjtObj
+    for index in range(model.neq):
+        if not model.eq_active0[index]:
             continue
-        name, ends = model.equality(k).name or f"{k + 1}", [int(model.eq_obj1id[k]), int(model.eq_obj2id[k])]
-        kind = int(model.eq_type[k])
-        if kind == int(eq.mjEQ_JOINT):
-            yield "equality", name, [x for x in ends if x >= 0], []
-        elif kind in (int(eq.mjEQ_CONNECT), int(eq.mjEQ_WELD)):
-            at_sites = int(model.eq_objtype[k]) == int(obj.mjOBJ_SITE)
-            yield "equality", name, [], [int(model.site_bodyid[x]) if at_sites else max(x, 0) for x in ends]
-    for k in range(model.ntendon):
-        first, tied_joints, tied_bodies = int(model.tendon_adr[k]), [], []
-        for w in range(first, first + int(model.tendon_num[k])):
-            kind, thing = int(model.wrap_type[w]), int(model.wrap_objid[w])
-            if kind == int(wrap.mjWRAP_JOINT):
-                tied_joints.append(thing)
-            elif kind == int(wrap.mjWRAP_SITE):
-                tied_bodies.append(int(model.site_bodyid[thing]))
-            elif kind in (int(wrap.mjWRAP_SPHERE), int(wrap.mjWRAP_CYLINDER)):
-                tied_bodies.append(int(model.geom_bodyid[thing]))
-        yield "tendon", model.tendon(k).name or f"{k + 1}", tied_joints, tied_bodies
+        name, ends = model.equality(index).name or f"{index + 1}", [int(model.eq_obj1id[index]), int(model.eq_obj2id[index])]
+        kind = int(model.eq_type[index])
+        if kind == int(equality_types.mjEQ_JOINT):
+            yield "equality", name, [object_id for object_id in ends if object_id >= 0], []
+        elif kind in (int(equality_types.mjEQ_CONNECT), int(equality_types.mjEQ_WELD)):
+            at_sites = int(model.eq_objtype[index]) == int(object_types.mjOBJ_SITE)
+            yield (
+                "equality",
+                name,
+                [],
+                [int(model.site_bodyid[object_id]) if at_sites else max(object_id, 0) for object_id in ends],
+            )
+    for index in range(model.ntendon):
+        first_wrap, tied_joints, tied_bodies = int(model.tendon_adr[index]), [], []
+        for wrap_index in range(first_wrap, first_wrap + int(model.tendon_num[index])):
+            kind, wrapped_id = int(model.wrap_type[wrap_index]), int(model.wrap_objid[wrap_index])
+            if kind == int(wrap_types.mjWRAP_JOINT):
+                tied_joints.append(wrapped_id)
+            elif kind == int(wrap_types.mjWRAP_SITE):
+                tied_bodies.append(int(model.site_bodyid[wrapped_id]))
+            elif kind in (int(wrap_types.mjWRAP_SPHERE), int(wrap_types.mjWRAP_CYLINDER)):
+                tied_bodies.append(int(model.geom_bodyid[wrapped_id]))
+        yield "tendon", model.tendon(index).name or f"{index + 1}", tied_joints, tied_bodies

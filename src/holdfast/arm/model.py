@@ -1,4 +1,4 @@
-"""An arm: a machine with its kinematics, statics and dynamics."""
+"""Arm: its data with kinematics, statics, and dynamics."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, checked_class
-from holdfast.arm.dh import DH, build
-from holdfast.arm.machine import GRAVITY, Link, Machine, transform
+from holdfast.arguments import check_arguments, check_constructor
+from holdfast.arm.dh import DH, build_from_rows
+from holdfast.arm.machine import GRAVITY, ArmData, Link, check_transform
 from holdfast.caching import cached_property
 from holdfast.files.html import Html
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.result import Shown
+from holdfast.kernels.recall import cached_kernel
+from holdfast.result import Presentable
 
 Array = NDArray[np.float64]
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Arm(Shown, Machine):
-    """A serial arm: the data of a :class:`~holdfast.arm.machine.Machine`, which it is made of, and what can be asked of it."""
+class Arm(Presentable, ArmData):
+    """Serial arm: the data of an :class:`~holdfast.arm.machine.ArmData` with its kinematics, dynamics, and reports."""
 
     # ---- builders ----------------------------------------------------------------------------------------------
 
     @classmethod
-    @checked
+    @check_arguments
     def from_dh(
         cls,
         rows: Sequence[DH],
@@ -45,7 +45,7 @@ class Arm(Shown, Machine):
         name: str = "arm",
         source: str = "",
     ) -> Arm:
-        """An arm from Denavit-Hartenberg rows; see :class:`holdfast.arm.dh.DH`.
+        """Return an arm from Denavit-Hartenberg rows; see :class:`holdfast.arm.dh.DH`.
 
         Args:
             rows: One per joint.
@@ -61,77 +61,77 @@ class Arm(Shown, Machine):
         Raises:
             ArmError: What is wrong with which row.
         """
-        return cls._of(build(rows, links, convention, base, tool, gravity, payload, name, source))
+        return cls._from_data(build_from_rows(rows, links, convention, base, tool, gravity, payload, name, source))
 
     @classmethod
-    @checked
+    @check_arguments
     def from_urdf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
-        """The chain from link ``base`` to link ``tip`` of a URDF file; see :func:`holdfast.arm.urdf.load`.
+        """Return the chain from link ``base`` to link ``tip`` of a URDF file; see :func:`holdfast.arm.urdf.load_urdf`.
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the link or joint.
         """
-        from holdfast.arm.urdf import load
+        from holdfast.arm.urdf import load_urdf
 
-        return cls._of(load(path, base, tip, **options))
+        return cls._from_data(load_urdf(path, base, tip, **options))
 
     @classmethod
-    @checked
+    @check_arguments
     def from_mjcf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
-        """The chain from body ``base`` to body or site ``tip`` of an MJCF file; see :func:`holdfast.arm.mjcf.load`.
+        """Return the chain from body ``base`` to body or site ``tip`` of an MJCF file; see :func:`holdfast.arm.mjcf.load_mjcf`.
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the body or joint.
             HoldfastError: MuJoCo is not installed; it comes with ``holdfast[physics]``.
         """
-        from holdfast.arm.mjcf import load
+        from holdfast.arm.mjcf import load_mjcf
 
-        return cls._of(load(path, base, tip, **options))
+        return cls._from_data(load_mjcf(path, base, tip, **options))
 
     @classmethod
-    def _of(cls, machine: Machine) -> Arm:
-        return cls(**machine.__getstate__())
+    def _from_data(cls, data: ArmData) -> Arm:
+        return cls(**data.__getstate__())
 
-    @checked
+    @check_arguments
     def with_tool(self, tool: ArrayLike) -> Arm:
-        """The same arm with another tool, given as ``from_dh`` and URDF files do: (4, 4) in the last link's own frame."""
+        """Return the arm with another tool, given as in ``from_dh`` and for URDF files: (4, 4) in the last link's own frame."""
         chain = None if self.chain is None else replace(self.chain, tip=None)
-        return replace(self, tool=self.flange @ transform(tool, f"tool of arm '{self.name}'"), chain=chain)
+        return replace(self, tool=self.flange @ check_transform(tool, f"tool of arm '{self.name}'"), chain=chain)
 
-    @checked
+    @check_arguments
     def with_payload(self, payload: Link | None) -> Arm:
-        """The same arm holding another body, given in the last link's own frame; None: nothing."""
+        """Return the arm with another payload, given in the last link's own frame; None removes the payload."""
         return replace(self, payload=None if payload is None else payload.moved(self.flange))
 
-    @checked
+    @check_arguments
     def with_base(self, base: ArrayLike) -> Arm:
-        """The same arm mounted elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
+        """Return the arm mounted at another pose ``base`` (4, 4) in the world; gravity does not change."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
 
-    @checked
+    @check_arguments
     def with_limits(self, lower: ArrayLike, upper: ArrayLike) -> Arm:
-        """The same arm with other limits (n,) of its joints, rad and m; infinite where there are none."""
+        """Return the arm with other joint limits (n,), rad and m; infinite where there are none."""
         limits = zip(self.joints, *(self.check_configurations(limit).tolist() for limit in (lower, upper)), strict=True)
         return replace(self, joints=tuple(replace(j, lower=low, upper=high) for j, low, high in limits))
 
     @cached_property
     def without_limits(self) -> Arm:
-        """The arm as a law sees it: every revolute joint has period 2 pi."""
+        """Arm as a control law treats it: every revolute joint has period 2 pi."""
         return self.with_limits(np.full(self.n, -np.inf), np.full(self.n, np.inf))
 
     @cached_property
     def without_idle_limits(self) -> Arm:
-        """The arm without the limits of joints that may make a whole turn: those exclude no posture."""
-        idle = ~self.prismatic & (self.upper - self.lower >= 2 * np.pi - 1e-6)
-        if not idle.any():
+        """Arm without the limits of joints with a range of a full revolution, because such limits exclude no configuration."""
+        excludes_nothing = ~self.prismatic & (self.upper - self.lower >= 2 * np.pi - 1e-6)
+        if not excludes_nothing.any():
             return self
-        return self.with_limits(np.where(idle, -np.inf, self.lower), np.where(idle, np.inf, self.upper))
+        return self.with_limits(np.where(excludes_nothing, -np.inf, self.lower), np.where(excludes_nothing, np.inf, self.upper))
 
     # ---- what it is called --------------------------------------------------------------------------------------
 
     @property
     def title(self) -> str:
-        """Name, base and tip, as headings have them."""
+        """Name, base, and tip, as headings show them."""
         return self.name if self.chain is None else f"{self.name} ({self.chain})"
 
     @property
@@ -140,13 +140,15 @@ class Arm(Shown, Machine):
         return "; ".join([self.source or "no source given", *([] if self.chain is None else [str(self.chain)])])
 
     def entry(self) -> dict[str, Any]:
-        """``arm``, ``base`` and ``tip`` by name, and the joints ``held``: what a JSON answer about the arm begins with."""
+        """Return ``arm``, ``base``, and ``tip`` by name, and the locked joints ``held``: the beginning of every JSON answer
+        about the arm.
+        """
         base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
         return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
 
     def describe(self) -> list[str]:
         """Describe joints, single points of failure, and data problems: the lines of ``holdfast describe``."""
-        lines: list[str] = self._presented("describe")
+        lines: list[str] = self._present("describe")
         return lines
 
     def save(self, file: str | Path) -> Path:
@@ -166,13 +168,13 @@ class Arm(Shown, Machine):
             InputError: Another ending.
             StoreError: The file cannot be written.
         """
-        written: Path = self._presented("save", Path(file))
+        written: Path = self._present("save", Path(file))
         return written
 
     # ---- how it looks ------------------------------------------------------------------------------------------
 
     def show(self, q: ArrayLike | None = None, **options: Any) -> Html:
-        """The arm in a small 3-D view, one page that needs no server, no network and no other file.
+        """Return a page with the arm in a small 3-D view that needs no server, network, or other file.
 
         In a notebook it is seen as it is; ``arm.show().save("arm.html")`` writes it. Without WebGL there is a drawing.
 
@@ -185,68 +187,72 @@ class Arm(Shown, Machine):
         Raises:
             InputError: Options that do not fit the arm or each other.
         """
-        page: Html = self._presented("page", q, **options)
+        page: Html = self._present("page", q, **options)
         return page
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
-    def _compiled(self, name: str, expression: Callable[[Arm, SX], SX]) -> Kernel:
+    def _compile_kernel(self, name: str, expression: Callable[[Arm, SX], SX]) -> Kernel:
         from holdfast.arm import kinematics
 
         q = kinematics.joint_symbols(self)
         return Kernel(name, [q], [expression(self, q)])
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _pose_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
-        return self._compiled("pose", kinematics.tool_pose)
+        return self._compile_kernel("pose", kinematics.tool_pose)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _jacobian_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
-        return self._compiled("jacobian", kinematics.jacobian)
+        return self._compile_kernel("jacobian", kinematics.world_jacobian)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _jacobian_derivative_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
-        return self._compiled("jacobian derivative", kinematics.jacobian_derivative)
+        return self._compile_kernel("jacobian derivative", kinematics.jacobian_derivative)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _gravity_torque_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
-        return self._compiled("gravity torque", lambda arm, q: statics.gravity_torques(arm, statics.composite(arm, q)))
+        return self._compile_kernel(
+            "gravity torque", lambda arm, q: statics.gravity_torques(arm, statics.composite_bodies(arm, q))
+        )
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _inertia_diagonal_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
-        return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
+        return self._compile_kernel(
+            "inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite_bodies(arm, q))
+        )
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _dynamics_kernel(self) -> Kernel:
         from holdfast.arm import dynamics
 
         return dynamics.torque_kernel(self)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _frames_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
-        return self._compiled("frames of the arm", kinematics.body_poses)
+        return self._compile_kernel("frames of the arm", kinematics.body_poses)
 
     def frames(self, q: ArrayLike) -> Array:
-        """Poses in the world of the base, of what moves with each joint and of the tool, rad, m.
+        """Return the world poses of the base, of the link that moves with each joint, and of the tool, rad, m.
 
         The origin of frame k + 1 is where joint k, from 0, is; a prismatic joint is where its slide is. So
         ``frames(q)[..., :3, 3]`` is the arm as a stick figure.
@@ -257,50 +263,52 @@ class Arm(Shown, Machine):
         Returns:
             (n + 2, 4, 4) or (N, n + 2, 4, 4); the first is ``base``, the last is :meth:`forward_kinematics`.
         """
-        a = self.check_configurations(q)
-        out = np.zeros((*a.shape[:-1], self.n + 2, 4, 4))
-        out[..., :3, :] = self._frames_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n + 2, 3, 4))
-        out[..., 3, 3] = 1.0
-        return out
+        checked_q = self.check_configurations(q)
+        poses = np.zeros((*checked_q.shape[:-1], self.n + 2, 4, 4))
+        poses[..., :3, :] = self._frames_kernel.rows(np.atleast_2d(checked_q)).reshape(
+            (*checked_q.shape[:-1], self.n + 2, 3, 4)
+        )
+        poses[..., 3, 3] = 1.0
+        return poses
 
     def forward_kinematics(self, q: ArrayLike) -> Array:
-        """Tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
+        """Return the tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
         a = self.check_configurations(q)
         return self._pose_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], 4, 4))
 
     def jacobian(self, q: ArrayLike) -> Array:
-        """Geometric Jacobian at the tool point, (6, n) or (N, 6, n).
+        """Return the geometric Jacobian at the tool point, (6, n) or (N, 6, n).
 
         Rows: linear velocity, then angular velocity, both in the world frame; m/rad and rad/rad for revolute columns.
         """
-        a = self.check_configurations(q)
-        return self._jacobian_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], 6, self.n))
+        checked_q = self.check_configurations(q)
+        return self._jacobian_kernel.rows(np.atleast_2d(checked_q)).reshape((*checked_q.shape[:-1], 6, self.n))
 
     def jacobian_derivative(self, q: ArrayLike) -> Array:
-        """Derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
+        """Return the derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
         a = self.check_configurations(q)
         return self._jacobian_derivative_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n, 6, self.n))
 
     def gravity_torque(self, q: ArrayLike) -> Array:
-        """Torques and forces, N m and N, that hold the arm and its payload still against gravity, (n,) or (N, n).
+        """Return torques and forces, N m and N, that hold the arm and its payload still against gravity, (n,) or (N, n).
 
         Raises:
             ArmError: A link of which nothing is known.
         """
-        a = self.check_configurations(q)
-        return self._gravity_torque_kernel.rows(np.atleast_2d(a)).reshape(a.shape)
+        checked_q = self.check_configurations(q)
+        return self._gravity_torque_kernel.rows(np.atleast_2d(checked_q)).reshape(checked_q.shape)
 
     def inertia_diagonal(self, q: ArrayLike) -> Array:
-        """Diagonal of the joint-space inertia matrix, payload and armature included, (n,) or (N, n); kg m^2 and kg.
+        """Return the diagonal of the joint-space inertia matrix, payload and armature included, (n,) or (N, n); kg m^2 and kg.
 
         Raises:
             ArmError: A link of which nothing is known, or whose inertia no body has.
         """
-        a = self.check_configurations(q)
-        return self._inertia_diagonal_kernel.rows(np.atleast_2d(a)).reshape(a.shape)
+        checked_q = self.check_configurations(q)
+        return self._inertia_diagonal_kernel.rows(np.atleast_2d(checked_q)).reshape(checked_q.shape)
 
     def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> Array:
-        """Torques and forces of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, (n,) or (N, n); N m and N.
+        """Return torques and forces of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, (n,) or (N, n); N m and N.
 
         Payload, armature and viscous friction included.
 
@@ -319,7 +327,9 @@ class Arm(Shown, Machine):
         return inertial + viscous + gravity
 
     def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[Array, Array, Array]:
-        """The terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd`` and ``g``, each (n,) or (N, n); N m and N."""
+        """Return the terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd``, and ``g``, each (n,) or (N, n);
+        N m and N.
+        """
         from holdfast.arm.dynamics import check_states
 
         states, single = check_states(self, q, qd, qdd)

@@ -1,4 +1,6 @@
-"""Tasks, which rows of the twist the end effector must produce, and targets: poses, or those rows of the wanted tool point."""
+"""Tasks, which select the twist components that the end effector must produce, and their targets: poses or task coordinates of
+the tool point.
+"""
 
 from __future__ import annotations
 
@@ -10,21 +12,21 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm import kinematics
-from holdfast.arm.machine import Machine
+from holdfast.arm.machine import ArmData
 from holdfast.arm.poses import check_poses
 from holdfast.errors import InputError, TaskError
-from holdfast.grammar import ROWS, TASKS
+from holdfast.grammar import TASK_ROW_NAMES, TASK_SIZES
 from holdfast.kernels.program import SX
-from holdfast.result import Shown
+from holdfast.result import Presentable
 
 Array = NDArray[np.float64]
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
-class Task(Shown):
+class Task(Presentable):
     """Rows of the end effector's twist (linear; angular) that the task prescribes.
 
     Attributes:
@@ -59,12 +61,12 @@ class Task(Shown):
         object.__setattr__(self, "angular", bool(np.abs(rows[:, 3:]).max() > 0))
 
     def to_dict(self) -> dict[str, Any]:
-        """As JSON data."""
+        """Return the task as JSON data."""
         return {"name": self.name, "rows": self.rows.tolist(), "frame": self.frame, "length": self.length}
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Task:
-        """The task that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
+        """Return the task of :meth:`to_dict`; raise KeyError or TypeError if something is missing."""
         return cls(data["name"], np.array(data["rows"]), data["frame"], length=data["length"])
 
     @property
@@ -74,124 +76,126 @@ class Task(Shown):
 
     @property
     def invariant(self) -> bool:
-        """True if all six rows are kept: then any frame and reference point give the same subspace."""
+        """True if the task has all six rows, so that any frame and reference point give the same subspace."""
         return self.m == 6
 
     def error(self, twist: SX, tool_rotation: SX) -> SX:
-        """Task rows (m,) of a world-frame error or twist (6,), linear rows in metres."""
+        """Return the task rows (m,) of a world-frame error or twist (6,), linear rows in meters."""
         if self.frame == "tool":
             twist = ca.vertcat(tool_rotation.T @ twist[:3], tool_rotation.T @ twist[3:])
         return ca.sparsify(ca.SX(ca.DM(self.rows))) @ twist
 
     def scale(self, length: float) -> Array:
-        """(m, m): what dividing the linear rows of a twist by a length, m, does to the task's rows."""
+        """Return the matrix (m, m) that divides the linear rows of a twist by a length, m, in terms of the task's rows."""
         return np.asarray(self.rows @ np.diag([1 / length] * 3 + [1.0] * 3) @ self.rows.T)
 
-    def jacobian(self, arm: Machine, q: SX) -> SX:
-        """Task Jacobian (m, n), linear rows divided by the characteristic length."""
-        full = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.jacobian(arm, q)
-        return self.select(full)
+    def jacobian(self, arm: ArmData, q: SX) -> SX:
+        """Return the task Jacobian (m, n), linear rows divided by the characteristic length."""
+        full_jacobian = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.world_jacobian(arm, q)
+        return self.select(full_jacobian)
 
-    def select(self, full: SX) -> SX:
-        """Task rows of a Jacobian (6, n) that is in the task's frame, linear rows divided by the length."""
+    def select(self, full_jacobian: SX) -> SX:
+        """Return the task rows of a Jacobian (6, n) in the task's frame, linear rows divided by the length."""
         scale = np.diag([1 / self.length] * 3 + [1.0] * 3)
-        return ca.sparsify(ca.SX(ca.DM(self.rows @ scale))) @ full
+        return ca.sparsify(ca.SX(ca.DM(self.rows @ scale))) @ full_jacobian
 
     def same_rows(self, other: Task) -> bool:
-        """True if both prescribe the same rows in the same frame; names and lengths may differ."""
+        """Return True if both tasks prescribe the same rows in the same frame; names and lengths may differ."""
         return self.frame == other.frame and self.rows.shape == other.rows.shape and np.allclose(self.rows, other.rows)
 
     def describe(self) -> str:
-        """One phrase for people."""
+        """Describe the task in one phrase."""
         text = f"{self.name} ({self.m} rows)"
-        mixed = self.angular and float(np.abs(self.rows[:, :3]).max()) > 0
-        return text + (f", characteristic length {self.length:g} m" if mixed else "")
+        has_length = self.angular and float(np.abs(self.rows[:, :3]).max()) > 0
+        return text + (f", characteristic length {self.length:g} m" if has_length else "")
 
     def __repr__(self) -> str:
         return f"Task({self.name!r}, m={self.m}, frame={self.frame!r}, length={self.length:g})"
 
 
-def rows_task(
+def task_from_rows(
     rows: Sequence[str], frame: Literal["base", "tool"] = "base", length: float = 1.0, name: str | None = None
 ) -> Task:
-    """A task of chosen rows, for example ``rows_task(["vx", "vy", "wz"], frame="tool")``.
+    """Return a task of chosen rows, for example ``task_from_rows(["vx", "vy", "wz"], frame="tool")``.
 
     Raises:
         TaskError: A row that is not one of vx, vy, vz, wx, wy, wz, or that appears twice.
     """
-    unknown = [r for r in rows if r not in ROWS]
+    unknown = [row_name for row_name in rows if row_name not in TASK_ROW_NAMES]
     if unknown:
-        raise TaskError(f"task row '{unknown[0]}' is not known; rows are {', '.join(ROWS)}")
+        raise TaskError(f"task row '{unknown[0]}' is not known; rows are {', '.join(TASK_ROW_NAMES)}")
     if len(set(rows)) != len(rows) or not rows:
         raise TaskError("a task needs at least one row, and each row once")
-    picked = np.zeros((len(rows), 6))
-    for i, r in enumerate(rows):
-        picked[i, ROWS.index(r)] = 1.0
-    return Task(name or "+".join(rows), picked, frame, length=length)
+    selection = np.zeros((len(rows), 6))
+    for row, row_name in enumerate(rows):
+        selection[row, TASK_ROW_NAMES.index(row_name)] = 1.0
+    return Task(name or "+".join(rows), selection, frame, length=length)
 
 
-def plane_normal(arm: Machine) -> Array | None:
-    """Unit normal (3,), world frame, of the plane in which the arm moves; None if it does not move in one.
+def plane_normal(arm: ArmData) -> Array | None:
+    """Return the unit normal (3,), world frame, of the plane in which the arm moves; None if it does not move in a plane.
 
     All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
     """
     # Earlier joints turn about the normal itself, which keeps parallel axes parallel: q = 0 speaks for every q.
-    turning, sliding = arm.axes_at_zero[~arm.prismatic], arm.axes_at_zero[arm.prismatic]
-    if not len(turning):
+    revolute_axes, prismatic_axes = arm.axes_at_zero[~arm.prismatic], arm.axes_at_zero[arm.prismatic]
+    if not len(revolute_axes):
         return None
-    normal = turning[0]
-    if any(np.linalg.norm(np.cross(normal, z)) > 1e-9 for z in turning) or any(abs(normal @ s) > 1e-9 for s in sliding):
+    normal = revolute_axes[0]
+    if any(np.linalg.norm(np.cross(normal, axis)) > 1e-9 for axis in revolute_axes) or any(
+        abs(normal @ prismatic_axis) > 1e-9 for prismatic_axis in prismatic_axes
+    ):
         return None
     return np.asarray(normal * (1.0 if normal[np.argmax(np.abs(normal))] > 0 else -1.0))
 
 
-def task_of_path(arm: Machine, oriented: bool) -> str:
-    """The rows of a path that matter if nobody says so: of an arm that moves in a plane those in it."""
-    flat = plane_normal(arm) is not None
+def task_of_path(arm: ArmData, oriented: bool) -> str:
+    """Return the default task name of a path: for a planar arm the rows in its plane, else all rows."""
+    is_planar = plane_normal(arm) is not None
     if oriented:
-        return "planar-pose" if flat else "pose"
-    return "planar" if flat else "position"
+        return "planar-pose" if is_planar else "pose"
+    return "planar" if is_planar else "position"
 
 
-def as_task(arm: Machine, task: str | Task | Sequence[str], length: float | None = None) -> Task:
-    """The task of an arm from its name, a list of rows, or itself.
+def as_task(arm: ArmData, task: str | Task | Sequence[str], length: float | None = None) -> Task:
+    """Return the task of an arm from its name, a list of rows, or a task.
 
     Raises:
         TaskError: Unknown name, or a planar task for an arm that does not move in a plane.
     """
     if isinstance(task, Task):
         return task if length is None else Task(task.name, task.rows, task.frame, length=length)
-    size = 1.0 if length is None else length
+    unit_length = 1.0 if length is None else length
     if not isinstance(task, str):
-        return rows_task(list(task), length=size)
-    eye = np.eye(6)
+        return task_from_rows(list(task), length=unit_length)
+    identity = np.eye(6)
     if task == "pose":
-        return Task(task, eye, "base", length=size)
+        return Task(task, identity, "base", length=unit_length)
     if task == "position":
-        return Task(task, eye[:3], "base", length=size)
+        return Task(task, identity[:3], "base", length=unit_length)
     if task == "pointing":
-        return Task(task, eye[:5], "tool", length=size)
+        return Task(task, identity[:5], "tool", length=unit_length)
     if task in ("planar", "planar-pose"):
         normal = plane_normal(arm)
         if normal is None:
             raise TaskError(
                 f"'{arm.name}' does not move in a plane, so it has no task '{task}'; use pose, pointing or position"
             )
-        seed = np.eye(3)[int(np.argmin(np.abs(normal)))]
-        first = seed - normal * (normal @ seed)
-        first /= np.linalg.norm(first)
-        rows: list[Any] = [np.r_[first, 0, 0, 0], np.r_[np.cross(normal, first), 0, 0, 0]]
+        helper = np.eye(3)[int(np.argmin(np.abs(normal)))]
+        tangent = helper - normal * (normal @ helper)
+        tangent /= np.linalg.norm(tangent)
+        rows: list[Any] = [np.r_[tangent, 0, 0, 0], np.r_[np.cross(normal, tangent), 0, 0, 0]]
         if task == "planar-pose":
             rows.append(np.r_[0, 0, 0, normal])
-        return Task(task, np.array(rows), "base", length=size)
-    raise TaskError(f"task '{task}' is not known; use one of {', '.join(TASKS)} or a list of rows such as vx, vy, wz")
+        return Task(task, np.array(rows), "base", length=unit_length)
+    raise TaskError(f"task '{task}' is not known; use one of {', '.join(TASK_SIZES)} or a list of rows such as vx, vy, wz")
 
 
 # ---- targets -----------------------------------------------------------------------------------------------------
 
 
 def target_poses(task: Task, target: ArrayLike) -> tuple[Array, Array | None]:
-    """Targets as poses (M, 4, 4), and as the task's rows (M, m) where they were given so.
+    """Return targets as poses (M, 4, 4), and as task rows (M, m) where they were given as rows.
 
     Args:
         task: What must be met.
@@ -200,24 +204,24 @@ def target_poses(task: Task, target: ArrayLike) -> tuple[Array, Array | None]:
     Raises:
         InputError: Another shape, invalid poses, or rows for a task with turns.
     """
-    given = np.asarray(target, dtype=np.float64)
-    if given.ndim in (2, 3) and given.shape[-2:] == (4, 4):
-        return check_poses(given), None
+    array = np.asarray(target, dtype=np.float64)
+    if array.ndim in (2, 3) and array.shape[-2:] == (4, 4):
+        return check_poses(array), None
     if task.angular or task.frame != "base":
-        raise InputError(f"the target has shape {given.shape}; task '{task.name}' needs tool poses, (4, 4) or (N, 4, 4) arrays")
-    if given.ndim not in (1, 2) or given.shape[-1] != task.m:
+        raise InputError(f"the target has shape {array.shape}; task '{task.name}' needs tool poses, (4, 4) or (N, 4, 4) arrays")
+    if array.ndim not in (1, 2) or array.shape[-1] != task.m:
         raise InputError(
-            f"the target has shape {given.shape}; task '{task.name}' takes ({task.m},) or (N, {task.m}), the wanted tool "
+            f"the target has shape {array.shape}; task '{task.name}' takes ({task.m},) or (N, {task.m}), the wanted tool "
             "point in m, or tool poses (4, 4)"
         )
-    rows = np.atleast_2d(given)
+    rows = np.atleast_2d(array)
     poses = np.tile(np.eye(4), (len(rows), 1, 1))
     poses[:, :3, 3] = rows @ task.rows[:, :3]
     return poses, rows
 
 
 def target_pose(task: Task, target: ArrayLike) -> Array:
-    """One target, (m,) or (4, 4), as a pose (4, 4); see :func:`target_poses`.
+    """Return one target, (m,) or (4, 4), as a pose (4, 4); see :func:`target_poses`.
 
     Raises:
         InputError: More than one target, NaN or infinity, or as :func:`target_poses`.

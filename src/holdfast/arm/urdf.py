@@ -1,4 +1,4 @@
-"""Arms from URDF files: one chain of a tree of links, everything else folded into it.
+"""Read arms from URDF files: one chain of a tree of links, with everything else merged into its links.
 
 Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read here; transmissions and simulator tags are skipped, shapes
 are read when they are asked for (:mod:`holdfast.shapes`). The only other file that is opened is an SRDF file, for the
@@ -17,22 +17,22 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
-from holdfast.arm.machine import Link, Machine
+from holdfast.arguments import check_arguments
+from holdfast.arm.machine import ArmData, Link
 from holdfast.arm.poses import cos_sin
-from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain
+from holdfast.arm.tree import LIMITED_TYPES, MOVING_TYPES, LinkTree, TreeJoint, build_chain
 from holdfast.errors import ArmError
 from holdfast.files import reading
 
 Array = NDArray[np.float64]
-_LARGEST = 64 << 20  # bytes
-TYPES = (*MOVING, "fixed", "floating", "planar")
+_MAX_FILE_BYTES = 64 << 20  # bytes
+JOINT_TYPES = (*MOVING_TYPES, "fixed", "floating", "planar")
 XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself, so that a leftover does no harm
 XACRO_TERM = re.compile(r"\$[{(]")
 
 
-@checked
-def load(
+@check_arguments
+def load_urdf(
     path: str | Path,
     base: str | None = None,
     tip: str | None = None,
@@ -41,8 +41,8 @@ def load(
     gravity: Sequence[float] | None = None,
     srdf: str | Path | None = None,
     meshes: str | Path | None = None,
-) -> Machine:
-    """The serial arm from link ``base`` down to link ``tip`` of a URDF file.
+) -> ArmData:
+    """Return the serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
     Fixed joints are folded away. Bodies that hang on the chain without being part of it (tools, covers, grippers, whatever
     follows the tip) become part of the link they hang on, with their own joints held still. What hangs on
@@ -79,12 +79,14 @@ def load(
     path = Path(path)
     try:
         tree = read_tree(robot_element(path), path.stem)
-        arm = chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
-        beside = path.with_suffix(".srdf")
-        file = beside if srdf is None and beside.is_file() else None if srdf is None else Path(srdf)
-        whole, folder, pairs = ("" if x is None else str(Path(x).absolute()) for x in (path, meshes, file))
-        arm = replace(arm, chain=arm.chain and replace(arm.chain, file=whole, meshes=folder, srdf=pairs))
-        return arm if file is None else replace(arm, states=_states(file, arm))
+        arm = build_chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
+        default_srdf = path.with_suffix(".srdf")
+        srdf_file = default_srdf if srdf is None and default_srdf.is_file() else None if srdf is None else Path(srdf)
+        urdf_path, mesh_folder, srdf_path = (
+            "" if given_path is None else str(Path(given_path).absolute()) for given_path in (path, meshes, srdf_file)
+        )
+        arm = replace(arm, chain=arm.chain and replace(arm.chain, file=urdf_path, meshes=mesh_folder, srdf=srdf_path))
+        return arm if srdf_file is None else replace(arm, states=_read_states(srdf_file, arm))
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
@@ -93,33 +95,33 @@ def load(
 
 
 def robot_element(path: Path) -> ElementTree.Element:
-    """The outermost element of a URDF file.
+    """Return the outermost element of a URDF file.
 
     Raises:
         ArmError: The file cannot be read, or is not a URDF.
     """
-    robot = _element(path, "URDF")
-    left = next(_unexpanded(robot), None)
-    if left is not None:
-        raise ArmError(f"the file has xacro macros that are not expanded ({left}); {expand_first(path)}")
+    robot = _parse_robot(path, "URDF")
+    leftover = next(_find_xacro(robot), None)
+    if leftover is not None:
+        raise ArmError(f"the file has xacro macros that are not expanded ({leftover}); {xacro_advice(path)}")
     return robot
 
 
-def expand_first(path: Path) -> str:
-    """How a file with xacro macros becomes a URDF file, for a sentence."""
+def xacro_advice(path: Path) -> str:
+    """Return advice on how to turn a file with xacro macros into a URDF file, for an error message."""
     stem = path.name.partition(".")[0]
     target = f"{stem}.urdf" if path.suffix == ".xacro" else f"{stem}.expanded.urdf"
     return f"expand it first: xacro {path.name} > {target} ('xacro' comes with ROS, or by pip install xacro)"
 
 
-def _element(path: Path, kind: str) -> ElementTree.Element:
-    """The ``<robot>`` of a file; prefixes of tags are left as they are, declared or not, as the readers of ROS do."""
-    with reading.guarded(advice=f"give the path of a {kind} file", kind=ArmError):
-        content = reading.raw(path, _LARGEST)
+def _parse_robot(path: Path, kind: str) -> ElementTree.Element:
+    """Return the ``<robot>`` of a file; prefixes of tags stay as they are, declared or not, as in the readers of ROS."""
+    with reading.guard_reading(advice=f"give the path of a {kind} file", kind=ArmError):
+        content = reading.read_bytes(path, _MAX_FILE_BYTES)
     builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = builder.start, builder.end, builder.data
     # The only place where an XML file can define entities that blow up or reach other files.
-    parser.StartDoctypeDeclHandler = _refuse_doctype
+    parser.StartDoctypeDeclHandler = _reject_doctype
     parser.buffer_text = True
     try:
         parser.Parse(content, True)
@@ -134,188 +136,195 @@ def _element(path: Path, kind: str) -> ElementTree.Element:
     return robot
 
 
-def _refuse_doctype(*_: object) -> None:
+def _reject_doctype(*_: object) -> None:
     raise ArmError("the file has a DOCTYPE, which a URDF never needs and which can hide harmful entities; remove it")
 
 
-def _unexpanded(robot: ElementTree.Element) -> Iterator[str]:
-    """Calls of xacro macros and terms that xacro would replace; unused definitions do not count."""
+def _find_xacro(robot: ElementTree.Element) -> Iterator[str]:
+    """Yield calls of xacro macros and terms that xacro would replace; unused definitions do not count."""
     prefixes = {"xacro"} | {key.partition(":")[2] for key, value in robot.attrib.items() if "xacro" in value}
-    waiting = [(robot, False)]
-    while waiting:
-        element, kept = waiting.pop()
-        prefix, colon, local = element.tag.rpartition(":")
+    pending = [(robot, False)]
+    while pending:
+        element, is_robot_part = pending.pop()
+        prefix, colon, local_name = element.tag.rpartition(":")
         if colon and prefix in prefixes:
-            if local not in XACRO_DEFINITIONS:
+            if local_name not in XACRO_DEFINITIONS:
                 yield f"<{element.tag}>"
             continue
-        kept = kept or element.tag in ("link", "joint")
-        if kept:
+        is_robot_part = is_robot_part or element.tag in ("link", "joint")
+        if is_robot_part:
             yield from (value for value in element.attrib.values() if XACRO_TERM.search(value))
-        waiting += [(child, kept) for child in reversed(element)]
+        pending += [(child, is_robot_part) for child in reversed(element)]
 
 
-def disabled_pairs(path: Path) -> frozenset[tuple[str, str]]:
-    """Pairs of links, each in alphabetical order, between which an SRDF file disables collisions.
+def read_disabled_pairs(path: Path) -> frozenset[tuple[str, str]]:
+    """Return the pairs of links, each in alphabetical order, between which an SRDF file disables collisions.
 
     Raises:
         ArmError: The file cannot be read.
     """
-    found = (
-        sorted(_attribute(x, key, "<disable_collisions>") for key in ("link1", "link2"))
-        for x in _element(path, "SRDF").iter("disable_collisions")
+    pairs = (
+        sorted(_require_attribute(element, key, "<disable_collisions>") for key in ("link1", "link2"))
+        for element in _parse_robot(path, "SRDF").iter("disable_collisions")
     )
-    return frozenset((a, b) for a, b in found)
+    return frozenset((first_link, second_link) for first_link, second_link in pairs)
 
 
-def _states(path: Path, arm: Machine) -> dict[str, Array]:
-    """Configurations of an SRDF file that name every joint of the arm."""
-    found: dict[str, Array] = {}
-    for state in _element(path, "SRDF").iter("group_state"):
-        where = f"{path.name}: state '{state.get('name', '')}'"
+def _read_states(path: Path, arm: ArmData) -> dict[str, Array]:
+    """Return the configurations of an SRDF file that name every joint of the arm."""
+    configurations: dict[str, Array] = {}
+    for state in _parse_robot(path, "SRDF").iter("group_state"):
+        label = f"{path.name}: state '{state.get('name', '')}'"
         values = {joint.get("name"): joint.get("value", "") for joint in state.findall("joint")}
         if all(name in values for name in arm.joint_names) and state.get("name"):
-            q = [_numbers(values[name], 1, f"{where}: {name}")[0] for name in arm.joint_names]
-            found.setdefault(state.get("name", ""), np.array(q))
-    return found
+            q = [_parse_numbers(values[name], 1, f"{label}: {name}")[0] for name in arm.joint_names]
+            configurations.setdefault(state.get("name", ""), np.array(q))
+    return configurations
 
 
-def read_tree(robot: ElementTree.Element, stem: str) -> Tree:
-    """Links and joints of a ``<robot>``; ``stem`` is its name if it has none.
+def read_tree(robot: ElementTree.Element, stem: str) -> LinkTree:
+    """Return the links and joints of a ``<robot>``; ``stem`` is its name if it has none.
 
     Raises:
         ArmError: It is not a sound tree.
     """
     bodies: dict[str, Link | None] = {}
     for element in robot.findall("link"):
-        label = _attribute(element, "name", "a <link>")
+        label = _require_attribute(element, "name", "a <link>")
         if label in bodies:
             raise ArmError(f"the link name '{label}' is used more than once; names must be unique")
-        bodies[label] = _body(element, label)
+        bodies[label] = _read_body(element, label)
     joints: dict[str, TreeJoint] = {}
     for element in robot.findall("joint"):
-        joint = _joint(element)
+        joint = _read_joint(element)
         if joint.name in joints:
             raise ArmError(f"the joint name '{joint.name}' is used more than once; names must be unique")
         joints[joint.name] = joint
     tied = {name for joint in joints.values() if joint.mimic for name in (joint.name, joint.mimic[0])}
-    return Tree(robot.get("name") or stem, bodies, joints, tied=frozenset(tied))
+    return LinkTree(robot.get("name") or stem, bodies, joints, tied=frozenset(tied))
 
 
-def _body(element: ElementTree.Element, label: str) -> Link | None:
+def _read_body(element: ElementTree.Element, label: str) -> Link | None:
     inertial = element.find("inertial")
     if inertial is None:
         return None
-    where = f"link '{label}'"
+    link_label = f"link '{label}'"
     mass, moments = inertial.find("mass"), inertial.find("inertia")
     if mass is None or moments is None:
-        raise ArmError(f"{where}: its <inertial> has no <{'mass' if mass is None else 'inertia'}>; it needs both")
+        raise ArmError(f"{link_label}: its <inertial> has no <{'mass' if mass is None else 'inertia'}>; it needs both")
     xx, yy, zz, xy, xz, yz = (
-        _numbers(_attribute(moments, key, f"{where}: <inertia>"), 1, f"{where}: {key}")[0]
+        _parse_numbers(_require_attribute(moments, key, f"{link_label}: <inertia>"), 1, f"{link_label}: {key}")[0]
         for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     )
-    kilograms = _numbers(_attribute(mass, "value", f"{where}: <mass>"), 1, f"{where}: mass")[0]
+    kilograms = _parse_numbers(_require_attribute(mass, "value", f"{link_label}: <mass>"), 1, f"{link_label}: mass")[0]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(kilograms, np.zeros(3), inertia, name=label).moved(read_origin(inertial, where))
+    return Link(kilograms, np.zeros(3), inertia, name=label).moved(read_origin(inertial, link_label))
 
 
-def _joint(element: ElementTree.Element) -> TreeJoint:
-    name = _attribute(element, "name", "a <joint>")
-    where = f"joint '{name}'"
-    kind = _attribute(element, "type", where)
-    if kind not in TYPES:
-        raise ArmError(f"{where} has type '{kind}'; URDF knows {', '.join(TYPES)}")
-    ends = {}
+def _read_joint(element: ElementTree.Element) -> TreeJoint:
+    name = _require_attribute(element, "name", "a <joint>")
+    label = f"joint '{name}'"
+    joint_type = _require_attribute(element, "type", label)
+    if joint_type not in JOINT_TYPES:
+        raise ArmError(f"{label} has type '{joint_type}'; URDF knows {', '.join(JOINT_TYPES)}")
+    link_names = {}
     for role in ("parent", "child"):
-        end = element.find(role)
-        if end is None:
-            raise ArmError(f'{where} has no <{role}>; it needs <{role} link="..."/>')
-        ends[role] = _attribute(end, "link", f"{where}: <{role}>")
+        end_element = element.find(role)
+        if end_element is None:
+            raise ArmError(f'{label} has no <{role}>; it needs <{role} link="..."/>')
+        link_names[role] = _require_attribute(end_element, "link", f"{label}: <{role}>")
     axis = np.array([1.0, 0.0, 0.0])  # the default of the format
-    stated = element.find("axis")
-    if kind in MOVING and stated is not None:
-        axis = np.array(_numbers(_attribute(stated, "xyz", f"{where}: <axis>"), 3, f"{where}: axis"))
+    axis_element = element.find("axis")
+    if joint_type in MOVING_TYPES and axis_element is not None:
+        axis = np.array(_parse_numbers(_require_attribute(axis_element, "xyz", f"{label}: <axis>"), 3, f"{label}: axis"))
         if np.linalg.norm(axis) < 1e-9:
-            raise ArmError(f"{where} has the axis 0 0 0; give the direction about or along which it moves")
+            raise ArmError(f"{label} has the axis 0 0 0; give the direction about or along which it moves")
         axis = axis / np.linalg.norm(axis)
-    lower, upper, velocity, effort = _limits(element, kind, where)
+    lower, upper, velocity, effort = _read_limits(element, joint_type, label)
     dynamics, mimic = element.find("dynamics"), element.find("mimic")
     return TreeJoint(
         name=name,
-        type=kind,
-        parent=ends["parent"],
-        child=ends["child"],
-        origin=read_origin(element, where),
+        type=joint_type,
+        parent=link_names["parent"],
+        child=link_names["child"],
+        origin=read_origin(element, label),
         axis=axis,
         lower=lower,
         upper=upper,
         velocity=velocity,
         effort=effort,
-        friction=0.0 if dynamics is None else _size(dynamics, "damping", where),
+        friction=0.0 if dynamics is None else _read_nonnegative(dynamics, "damping", label),
         mimic=None
         if mimic is None
         else (
-            _attribute(mimic, "joint", f"{where}: <mimic>"),
-            _numbers(mimic.get("multiplier", "1"), 1, f"{where}: multiplier")[0],
-            _numbers(mimic.get("offset", "0"), 1, f"{where}: offset")[0],
+            _require_attribute(mimic, "joint", f"{label}: <mimic>"),
+            _parse_numbers(mimic.get("multiplier", "1"), 1, f"{label}: multiplier")[0],
+            _parse_numbers(mimic.get("offset", "0"), 1, f"{label}: offset")[0],
         ),
     )
 
 
-def _limits(element: ElementTree.Element, kind: str, where: str) -> tuple[float, float, float, float]:
-    """Lower, upper, velocity and effort of a joint; infinite where there is none."""
+def _read_limits(element: ElementTree.Element, joint_type: str, label: str) -> tuple[float, float, float, float]:
+    """Return lower limit, upper limit, velocity, and effort of a joint; infinite where there is none."""
     limit = element.find("limit")
     if limit is None:
         return -np.inf, np.inf, np.inf, np.inf
     lower, upper = -np.inf, np.inf
-    if kind in LIMITED and (limit.get("lower") is not None or limit.get("upper") is not None):
+    if joint_type in LIMITED_TYPES and (limit.get("lower") is not None or limit.get("upper") is not None):
         # The format says that the one left out is 0.
-        lower, upper = (_numbers(limit.get(key, "0"), 1, f"{where}: {key}")[0] for key in ("lower", "upper"))
+        lower, upper = (_parse_numbers(limit.get(key, "0"), 1, f"{label}: {key}")[0] for key in ("lower", "upper"))
         if lower > upper:
-            raise ArmError(f"{where}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
-    return lower, upper, _size(limit, "velocity", where) or np.inf, _size(limit, "effort", where) or np.inf
+            raise ArmError(f"{label}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
+    return (
+        lower,
+        upper,
+        _read_nonnegative(limit, "velocity", label) or np.inf,
+        _read_nonnegative(limit, "effort", label) or np.inf,
+    )
 
 
-def _size(element: ElementTree.Element, key: str, where: str) -> float:
-    value = _numbers(element.get(key, "0"), 1, f"{where}: {key}")[0]
+def _read_nonnegative(element: ElementTree.Element, key: str, label: str) -> float:
+    value = _parse_numbers(element.get(key, "0"), 1, f"{label}: {key}")[0]
     if value < 0:
-        raise ArmError(f"{where}: {key} is {value:g}; it must be 0 or more")
+        raise ArmError(f"{label}: {key} is {value:g}; it must be 0 or more")
     return value
 
 
-def read_origin(element: ElementTree.Element, where: str) -> Array:
-    """(4, 4) from the ``<origin xyz rpy>`` of an element; ``where`` is what an error calls it."""
+def read_origin(element: ElementTree.Element, label: str) -> Array:
+    """Return the pose (4, 4) of the ``<origin xyz rpy>`` of an element; ``label`` names it in error messages."""
     pose = np.eye(4)
     origin = element.find("origin")
     if origin is None:
         return pose
-    pose[:3, 3] = _numbers(origin.get("xyz", "0 0 0"), 3, f"{where}: origin xyz")
-    pose[:3, :3] = rpy_rotation(_numbers(origin.get("rpy", "0 0 0"), 3, f"{where}: origin rpy"))
+    pose[:3, 3] = _parse_numbers(origin.get("xyz", "0 0 0"), 3, f"{label}: origin xyz")
+    pose[:3, :3] = rpy_rotation(_parse_numbers(origin.get("rpy", "0 0 0"), 3, f"{label}: origin rpy"))
     return pose
 
 
 def rpy_rotation(rpy: Sequence[float]) -> Array:
-    """(3, 3) rotation from roll, pitch, yaw (3,), rad, about the fixed x, y, z axes in turn: ``Rz(yaw) Ry(pitch) Rx(roll)``."""
-    (cr, sr), (cp, sp), (cy, sy) = (cos_sin(angle) for angle in rpy)
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+    """Return the rotation (3, 3) from roll, pitch, yaw (3,), rad, about the fixed x, y, z axes in turn: ``Rz(yaw) Ry(pitch)
+    Rx(roll)``.
+    """
+    (cos_roll, sin_roll), (cos_pitch, sin_pitch), (cos_yaw, sin_yaw) = (cos_sin(angle) for angle in rpy)
+    about_x = np.array([[1, 0, 0], [0, cos_roll, -sin_roll], [0, sin_roll, cos_roll]])
+    about_y = np.array([[cos_pitch, 0, sin_pitch], [0, 1, 0], [-sin_pitch, 0, cos_pitch]])
+    about_z = np.array([[cos_yaw, -sin_yaw, 0], [sin_yaw, cos_yaw, 0], [0, 0, 1]])
     return np.asarray(about_z @ about_y @ about_x)
 
 
-def _attribute(element: ElementTree.Element, key: str, where: str) -> str:
+def _require_attribute(element: ElementTree.Element, key: str, label: str) -> str:
     value = element.get(key)
     if not value:
-        raise ArmError(f"{where} has no attribute '{key}'; the format requires it")
+        raise ArmError(f"{label} has no attribute '{key}'; the format requires it")
     return value
 
 
-def _numbers(text: str, count: int, where: str) -> list[float]:
+def _parse_numbers(text: str, count: int, label: str) -> list[float]:
     try:
         values = [float(part) for part in text.split()]
     except ValueError:
         values = []
     if len(values) != count or not np.isfinite(values).all():
-        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise ArmError(f"{where} is '{text}'; it must be {wanted}")
+        requirement = "a finite number" if count == 1 else f"{count} finite numbers"
+        raise ArmError(f"{label} is '{text}'; it must be {requirement}")
     return values

@@ -1,4 +1,4 @@
-"""Where arms come from: built in, DH, URDF and MJCF files, results folders."""
+"""Sources of arms: built-in arms, DH, URDF, and MJCF files, and results folders."""
 
 from holdfast._lazy import offer
 

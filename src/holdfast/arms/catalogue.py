@@ -1,4 +1,4 @@
-"""Where arms come from: built-in ones by name, others from URDF, MJCF and DH files."""
+"""Find arms by built-in name or by the path of a URDF, MJCF, or DH file."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ TABLE_ENDINGS = (".yaml", ".yml")
 
 
 def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None) -> Arm:
-    """The arm that a person means on the command line.
+    """Return the arm that a person names on the command line.
 
     Args:
         spec: A built-in name (see :func:`names`), a path of a URDF or MJCF file ending in ``.urdf``, ``.mjcf`` or ``.xml``
             (then its outermost element decides), or a path of a DH table ending in ``.yaml`` or ``.yml`` (see
             :mod:`holdfast.arms.dh_file`).
-        base: Link of a URDF file or body of an MJCF file on which the arm is mounted; see :func:`holdfast.arm.urdf.load` and
-            :func:`holdfast.arm.mjcf.load`.
+        base: Link of a URDF file or body of an MJCF file on which the arm is mounted; see :func:`holdfast.arm.urdf.load_urdf`
+            and :func:`holdfast.arm.mjcf.load_mjcf`.
         tip: Link of a URDF file, or body or site of an MJCF file, whose frame is the tool.
         hold: Value, rad or m, at which joints of a URDF or MJCF file are held.
 
@@ -50,14 +50,14 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold:
             return load(spec)
         from holdfast.arms import dh_file as table
 
-        return table.load(spec)
-    if ending in MJCF_ENDINGS or (ending == ".xml" and outermost(spec) == "mujoco"):
+        return table.load_dh_file(spec)
+    if ending in MJCF_ENDINGS or (ending == ".xml" and root_element_name(spec) == "mujoco"):
         return Arm.from_mjcf(spec, base, tip, hold=hold)
     if ending in URDF_ENDINGS:
         return Arm.from_urdf(spec, base, tip, hold=hold)
     if ending == ".xacro":
-        raise ArmError(f"'{spec}' is a xacro file; {urdf.expand_first(Path(spec))}")
-    if reading.exists(spec):
+        raise ArmError(f"'{spec}' is a xacro file; {urdf.xacro_advice(Path(spec))}")
+    if reading.path_exists(spec):
         raise ArmError(
             f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); "
             "rename or convert it"
@@ -71,12 +71,12 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold:
 
 
 def command_words(arm: Arm) -> tuple[str, list[str], str]:
-    """How a command line names an arm: ARM, its options, and a remark about what the reader must put in."""
+    """Return how a command line names an arm: ARM, its options, and a remark on the parts that the reader must insert."""
     if arm.name in names() and load(arm.name).fingerprint == arm.fingerprint:
         return arm.name, [], ""
-    known = arm.source.lower().endswith((*URDF_ENDINGS, *MJCF_ENDINGS, *TABLE_ENDINGS)) and "\n" not in arm.source
-    spec = arm.source if known else "ARM"
-    remark = "the file of the arm where you have it" if known else "ARM is the file of the arm"
+    is_file = arm.source.lower().endswith((*URDF_ENDINGS, *MJCF_ENDINGS, *TABLE_ENDINGS)) and "\n" not in arm.source
+    spec = arm.source if is_file else "ARM"
+    remark = "the file of the arm where you have it" if is_file else "ARM is the file of the arm"
     if arm.chain is None:
         return spec, [], remark
     tip = [] if arm.chain.tip is None else [("tip", arm.chain.tip)]
@@ -84,13 +84,15 @@ def command_words(arm: Arm) -> tuple[str, list[str], str]:
     return spec, [f"--{option} {shlex.quote(value)}" for option, value in options], remark
 
 
-def outermost(path: str) -> str:
-    """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file explains."""
+def root_element_name(path: str) -> str:
+    """Return the name of the outermost element of an XML file; empty if the file is not valid XML, which the file's reader
+    reports.
+    """
     import io
     from xml.etree import ElementTree
 
     try:
-        for _, element in ElementTree.iterparse(io.BytesIO(reading.raw(path)), events=("start",)):
+        for _, element in ElementTree.iterparse(io.BytesIO(reading.read_bytes(path)), events=("start",)):
             return str(element.tag)
     except (OSError, ElementTree.ParseError, LookupError, ValueError):
         pass

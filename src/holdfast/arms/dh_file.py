@@ -1,4 +1,4 @@
-"""Arms from YAML files that hold a Denavit-Hartenberg table.
+"""Read and write arms as YAML files that hold a Denavit-Hartenberg table.
 
 An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, must be there::
 
@@ -35,23 +35,23 @@ import yaml
 from numpy.typing import ArrayLike, NDArray
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.dh import DH
 from holdfast.arm.machine import GRAVITY, Link
 from holdfast.arm.model import Arm
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.arms.dh_rows import DHTable
 from holdfast.errors import ArmError, InputError
-from holdfast.files.yaml import Four, Number, Strict, Three, content, sentence
-from holdfast.notice import aside
+from holdfast.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
+from holdfast.notice import warn_now
 
 Array = NDArray[np.float64]
-_LARGEST_ANGLE = 2 * np.pi  # rad: an angle of more than a turn is probably in degrees
+_MAX_PLAUSIBLE_ANGLE_RAD = 2 * np.pi  # rad: an angle of more than a turn is probably in degrees
 
 
-@checked
-def load(path: str | Path) -> Arm:
-    """The arm of a YAML file in the format of this module.
+@check_arguments
+def load_dh_file(path: str | Path) -> Arm:
+    """Return the arm of a YAML file in the format of this module.
 
     Args:
         path: The file.
@@ -64,14 +64,14 @@ def load(path: str | Path) -> Arm:
     """
     path = Path(path)
     try:
-        return built(ArmFile.model_validate(content(path, "holdfast.arms.dh_file", "rows")), path)
+        return build_arm(ArmFile.model_validate(read_mapping(path, "holdfast.arms.dh_file", "rows")), path)
     except ValidationError as error:
-        raise ArmError(f"{path.name}: {sentence(error, ArmFile, TAGS)}") from error
+        raise ArmError(f"{path.name}: {describe_error(error, ArmFile, POSE_TAGS)}") from error
     except (ArmError, InputError) as error:
         raise ArmError(f"{path.name}: {error}") from error
 
 
-def text(
+def format_dh_file(
     table: DHTable,
     name: str,
     gravity: ArrayLike = GRAVITY,
@@ -80,7 +80,7 @@ def text(
     links: Sequence[Link | None] = (),
     payload: Link | None = None,
 ) -> str:
-    """A table as a file in the format of this module, in m and degrees.
+    """Return a table as a file in the format of this module, in m and degrees.
 
     Args:
         table: The rows with their limits, the base and the tool.
@@ -93,67 +93,82 @@ def text(
     Returns:
         YAML. What is read from it again has the numbers of the table to 1e-14.
     """
-    lines = [f"name: {_scalar(name)}", *([f"source: {_scalar(source)}"] if source else []), "angles: deg", "rows:"]
-    lines += [f"  - {{{', '.join(f'{key}: {_scalar(x)}' for key, x in _cells(row))}}}" for row in table.rows]
+    lines = [
+        f"name: {_format_scalar(name)}",
+        *([f"source: {_format_scalar(source)}"] if source else []),
+        "angles: deg",
+        "rows:",
+    ]
+    lines += [
+        f"  - {{{', '.join(f'{key}: {_format_scalar(number)}' for key, number in _format_row(row))}}}" for row in table.rows
+    ]
     for key, pose in (("base", table.base), ("tool", table.tool)):
         if not np.array_equal(pose, np.eye(4)):
-            lines += [f"{key}:", *[f"  - [{', '.join(_scalar(x) for x in line)}]" for line in (pose + 0.0).tolist()]]
+            lines += [
+                f"{key}:",
+                *[
+                    f"  - [{', '.join(_format_scalar(number) for number in matrix_row)}]"
+                    for matrix_row in (pose + 0.0).tolist()
+                ],
+            ]
     if not np.array_equal(gravity, GRAVITY):
-        lines.append(f"gravity: [{', '.join(_scalar(float(x)) for x in np.asarray(gravity))}]")
+        lines.append(f"gravity: [{', '.join(_format_scalar(float(number)) for number in np.asarray(gravity))}]")
     if any(link is not None for link in links):
-        lines += ["links:", *[f"  - {_body(link)}" for link in links]]
-    lines += [f"payload: {_body(payload)}"] * (payload is not None)
+        lines += ["links:", *[f"  - {_format_body(link)}" for link in links]]
+    lines += [f"payload: {_format_body(payload)}"] * (payload is not None)
     return "\n".join(lines) + "\n"
 
 
-def _body(link: Link | None) -> str:
-    """A body as one line of YAML; with all digits, because a small inertia is not a small number of digits."""
+def _format_body(link: Link | None) -> str:
+    """Format a body as one line of YAML, with all digits, because a small inertia has as many significant digits as a large
+    one.
+    """
     if link is None:
         return "null"
-    i = link.inertia
-    upper = (i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2])
-    numbers = [", ".join(repr(float(x)) for x in values) for values in (link.com, upper)]
-    name = f"name: {_scalar(link.name)}, " if link.name else ""
-    return f"{{{name}mass: {float(link.mass)!r}, com: [{numbers[0]}], inertia: [{numbers[1]}]}}"
+    inertia = link.inertia
+    inertia_entries = (inertia[0, 0], inertia[1, 1], inertia[2, 2], inertia[0, 1], inertia[0, 2], inertia[1, 2])
+    numbers = [", ".join(repr(float(number)) for number in values) for values in (link.com, inertia_entries)]
+    name_entry = f"name: {_format_scalar(link.name)}, " if link.name else ""
+    return f"{{{name_entry}mass: {float(link.mass)!r}, com: [{numbers[0]}], inertia: [{numbers[1]}]}}"
 
 
-def _cells(row: DH) -> list[tuple[str, str | float]]:
-    """What a row says in m and degrees, without what it need not say."""
-    cells: list[tuple[str, str | float]] = [("a", row.a), ("alpha", _degrees(row.alpha))]
-    cells += [("d", row.d)] * (row.d != 0) + [("theta", _degrees(row.theta))] * (row.theta != 0)
-    sliding = row.type == "prismatic"
-    if sliding:
+def _format_row(row: DH) -> list[tuple[str, str | float]]:
+    """Return the entries of a row in m and degrees, without entries that have their default."""
+    cells: list[tuple[str, str | float]] = [("a", row.a), ("alpha", _to_clean_degrees(row.alpha))]
+    cells += [("d", row.d)] * (row.d != 0) + [("theta", _to_clean_degrees(row.theta))] * (row.theta != 0)
+    is_prismatic = row.type == "prismatic"
+    if is_prismatic:
         cells.append(("type", row.type))
     for key in ("lower", "upper", "velocity"):
         value = getattr(row, key)
         if value is not None:
-            cells.append((key, value if sliding else _degrees(value)))
+            cells.append((key, value if is_prismatic else _to_clean_degrees(value)))
     cells += [("effort", row.effort)] if row.effort is not None else []
     cells += [(key, getattr(row, key)) for key in ("friction", "armature") if getattr(row, key)]
     return [*cells, ("name", row.name)] if row.name else cells
 
 
-def _degrees(angle: float) -> float:
+def _to_clean_degrees(angle: float) -> float:
     exact = float(np.rad2deg(angle))
-    near = round(exact, 10)
-    return near if abs(np.deg2rad(near) - angle) < 1e-15 else exact
+    rounded = round(exact, 10)
+    return rounded if abs(np.deg2rad(rounded) - angle) < 1e-15 else exact
 
 
-def _scalar(value: str | float) -> str:
-    """One YAML value; numbers that are whole without their point."""
+def _format_scalar(value: str | float) -> str:
+    """Format one YAML value; whole numbers have no decimal point."""
     if isinstance(value, str):
-        listed: str = yaml.safe_dump([value], default_flow_style=True, width=10_000, allow_unicode=True)
-        return listed.strip()[1:-1]  # as it is between braces
-    near = round(value, 13)
-    value = near if abs(value - near) < 1e-15 else value
+        quoted: str = yaml.safe_dump([value], default_flow_style=True, width=10_000, allow_unicode=True)
+        return quoted.strip()[1:-1]  # as it is between braces
+    rounded = round(value, 13)
+    value = rounded if abs(value - rounded) < 1e-15 else value
     return f"{value:.0f}" if value == round(value) and abs(value) < 1e15 else repr(float(value))
 
 
 # ---- the format --------------------------------------------------------------------------------------------------
 
 
-def _full_inertia(value: Any) -> Any:
-    if isinstance(value, list) and not any(isinstance(x, list) for x in value):
+def _expand_inertia(value: Any) -> Any:
+    if isinstance(value, list) and not any(isinstance(entry, list) for entry in value):
         if len(value) != 6:
             raise ValueError("it must be 6 numbers (xx, yy, zz, xy, xz, yz) or 3 rows of 3")
         xx, yy, zz, xy, xz, yz = value
@@ -161,7 +176,7 @@ def _full_inertia(value: Any) -> Any:
     return value
 
 
-class _Row(Strict):
+class _RowEntry(Strict):
     a: Number
     alpha: Number
     d: Number = 0.0
@@ -176,43 +191,43 @@ class _Row(Strict):
     armature: Number = 0.0
 
 
-class _Body(Strict):
+class _BodyEntry(Strict):
     mass: Number
     com: Three
-    inertia: Annotated[list[Three], Field(min_length=3, max_length=3), BeforeValidator(_full_inertia)]
+    inertia: Annotated[list[Three], Field(min_length=3, max_length=3), BeforeValidator(_expand_inertia)]
     name: str | None = None
 
 
-class _Placement(Strict):
+class _PlacementEntry(Strict):
     xyz: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
     urdf_rpy: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
 
 
-TAGS = ("as rows", "as xyz and urdf_rpy")
+POSE_TAGS = ("as rows", "as xyz and urdf_rpy")
 _Pose = Annotated[
-    Annotated[list[Four], Field(min_length=4, max_length=4), Tag(TAGS[0])] | Annotated[_Placement, Tag(TAGS[1])],
-    Discriminator(lambda value: TAGS[0] if isinstance(value, list) else TAGS[1]),
+    Annotated[list[Four], Field(min_length=4, max_length=4), Tag(POSE_TAGS[0])] | Annotated[_PlacementEntry, Tag(POSE_TAGS[1])],
+    Discriminator(lambda value: POSE_TAGS[0] if isinstance(value, list) else POSE_TAGS[1]),
 ]
 
 
 class ArmFile(Strict):
-    """The keys of such a file."""
+    """Keys of an arm file with a Denavit-Hartenberg table."""
 
-    rows: Annotated[list[_Row], Field(min_length=1)]
+    rows: Annotated[list[_RowEntry], Field(min_length=1)]
     name: str | None = None
     convention: Literal["standard", "modified"] = "standard"
     angles: Literal["rad", "deg"] = "rad"
     base: _Pose | None = None
     tool: _Pose | None = None
     gravity: Three = Field(default_factory=lambda: list(GRAVITY))
-    links: list[_Body | None] | None = None
-    payload: _Body | None = None
+    links: list[_BodyEntry | None] | None = None
+    payload: _BodyEntry | None = None
     source: str = ""
 
     @property
     def tool_point(self) -> list[float]:
-        """The tool point in the last row's frame, m."""
-        if isinstance(self.tool, _Placement):
+        """Tool point in the last row's frame, m."""
+        if isinstance(self.tool, _PlacementEntry):
             return self.tool.xyz
         return [0.0, 0.0, 0.0] if self.tool is None else [row[3] for row in self.tool[:3]]
 
@@ -220,47 +235,51 @@ class ArmFile(Strict):
 # ---- the arm -----------------------------------------------------------------------------------------------------
 
 
-def built(table: ArmFile, path: Path) -> Arm:
-    """The arm of such keys, named after the file where they give no name.
+def build_arm(table: ArmFile, path: Path) -> Arm:
+    """Build the arm of such keys; it is named after the file where they contain no name.
 
     Raises:
         ArmError: A row, body or pose is wrong.
     """
-    unit = np.pi / 180 if table.angles == "deg" else 1.0
+    radians_per_unit = np.pi / 180 if table.angles == "deg" else 1.0
     for number, row in enumerate(table.rows if table.angles == "rad" else (), start=1):
         for key, angle in (("alpha", row.alpha), ("theta", row.theta)):
-            if abs(angle) > _LARGEST_ANGLE:
-                aside(
+            if abs(angle) > _MAX_PLAUSIBLE_ANGLE_RAD:
+                warn_now(
                     f"{path.name}: {key} of row {number} is {angle:g} rad, {abs(angle) / (2 * np.pi):.3g} turns; if it is in "
                     "degrees, add 'angles: deg'"
                 )
     links = table.links
     return Arm.from_dh(
-        [_row(row, unit) for row in table.rows],
-        None if links is None else [None if x is None else _link(x, f"link{k + 1}") for k, x in enumerate(links)],
+        [_build_row(row, radians_per_unit) for row in table.rows],
+        None
+        if links is None
+        else [None if body is None else _build_link(body, f"link{index + 1}") for index, body in enumerate(links)],
         table.convention,
-        base=_pose(table.base, unit),
-        tool=_pose(table.tool, unit),
+        base=_build_pose(table.base, radians_per_unit),
+        tool=_build_pose(table.tool, radians_per_unit),
         gravity=table.gravity,
-        payload=None if table.payload is None else _link(table.payload, "payload"),
+        payload=None if table.payload is None else _build_link(table.payload, "payload"),
         name=table.name or path.stem,
         source=table.source or path.name,
     )
 
 
-def _row(row: _Row, unit: float) -> DH:
-    moved = 1.0 if row.type == "prismatic" else unit
-    in_joint_unit = {key: None if (x := getattr(row, key)) is None else x * moved for key in ("lower", "upper", "velocity")}
+def _build_row(row: _RowEntry, unit: float) -> DH:
+    joint_unit = 1.0 if row.type == "prismatic" else unit
+    in_joint_unit = {
+        key: None if (value := getattr(row, key)) is None else value * joint_unit for key in ("lower", "upper", "velocity")
+    }
     return DH(**{**row.model_dump(), **in_joint_unit, "alpha": row.alpha * unit, "theta": row.theta * unit})
 
 
-def _link(body: _Body, label: str) -> Link:
+def _build_link(body: _BodyEntry, label: str) -> Link:
     return Link(body.mass, np.array(body.com), np.array(body.inertia), name=body.name or label)
 
 
-def _pose(pose: list[list[float]] | _Placement | None, unit: float) -> Array | None:
-    if not isinstance(pose, _Placement):
+def _build_pose(pose: list[list[float]] | _PlacementEntry | None, unit: float) -> Array | None:
+    if not isinstance(pose, _PlacementEntry):
         return None if pose is None else np.array(pose)
-    out = np.eye(4)
-    out[:3, :3], out[:3, 3] = rpy_rotation([angle * unit for angle in pose.urdf_rpy]), pose.xyz
-    return out
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rpy_rotation([angle * unit for angle in pose.urdf_rpy]), pose.xyz
+    return matrix

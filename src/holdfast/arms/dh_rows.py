@@ -1,4 +1,4 @@
-"""The standard Denavit-Hartenberg table of any serial arm, from where its joint axes are."""
+"""Derive the standard Denavit-Hartenberg table of any serial arm from its joint axes."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.dh import DH
-from holdfast.arm.machine import Link, snapped
+from holdfast.arm.machine import Link, snap_exact_values
 from holdfast.arm.model import Arm
 
 Array = NDArray[np.float64]
 
 # Axes this near to parallel, rad, count as parallel: where a file says 3.14159 for pi their common normal is kilometres away.
-_PARALLEL = 1e-5
-_SAME = 1e-9  # lengths, m, and cosines that count as equal
+_PARALLEL_SINE = 1e-5
+_EQUALITY_TOLERANCE = 1e-9  # lengths, m, and cosines that count as equal
 
 
 @dataclass(frozen=True, eq=False)
 class DHTable:
-    """A standard Denavit-Hartenberg table: ``base``, then ``Rz(theta) Tz(d) Tx(a) Rx(alpha)`` for each row, then ``tool``.
+    """Standard Denavit-Hartenberg table: ``base``, then ``Rz(theta) Tz(d) Tx(a) Rx(alpha)`` for each row, then ``tool``.
 
     Attributes:
         rows: One :class:`holdfast.DH` per joint, with its limits, in rad and m.
@@ -34,12 +34,12 @@ class DHTable:
     tool: Array
 
     def arm(self, **options: Any) -> Arm:
-        """The arm of the table; ``options`` (``name``, ``gravity``, ``source``) go to :meth:`holdfast.Arm.from_dh`."""
+        """Return the arm of the table; ``options`` (``name``, ``gravity``, ``source``) go to :meth:`holdfast.Arm.from_dh`."""
         return Arm.from_dh(self.rows, base=self.base, tool=self.tool, **options)
 
 
 def dh_table(arm: Arm) -> DHTable:
-    """The standard Denavit-Hartenberg table of an arm, whatever it was read from.
+    """Return the standard Denavit-Hartenberg table of any serial arm.
 
     The joint variables stay what they are: the same q, sign and limits. Masses are not in a table.
 
@@ -65,84 +65,88 @@ def dh_table(arm: Arm) -> DHTable:
 
     Source: Denavit and Hartenberg 1955; the choices above are ours.
     """
-    seen = arm.with_base(np.eye(4))
-    joints, z = seen.frames_at_zero[:-1], seen.axes_at_zero
-    p = [t[:3, 3] for t in joints]
+    arm_at_origin = arm.with_base(np.eye(4))
+    joints, axes = arm_at_origin.frames_at_zero[:-1], arm_at_origin.axes_at_zero
+    points = [joint_frame[:3, 3] for joint_frame in joints]
     # The x axes that from_dh gave; a URDF joint may have any.
-    own = [t[:3, 0] if joint.axis[2] == 1.0 else None for t, joint in zip(joints, arm.joints, strict=True)]
+    own_x_axes = [
+        joint_frame[:3, 0] if joint.axis[2] == 1.0 else None for joint_frame, joint in zip(joints, arm.joints, strict=True)
+    ]
 
-    first = _first(z[0], p[0])
-    frames = [first]
-    for k in range(arm.n - 1):
-        frames.append(_next(frames[-1], p[k], z[k + 1], p[k + 1], own[k]))
-    frames.append(_last(arm, frames[-1], joints[-1], z[-1]))
-    rows = tuple(_row(arm, k, frames[k], frames[k + 1]) for k in range(arm.n))
-    tool = _inverse(frames[-1]) @ joints[-1] @ arm.tool
-    return DHTable(rows, arm.base @ first, _clean(tool))
+    first_frame = _first_frame(axes[0], points[0])
+    frames = [first_frame]
+    for index in range(arm.n - 1):
+        frames.append(_next_frame(frames[-1], points[index], axes[index + 1], points[index + 1], own_x_axes[index]))
+    frames.append(_last_frame(arm, frames[-1], joints[-1], axes[-1]))
+    rows = tuple(_make_row(arm, index, frames[index], frames[index + 1]) for index in range(arm.n))
+    tool = _invert_pose(frames[-1]) @ joints[-1] @ arm.tool
+    return DHTable(rows, arm.base @ first_frame, _clean_pose(tool))
 
 
 def table_bodies(arm: Arm, table: DHTable) -> tuple[list[Link | None], Link | None]:
     """Express the links and the payload of an arm in the frames of the rows of its table."""
     q = np.zeros(arm.n)
-    own, theirs = arm.frames(q), table.arm().frames(q)
-    rows = [theirs[k + 1] @ Arm.from_dh([row]).flange for k, row in enumerate(table.rows)]
-    moved = [_inverse(row) @ own[k + 1] for k, row in enumerate(rows)]
+    link_frames, row_motions = arm.frames(q), table.arm().frames(q)
+    row_frames = [row_motions[index + 1] @ Arm.from_dh([row]).flange for index, row in enumerate(table.rows)]
+    link_poses = [_invert_pose(row) @ link_frames[index + 1] for index, row in enumerate(row_frames)]
     links = arm.links or (None,) * arm.n
-    found = [None if link is None else link.moved(_clean(pose)) for link, pose in zip(links, moved, strict=True)]
-    return found, None if arm.payload is None else arm.payload.moved(_clean(moved[-1]))
+    row_links = [None if link is None else link.moved(_clean_pose(pose)) for link, pose in zip(links, link_poses, strict=True)]
+    return row_links, None if arm.payload is None else arm.payload.moved(_clean_pose(link_poses[-1]))
 
 
-def _first(z: Array, p: Array) -> Array:
-    if z[2] > 1 - 1e-15 and np.hypot(p[0], p[1]) < _SAME:
+def _first_frame(z: Array, p: Array) -> Array:
+    if z[2] > 1 - 1e-15 and np.hypot(p[0], p[1]) < _EQUALITY_TOLERANCE:
         return np.eye(4)
     # The base's x, or its y if the axis points along x, as far as it is across the axis.
-    side = np.eye(3)[0 if abs(z[0]) < 0.9 else 1]
-    return _frame(side, z, p)
+    reference_axis = np.eye(3)[0 if abs(z[0]) < 0.9 else 1]
+    return _frame_from_axes(reference_axis, z, p)
 
 
-def _next(frame: Array, p: Array, z_next: Array, p_next: Array, own: Array | None) -> Array:
-    """The frame on the next axis, after a joint whose frame and point on the axis are given."""
-    x, z, between = frame[:3, 0], frame[:3, 2], p_next - p
+def _next_frame(frame: Array, p: Array, z_next: Array, p_next: Array, own_x_axis: Array | None) -> Array:
+    """Return the frame on the next axis, after a joint with the given frame and a point on the axis."""
+    x, z, displacement = frame[:3, 0], frame[:3, 2], p_next - p
     normal = np.cross(z, z_next)
-    sine = float(np.linalg.norm(normal))
-    if sine < _PARALLEL:
+    sine_of_twist = float(np.linalg.norm(normal))
+    if sine_of_twist < _PARALLEL_SINE:
         origin = p_next
-        across = between - (between @ z) * z
-        along = across if np.linalg.norm(across) > _SAME else x if own is None else own
-        along = along / np.linalg.norm(along)
+        perpendicular = displacement - (displacement @ z) * z
+        x_axis = (
+            perpendicular if np.linalg.norm(perpendicular) > _EQUALITY_TOLERANCE else x if own_x_axis is None else own_x_axis
+        )
+        x_axis = x_axis / np.linalg.norm(x_axis)
     else:
-        along = normal / sine
+        x_axis = normal / sine_of_twist
         # Where the next axis comes nearest to this one.
-        origin = p_next + (np.cross(between, z) @ normal / sine**2) * z_next
-    return _frame(_signed(along, float(between @ along), x, own), z_next, origin)
+        origin = p_next + (np.cross(displacement, z) @ normal / sine_of_twist**2) * z_next
+    return _frame_from_axes(_orient_normal(x_axis, float(displacement @ x_axis), x, own_x_axis), z_next, origin)
 
 
-def _signed(normal: Array, length: float, x: Array, own: Array | None) -> Array:
-    """The common normal, pointing the way that :func:`dh_table` says."""
-    if own is not None and abs(own @ normal) > 1 - _SAME:
-        positive = bool(own @ normal > 0)
-    elif abs(length) > _SAME:
-        positive = length > 0
+def _orient_normal(normal: Array, signed_length: float, x: Array, own_x_axis: Array | None) -> Array:
+    """Return the common normal with the sign that :func:`dh_table` defines."""
+    if own_x_axis is not None and abs(own_x_axis @ normal) > 1 - _EQUALITY_TOLERANCE:
+        keeps_sign = bool(own_x_axis @ normal > 0)
+    elif abs(signed_length) > _EQUALITY_TOLERANCE:
+        keeps_sign = signed_length > 0
     else:
-        positive = bool(normal @ x > -_SAME)
-    return normal if positive else -normal
+        keeps_sign = bool(normal @ x > -_EQUALITY_TOLERANCE)
+    return normal if keeps_sign else -normal
 
 
-def _last(arm: Arm, frame: Array, joint: Array, z: Array) -> Array:
+def _last_frame(arm: Arm, frame: Array, joint: Array, z: Array) -> Array:
     if arm.joints[-1].axis[2] != 1.0:
-        return _frame(frame[:3, 0], z, joint[:3, 3])
+        return _frame_from_axes(frame[:3, 0], z, joint[:3, 3])
     # Of the form Tz(d) Tx(a) Rx(alpha), or no part of the table.
-    fits = abs(arm.flange[0, 0] - 1) < _SAME and abs(arm.flange[1, 3]) < _SAME
-    return joint @ arm.flange if fits else joint
+    has_row_form = abs(arm.flange[0, 0] - 1) < _EQUALITY_TOLERANCE and abs(arm.flange[1, 3]) < _EQUALITY_TOLERANCE
+    return joint @ arm.flange if has_row_form else joint
 
 
-def _row(arm: Arm, k: int, frame: Array, after: Array) -> DH:
-    joint, step = arm.joints[k], after[:3, 3] - frame[:3, 3]
+def _make_row(arm: Arm, k: int, frame: Array, next_frame: Array) -> DH:
+    joint, displacement = arm.joints[k], next_frame[:3, 3] - frame[:3, 3]
     return DH(
-        a=_length(float(step @ after[:3, 0])),
-        alpha=_turn(frame[:3, 2], after[:3, 2], after[:3, 0]),
-        d=_length(float(step @ frame[:3, 2])),
-        theta=_turn(frame[:3, 0], after[:3, 0], frame[:3, 2]),
+        a=_clean_length(float(displacement @ next_frame[:3, 0])),
+        alpha=_signed_angle(frame[:3, 2], next_frame[:3, 2], next_frame[:3, 0]),
+        d=_clean_length(float(displacement @ frame[:3, 2])),
+        theta=_signed_angle(frame[:3, 0], next_frame[:3, 0], frame[:3, 2]),
         type="prismatic" if joint.prismatic else "revolute",
         lower=None if np.isinf(joint.lower) else joint.lower,
         upper=None if np.isinf(joint.upper) else joint.upper,
@@ -154,36 +158,38 @@ def _row(arm: Arm, k: int, frame: Array, after: Array) -> DH:
     )
 
 
-def _frame(x: Array, z: Array, origin: Array) -> Array:
-    """The frame with the given z, and with x as far as it is across z."""
-    out = np.eye(4)
-    across: Array = x - (x @ z) * z
-    across /= np.linalg.norm(across)
-    out[:3, 0], out[:3, 1], out[:3, 2], out[:3, 3] = across, np.cross(z, across), z, origin
-    return out
+def _frame_from_axes(x: Array, z: Array, origin: Array) -> Array:
+    """Return the frame with the given z axis and with the component of x perpendicular to z."""
+    frame = np.eye(4)
+    x_axis: Array = x - (x @ z) * z
+    x_axis /= np.linalg.norm(x_axis)
+    frame[:3, 0], frame[:3, 1], frame[:3, 2], frame[:3, 3] = x_axis, np.cross(z, x_axis), z, origin
+    return frame
 
 
-def _inverse(t: Array) -> Array:
-    out = np.eye(4)
-    out[:3, :3], out[:3, 3] = t[:3, :3].T, -t[:3, :3].T @ t[:3, 3]
-    return out
+def _invert_pose(pose: Array) -> Array:
+    inverse = np.eye(4)
+    inverse[:3, :3], inverse[:3, 3] = pose[:3, :3].T, -pose[:3, :3].T @ pose[:3, 3]
+    return inverse
 
 
-def _turn(a: Array, b: Array, about: Array) -> float:
-    """The angle, rad, from a to b about an axis across both; 90 and the like without the noise of rounding."""
-    degrees = float(np.rad2deg(np.arctan2(np.cross(a, b) @ about, a @ b)))
-    near = round(degrees, 9)
-    degrees = near if abs(degrees - near) < 1e-12 else degrees
+def _signed_angle(a: Array, b: Array, axis: Array) -> float:
+    """Return the angle, rad, from a to b about an axis perpendicular to both; multiples of 90 degrees carry no
+    rounding noise.
+    """
+    degrees = float(np.rad2deg(np.arctan2(np.cross(a, b) @ axis, a @ b)))
+    rounded = round(degrees, 9)
+    degrees = rounded if abs(degrees - rounded) < 1e-12 else degrees
     return float(np.deg2rad(180.0 if degrees == -180 else degrees)) + 0.0
 
 
-def _length(value: float) -> float:
-    near = round(value, 12) + 0.0  # no -0
-    return near if abs(value - near) < 1e-14 else value
+def _clean_length(value: float) -> float:
+    rounded = round(value, 12) + 0.0  # no -0
+    return rounded if abs(value - rounded) < 1e-14 else value
 
 
-def _clean(transform: Array) -> Array:
-    out = transform.copy()
-    out[:3, :3] = snapped(out[:3, :3])
-    out[:3, 3] = [_length(x) for x in out[:3, 3]]
-    return out
+def _clean_pose(transform: Array) -> Array:
+    clean = transform.copy()
+    clean[:3, :3] = snap_exact_values(clean[:3, :3])
+    clean[:3, 3] = [_clean_length(coordinate) for coordinate in clean[:3, 3]]
+    return clean

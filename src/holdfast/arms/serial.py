@@ -1,4 +1,4 @@
-"""An arm as plain data and back, so that a results folder can say exactly which arm it is about."""
+"""Convert an arm to plain data and back, so that a results folder identifies its arm exactly."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature"
 
 
 def to_dict(arm: Arm) -> dict[str, Any]:
-    """Everything that defines the arm, as JSON types; infinite limits become null."""
+    """Return everything that defines the arm, as JSON types; infinite limits become null."""
     return {
         "name": arm.name,
         "source": arm.source,
@@ -24,22 +24,22 @@ def to_dict(arm: Arm) -> dict[str, Any]:
         "gravity": arm.gravity.tolist(),
         "joints": [
             {
-                "name": j.name,
-                "type": j.type,
-                "origin": j.origin.tolist(),
-                "axis": j.axis.tolist(),
-                **{f: (getattr(j, f) if np.isfinite(getattr(j, f)) else None) for f in _JOINT_NUMBERS},
+                "name": joint.name,
+                "type": joint.type,
+                "origin": joint.origin.tolist(),
+                "axis": joint.axis.tolist(),
+                **{key: (getattr(joint, key) if np.isfinite(getattr(joint, key)) else None) for key in _JOINT_NUMBERS},
             }
-            for j in arm.joints
+            for joint in arm.joints
         ],
-        "links": [_link_to_dict(x) for x in arm.links],
+        "links": [_link_to_dict(link) for link in arm.links],
         "payload": _link_to_dict(arm.payload),
         **({} if arm.chain is None else {"chain": [arm.chain.base, arm.chain.tip, dict(arm.chain.held)]}),
     }
 
 
 def from_dict(data: dict[str, Any]) -> Arm:
-    """The arm that :func:`to_dict` wrote.
+    """Return the arm of :func:`to_dict`.
 
     Raises:
         ArmError: The data are not such a description.
@@ -47,21 +47,21 @@ def from_dict(data: dict[str, Any]) -> Arm:
     try:
         joints = []
         for entry in data["joints"]:
-            values = {f: entry[f] for f in _JOINT_NUMBERS if entry[f] is not None}
+            values = {key: entry[key] for key in _JOINT_NUMBERS if entry[key] is not None}
             joints.append(
                 Joint(entry["name"], entry["type"], np.array(entry["origin"]), axis=np.array(entry["axis"]), **values)
             )
         return Arm(
             name=data["name"],
             joints=tuple(joints),
-            links=tuple(_link_from_dict(x) for x in data["links"]),
+            links=tuple(_link_from_dict(link_data) for link_data in data["links"]),
             base=np.array(data["base"]),
             tool=np.array(data["tool"]),
             gravity=np.array(data["gravity"]),
             payload=_link_from_dict(data["payload"]),
             source=data["source"],
             flange=np.array(data["flange"]),
-            chain=_chain(data.get("chain")),
+            chain=_read_chain(data.get("chain")),
         )
     except ArmError:
         raise
@@ -69,7 +69,7 @@ def from_dict(data: dict[str, Any]) -> Arm:
         raise ArmError(f"this is not an arm description written by holdfast: {error!r} is missing or malformed") from error
 
 
-def _chain(data: list[Any] | None) -> Chain | None:
+def _read_chain(data: list[Any] | None) -> Chain | None:
     if data is None:
         return None
     base, tip, held = data

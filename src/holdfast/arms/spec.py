@@ -1,4 +1,4 @@
-"""Arms and their tasks as people write them, on the command line and in study files."""
+"""Arms and their tasks as written on the command line and in study files."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from holdfast.errors import InputError
-from holdfast.grammar import ROWS, is_number
+from holdfast.grammar import TASK_ROW_NAMES, is_number
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ArmSpec:
-    """An arm as people name it.
+    """Description of an arm on the command line or in a study file.
 
     Attributes:
         spec: Built-in name or file; see :func:`holdfast.arms.resolve`.
@@ -32,57 +32,60 @@ class ArmSpec:
     name: str | None = None
 
     def load(self) -> Arm:
-        """The arm."""
+        """Return the arm."""
         from holdfast import arms
 
         arm = arms.resolve(self.spec, self.base, self.tip, hold=self.hold)
         return arm if self.name is None else replace(arm, name=self.name)
 
 
-def each_arm(
+def match_arm_options(
     specs: Sequence[str],
     base: Sequence[str] | None,
     tip: Sequence[str] | None,
     hold: Sequence[str] | None,
     name: Sequence[str] | None,
 ) -> list[ArmSpec]:
-    """Several arms; --base, --tip and --hold were given once for all, or each once for each arm, '-' for none.
+    """Return several arms; --base, --tip, and --hold are given once for all arms, or once for each arm, '-' for none.
 
     Raises:
         InputError: A number of options that is neither, or two arms of one name.
     """
-    held = [",".join(hold)] if hold and len(specs) == 1 else hold
-    given = {"--base": base, "--tip": tip, "--hold": held, "--name": name}
+    hold_option = [",".join(hold)] if hold and len(specs) == 1 else hold
+    options = {"--base": base, "--tip": tip, "--hold": hold_option, "--name": name}
     columns: dict[str, list[str | None]] = {}
-    for option, values in given.items():
-        found = [None if value == "-" else value for value in values or ["-"]]
-        if len(found) == 1 and (option != "--name" or found[0] is None):
-            found *= len(specs)
-        if len(found) != len(specs):
-            once = "once for each" if option == "--name" else "once for all, or once for each"
+    for option, values in options.items():
+        option_values = [None if value == "-" else value for value in values or ["-"]]
+        if len(option_values) == 1 and (option != "--name" or option_values[0] is None):
+            option_values *= len(specs)
+        if len(option_values) != len(specs):
+            advice = "once for each" if option == "--name" else "once for all, or once for each"
             raise InputError(
-                f"{option} is given {len(found)} times and there are {len(specs)} arms; give it {once}, '-' for none"
+                f"{option} is given {len(option_values)} times and there are {len(specs)} arms; give it {advice}, '-' for none"
             )
-        columns[option] = found
+        columns[option] = option_values
     rows = zip(specs, *columns.values(), strict=True)
-    return [ArmSpec(s, b, t, {} if h is None else read_hold(h), n) for s, b, t, h, n in rows]
+    return [
+        ArmSpec(spec_text, base_link, tip_link, {} if hold_text is None else read_hold(hold_text), arm_name)
+        for spec_text, base_link, tip_link, hold_text, arm_name in rows
+    ]
 
 
 def read_hold(text: str, option: str = "--hold") -> dict[str, float]:
-    """``joint=number`` separated by commas; the joints are those of a file that is not read yet."""
-    found: dict[str, float] = {}
-    for part in text.split(","):
-        joint, equals, value = (x.strip() for x in part.rpartition("="))
+    """Read ``joint=number`` pairs separated by commas; the joints are those of a file that is not read yet."""
+    values_by_joint: dict[str, float] = {}
+    for assignment in text.split(","):
+        joint, equals, value = (side.strip() for side in assignment.rpartition("="))
         if not (equals and joint and is_number(value)):
-            raise InputError(f"{option} '{part}' is not joint=number; write for example {option} finger_joint1=0.04")
-        if joint in found:
+            raise InputError(f"{option} '{assignment}' is not joint=number; write for example {option} finger_joint1=0.04")
+        if joint in values_by_joint:
             raise InputError(f"{option} gives joint '{joint}' twice; give each joint once")
-        found[joint] = float(value)
-    return found
+        values_by_joint[joint] = float(value)
+    return values_by_joint
 
 
 def default_task(spec: str, arm: Arm) -> str:
-    """The task of an arm for which none was given: its own, or planar if it moves in a plane, or pose."""
+    """Return the default task of an arm: its own task if it is built in, planar if it moves in a plane, else pose."""
     from holdfast import arms
     from holdfast.arm.task import plane_normal
 
@@ -92,15 +95,15 @@ def default_task(spec: str, arm: Arm) -> str:
 
 
 def read_task(text: str | None, spec: str, arm: Arm, option: str = "--task") -> str | Task:
-    """A task as the library takes it; ``option`` is what an error calls it."""
+    """Return a task in the form that the library takes; ``option`` is its name in error messages."""
     if text is None:
         return default_task(spec, arm)
-    from holdfast.arm.task import rows_task
+    from holdfast.arm.task import task_from_rows
 
-    frame, _, rest = text.rpartition(":")
+    frame, _, row_text = text.rpartition(":")
     if frame not in ("", "base", "tool"):
         raise InputError(f"{option}: frame '{frame}' is not known; write rows as 'tool:vx,vy,wz' or 'base:vx,vy,wz'")
-    rows = [x.strip() for x in rest.split(",") if x.strip()]
-    if frame or len(rows) > 1 or rest in ROWS:
-        return rows_task(rows, "tool" if frame == "tool" else "base")
-    return rest
+    rows = [row_name.strip() for row_name in row_text.split(",") if row_name.strip()]
+    if frame or len(rows) > 1 or row_text in TASK_ROW_NAMES:
+        return task_from_rows(rows, "tool" if frame == "tool" else "base")
+    return row_text

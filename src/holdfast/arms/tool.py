@@ -1,4 +1,4 @@
-"""Where a tool sits, as six numbers: x, y, z in m, then roll, pitch, yaw in degrees as URDF has them."""
+"""Tool poses as six numbers: x, y, z in m, then roll, pitch, yaw in degrees with URDF's convention."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from holdfast.arm.urdf import rpy_rotation
 Array = NDArray[np.float64]
 
 
-def attachment(numbers: ArrayLike) -> Array:
-    """The pose (4, 4) of six numbers, m and degrees; ``R = Rz(yaw) Ry(pitch) Rx(roll)``."""
+def tool_pose_from_numbers(numbers: ArrayLike) -> Array:
+    """Return the pose (4, 4) of six numbers, m and degrees; ``R = Rz(yaw) Ry(pitch) Rx(roll)``."""
     values = np.asarray(numbers, dtype=np.float64)
     pose = np.eye(4)
     pose[:3, 3] = values[:3]
@@ -20,10 +20,10 @@ def attachment(numbers: ArrayLike) -> Array:
     return pose
 
 
-def attachment_text(arm: Arm) -> str:
-    """The six numbers of an arm's tool in the last link's own frame, separated by commas, to 12 digits."""
+def format_tool_pose(arm: Arm) -> str:
+    """Return the six numbers of an arm's tool in the last link's own frame, separated by commas, to 12 digits."""
     from scipy.spatial.transform import Rotation
 
     pose = np.linalg.inv(arm.flange) @ arm.tool
     yaw, pitch, roll = Rotation.from_matrix(pose[:3, :3]).as_euler("ZYX", degrees=True, suppress_warnings=True)
-    return ",".join(f"{round(float(x), 12) + 0.0:.12g}" for x in (*pose[:3, 3], roll, pitch, yaw))
+    return ",".join(f"{round(float(number), 12) + 0.0:.12g}" for number in (*pose[:3, 3], roll, pitch, yaw))

@@ -1,4 +1,4 @@
-"""Fault tolerance over a region: sample poses, solve, evaluate, and give probabilities."""
+"""Fault tolerance over a region: sample poses, solve, evaluate, and compute probabilities."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""The answer of an assessment in sentences: how often a threshold is met, and what prevents it."""
+"""Answer of an assessment in sentences: how often a threshold is met, and the reasons against it."""
 
 from __future__ import annotations
 
@@ -9,22 +9,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.task import as_task
-from holdfast.assessment.plan import Plan
+from holdfast.assessment.plan import AssessmentPlan
 from holdfast.assessment.single_points import Structure, structure, structures
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.probability.distribution import Distribution, Interval
-from holdfast.words import article, as_given, either, interval, number, percent, share
+from holdfast.words import (
+    format_as_given,
+    format_interval,
+    format_number,
+    format_percent,
+    format_share,
+    indefinite_article,
+    list_alternatives,
+)
 
-EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
-ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
+MIN_INFORMATIVE_PROBABILITY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
+ZERO_INDEX = 1e-9  # values that a structural failure leaves behind are rounding noise
 
 
-class Sampled(Protocol):
-    """The parts of an assessment that the answer uses; see :class:`holdfast.Assessment`."""
+class AnswerSource(Protocol):
+    """Parts of an assessment that the answer uses; see :class:`holdfast.Assessment`."""
 
     @property
-    def plan(self) -> Plan: ...  # noqa: D102
+    def plan(self) -> AssessmentPlan: ...  # noqa: D102
 
     @property
     def kept(self) -> bool: ...  # noqa: D102
@@ -46,8 +54,8 @@ class Sampled(Protocol):
     ) -> Interval: ...
 
 
-class Answer:
-    """What an assessment says of a threshold, in words.
+class ThresholdAnswer:
+    """Sentences about an assessment and a threshold.
 
     Args:
         assessment: What was found.
@@ -57,162 +65,190 @@ class Answer:
         InputError: The threshold is not a finite number.
     """
 
-    def __init__(self, assessment: Sampled, threshold: float | None) -> None:
+    def __init__(self, assessment: AnswerSource, threshold: float | None) -> None:
         if threshold is not None and not np.isfinite(threshold):
             raise InputError(f"threshold is {threshold:g}; it must be a finite number")
-        self.a = assessment
-        self.d = assessment.distribution
+        self.assessment = assessment
+        self.distribution = assessment.distribution
         self.index = assessment.plan.index
-        self.larger = self.index.better == "larger"
+        self.larger_is_better = self.index.better == "larger"
         self.noun = "configuration" if assessment.plan.region.kind == "joints" else "pose"
-        self.reached = f"{self.noun}s" if assessment.plan.region.kind == "joints" else "reached poses"
-        self.chosen = threshold is not None
+        self.reached_noun = f"{self.noun}s" if assessment.plan.region.kind == "joints" else "reached poses"
+        self.is_chosen = threshold is not None
         self.threshold = assessment.default_threshold() if threshold is None else float(threshold)
 
     @property
-    def nothing(self) -> bool:
-        """The index is at its worst at every reached pose, up to rounding."""
-        if self.larger:
-            return self.d.reached > 0 and self.d.highest <= ZERO
-        return self.d.reached > 0 and self.d.infinite == self.d.reached
+    def is_worst_everywhere(self) -> bool:
+        """True if the index has its worst value at every reached pose, up to rounding."""
+        if self.larger_is_better:
+            return self.distribution.reached > 0 and self.distribution.highest <= ZERO_INDEX
+        return self.distribution.reached > 0 and self.distribution.infinite == self.distribution.reached
 
     @property
-    def decided(self) -> bool:
-        """There is a meaningful threshold."""
-        return self.chosen or self.index.bound is not None or (self.d.reached > 0 and not self.nothing)
+    def has_threshold(self) -> bool:
+        """True if there is a meaningful threshold."""
+        return (
+            self.is_chosen or self.index.bound is not None or (self.distribution.reached > 0 and not self.is_worst_everywhere)
+        )
 
     @cached_property
-    def answer(self) -> Interval:
+    def probability(self) -> Interval:
         """Probability that a pose of the region meets the threshold."""
-        t = self.threshold
-        return self.a.interval(at_least=t) if self.larger else self.a.interval(at_most=t)
+        threshold = self.threshold
+        return (
+            self.assessment.interval(at_least=threshold)
+            if self.larger_is_better
+            else self.assessment.interval(at_most=threshold)
+        )
 
     @property
     def condition(self) -> str:
-        """The threshold as a condition, for a formula."""
-        return f"index {'≥' if self.larger else '≤'} {as_given(self.threshold)}{self.unit}"
+        """Threshold as a condition, for a formula."""
+        return f"index {'≥' if self.larger_is_better else '≤'} {format_as_given(self.threshold)}{self.unit_suffix}"
 
     @property
-    def failures(self) -> str:
-        """``whichever joint locks`` and the like."""
-        sizes = {len(s) for s in self.index.failures}
+    def failure_phrase(self) -> str:
+        """Phrase for the failures, such as ``if joint2 or joint3 locks``."""
+        sizes = {len(failed) for failed in self.index.failures}
         size = sizes.pop() if len(sizes) == 1 else 0
-        if size and len(self.index.failures) == math.comb(self.a.plan.arm.n, size):
+        if size and len(self.index.failures) == math.comb(self.assessment.plan.arm.n, size):
             return "whichever joint locks" if size == 1 else f"whichever {size} joints lock together"
         count = len(self.index.failures)
-        return f"if {either(self.index.failure_names)} locks" if count == 1 else f"after any of the {count} failures considered"
+        return (
+            f"if {list_alternatives(self.index.failure_names)} locks"
+            if count == 1
+            else f"after any of the {count} failures considered"
+        )
 
     @cached_property
     def headline(self) -> str:
-        """The answer in one sentence."""
-        d, name, noun = self.d, self.index.name, self.noun
-        if not d.samples:
+        """Answer in one sentence."""
+        distribution, name, noun = self.distribution, self.index.name, self.noun
+        if not distribution.samples:
             return "Nothing has been computed yet."
-        if not d.reached:
+        if not distribution.reached:
             return (
-                f"No configuration within the joint limits was found for any of the {d.samples:,} poses of the region: "
+                f"No configuration within the joint limits was found for any of the {distribution.samples:,} poses of "
+                f"the region: "
                 "move the region, widen the joint limits or give more restarts."
             )
-        lost = (
-            f"; for {percent(d.unreached_share)} of poses no configuration within the joint limits was found"
-            if d.unreached
+        lost_text = (
+            f"; for {format_percent(distribution.unreached_share)} of poses no configuration within the joint limits was found"
+            if distribution.unreached
             else ""
         )
-        if self.nothing:
-            worst = "0" if self.larger else "infinite"
-            verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
-            return f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
-        bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
-        if self.larger and self.index.bound is not None:
-            bound += f" ({percent(self.threshold / self.index.bound)} of the largest possible value)"
-        kept = f"keeps {article(name)} {name} of {bound} {self.failures}"
-        chance = f"probability {interval(self.answer)}"
-        if self.answer.value >= EMPTY:
-            return f"{self.remaining_reach}With {chance} a {noun} of the region {kept}{lost}."
-        few = f"Hardly any {noun} of the region" if self.answer.value else f"None of the {d.samples:,} {noun}s drawn"
-        return f"{self.remaining_reach}{few} {kept}: {chance}{lost}. {self.why}"
+        if self.is_worst_everywhere:
+            worst_value = "0" if self.larger_is_better else "infinite"
+            verdict = f"the worst-case {name} is {worst_value} at each {noun} reached{lost_text}."
+            return (
+                f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict} {self.explanation}".rstrip()
+            )
+        bound = f"at {'least' if self.larger_is_better else 'most'} {format_as_given(self.threshold)}{self.unit_suffix}"
+        if self.larger_is_better and self.index.bound is not None:
+            bound += f" ({format_percent(self.threshold / self.index.bound)} of the largest possible value)"
+        kept_text = f"keeps {indefinite_article(name)} {name} of {bound} {self.failure_phrase}"
+        chance = f"probability {format_interval(self.probability)}"
+        if self.probability.value >= MIN_INFORMATIVE_PROBABILITY:
+            return f"{self.remaining_reach}With {chance} a {noun} of the region {kept_text}{lost_text}."
+        few_text = (
+            f"Hardly any {noun} of the region"
+            if self.probability.value
+            else f"None of the {distribution.samples:,} {noun}s drawn"
+        )
+        return f"{self.remaining_reach}{few_text} {kept_text}: {chance}{lost_text}. {self.explanation}"
 
     @property
     def remaining_reach(self) -> str:
-        """The reach after the lock that costs most, as a sentence with a space behind it; empty if the run did not ask."""
-        if self.costliest is None:
+        """Sentence, followed by a space, on the reach after the most costly lock; empty if the run did not test locks."""
+        if self.costliest_lock is None:
             return ""
-        name, left = self.costliest
-        return f"Once {name} has locked, {percent(left)} of the poses of the region are still reached. "
+        name, fraction = self.costliest_lock
+        return f"Once {name} has locked, {format_percent(fraction)} of the poses of the region are still reached. "
 
     @cached_property
-    def costliest(self) -> tuple[str, float] | None:
-        """The joint whose lock leaves fewest poses, and what share of them; None if the run did not ask."""
-        if self.a.survivors is None or not self.d.reached:
+    def costliest_lock(self) -> tuple[str, float] | None:
+        """Joint whose lock leaves the fewest poses, and the fraction that remains; None if the run did not test locks."""
+        if self.assessment.survivors is None or not self.distribution.reached:
             return None
-        left = {name: share.value for name, share in self.a.survival().items()}
-        return min(left.items(), key=lambda each: each[1])
+        fractions = {name: interval.value for name, interval in self.assessment.survival().items()}
+        return min(fractions.items(), key=lambda each: each[1])
 
     @property
-    def why(self) -> str:
-        """Why the answer is nothing, joint or structure, and the next informative numbers."""
-        a, index, names = self.a, self.index, self.a.plan.arm.joint_names
-        own = self.structures[0]
-        ends = [k for k in own.fatal if any(k in s for s in index.failures)]
-        if own.never:
+    def explanation(self) -> str:
+        """Reason for a probability of nearly 0, from the joints or the structure, and the next informative numbers."""
+        assessment, index, names = self.assessment, self.index, self.assessment.plan.arm.joint_names
+        own_structure = self.task_structures[0]
+        fatal_joints = [joint for joint in own_structure.fatal if any(joint in failed for failed in index.failures)]
+        if own_structure.never:
             return "The healthy arm itself is singular for this task in every configuration."
-        if ends:
-            text = f"Once {either([names[k] for k in ends])} locks, the task is singular in every configuration."
-            spared = any(ends[0] not in s for s in index.failures)
-            if len(ends) == 1 and spared and a.kept and self.d.reached:
-                median = number(float(a.if_never_fails(ends[0]).quantile(0.5)))
-                text += f" If it never failed, the median of the {self.reached} would be {median}."
-            return text
-        counts = a.worst_counts
+        if fatal_joints:
+            reason = (
+                f"Once {list_alternatives([names[joint] for joint in fatal_joints])} locks, the task is singular in "
+                f"every configuration."
+            )
+            is_avoidable = any(fatal_joints[0] not in failed for failed in index.failures)
+            if len(fatal_joints) == 1 and is_avoidable and assessment.kept and self.distribution.reached:
+                median = format_number(float(assessment.if_never_fails(fatal_joints[0]).quantile(0.5)))
+                reason += f" If it never failed, the median of the {self.reached_noun} would be {median}."
+            return reason
+        counts = assessment.worst_counts
         parts = []
         if counts.sum() > 0:
-            k = int(counts.argmax())
-            worst = percent(float(counts[k] / counts.sum()))
-            parts.append(f"A lock of {index.failure_names[k]} is the worst failure at {worst} of the {self.reached}.")
-        parts.append(f"The median of the {self.reached} is {number(float(self.d.quantile(0.5)))}")
-        best = a.optimised
+            joint = int(counts.argmax())
+            worst = format_percent(float(counts[joint] / counts.sum()))
+            parts.append(f"A lock of {index.failure_names[joint]} is the worst failure at {worst} of the {self.reached_noun}.")
+        parts.append(f"The median of the {self.reached_noun} is {format_number(float(self.distribution.quantile(0.5)))}")
+        best = assessment.optimised
         if best is not None and best.reached:
-            p = a.interval(**{f"at_{'least' if self.larger else 'most'}": self.threshold}, optimised=True)
-            parts[-1] += f"; at the best configuration of each pose it is {number(float(best.quantile(0.5)))}, "
-            parts[-1] += f"and the probability {interval(p)}"
-        elif a.plan.region.kind != "joints":
+            best_probability = assessment.interval(
+                **{f"at_{'least' if self.larger_is_better else 'most'}": self.threshold}, optimised=True
+            )
+            parts[-1] += f"; at the best configuration of each pose it is {format_number(float(best.quantile(0.5)))}, "
+            parts[-1] += f"and the probability {format_interval(best_probability)}"
+        elif assessment.plan.region.kind != "joints":
             parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
         return f"{' '.join(parts)}."
 
     @property
-    def drawn(self) -> str:
-        """How poses were chosen."""
-        listed = self.a.plan.region.listed
-        each = listed is not None and self.a.plan.poses == len(listed)
-        return "each pose of the list once" if each else f"{self.a.plan.sampling} poses of the region"
+    def sampling_text(self) -> str:
+        """Description of the choice of poses."""
+        listed = self.assessment.plan.region.listed
+        is_whole_list = listed is not None and self.assessment.plan.poses == len(listed)
+        return "each pose of the list once" if is_whole_list else f"{self.assessment.plan.sampling} poses of the region"
 
-    def share(self, count: int) -> str:
-        """A count of poses as a share of all, with its interval if all count alike."""
-        d = self.d
-        return f"{count:,} of {d.samples:,} {self.noun}s, not weighted" if d.weighted else share(count, d.samples)
+    def format_share(self, count: int) -> str:
+        """Format a count of poses with its fraction of all, and with its interval if all count alike."""
+        distribution = self.distribution
+        return (
+            f"{count:,} of {distribution.samples:,} {self.noun}s, not weighted"
+            if distribution.weighted
+            else format_share(count, distribution.samples)
+        )
 
     @property
-    def weights(self) -> str:
-        """What weights do to the numbers."""
+    def weights_text(self) -> str:
+        """Explanation of the effect of weights on the numbers."""
         return (
-            f"poses count by weight: {percent(1 - self.d.unreached_share)} of the weight is reached. Effective sample size "
-            f"{self.d.effective():,.0f} of {self.d.samples:,} (total weight over the largest weight): intervals and bands are "
+            f"poses count by weight: {format_percent(1 - self.distribution.unreached_share)} of the weight is reached. "
+            f"Effective sample size "
+            f"{self.distribution.effective():,.0f} of {self.distribution.samples:,} (total weight over the largest "
+            f"weight): intervals and bands are "
             "those of so many equal poses"
         )
 
     @property
-    def unit(self) -> str:
-        """With a space in front, or nothing."""
+    def unit_suffix(self) -> str:
+        """Unit of the index after a space, or nothing."""
         return "" if self.index.unit == "1" else f" {self.index.unit}".replace("^2", "²").replace("^3", "³")
 
     @cached_property
-    def structures(self) -> tuple[Structure, list[Structure]]:
-        """Of the task of the run, and of all tasks with that one among them."""
-        everything = structures(self.a.plan.arm)
+    def task_structures(self) -> tuple[Structure, list[Structure]]:
+        """Structure of the task of the run, and those of all tasks including it."""
+        everything = structures(self.assessment.plan.arm)
         task = self.index.task
-        for s in everything:
-            standard = as_task(self.a.plan.arm, s.task)
-            if s.task == task.name and standard.rows.shape == task.rows.shape and np.allclose(standard.rows, task.rows):
-                return s, everything
-        own = structure(self.a.plan.arm, task)
-        return own, [own, *everything]
+        for candidate in everything:
+            standard = as_task(self.assessment.plan.arm, candidate.task)
+            if candidate.task == task.name and standard.rows.shape == task.rows.shape and np.allclose(standard.rows, task.rows):
+                return candidate, everything
+        own_structure = structure(self.assessment.plan.arm, task)
+        return own_structure, [own_structure, *everything]

@@ -1,4 +1,4 @@
-"""The result of an assessment: how probably an index meets a threshold after a failure, and what follows."""
+"""Result of an assessment: the probability that an index meets a threshold after a failure, and derived results."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.assessment import upgrade
-from holdfast.assessment.answer import ZERO, Answer
-from holdfast.assessment.plan import Plan, Rows
-from holdfast.assessment.rows import Collisions, provenance
-from holdfast.assessment.upgrade import Sample, Upgrade, check_rates, sample
+from holdfast.assessment.answer import ZERO_INDEX, ThresholdAnswer
+from holdfast.assessment.plan import AssessmentPlan, Rows
+from holdfast.assessment.rows import Collisions, describe_provenance
+from holdfast.assessment.upgrade import RunSample, Upgrade, check_rates, select_sample
 from holdfast.engine.store import Store
 from holdfast.errors import InputError
 from holdfast.indices.index import Index
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.probability.distribution import Distribution, Interval
 from holdfast.probability.intervals import check_confidence
 from holdfast.regions.region import Region, Sampling
@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment(Result):
-    """What :func:`holdfast.assess` found.
+    """Result of :func:`holdfast.assess`.
 
     Attributes:
         plan: What was asked for.
@@ -55,7 +55,7 @@ class Assessment(Result):
         complete: False if the run was stopped before all poses were done.
     """
 
-    plan: Plan
+    plan: AssessmentPlan
     distribution: Distribution
     worst_counts: NDArray[Any]
     optimised: Distribution | None
@@ -70,22 +70,22 @@ class Assessment(Result):
 
     @property
     def arm(self) -> Arm:
-        """The arm."""
+        """Arm of the index."""
         return self.plan.arm
 
     @property
     def region(self) -> Region:
-        """The region."""
+        """Region of the poses."""
         return self.plan.region
 
     @property
     def index(self) -> Index:
-        """The index."""
+        """Index that was evaluated."""
         return self.plan.index
 
     @property
     def poses(self) -> int:
-        """Poses asked for."""
+        """Number of requested poses."""
         return self.plan.poses
 
     @property
@@ -95,16 +95,16 @@ class Assessment(Result):
 
     @property
     def sampling(self) -> Sampling:
-        """How poses were drawn."""
+        """Sampling of the poses, ``random`` or ``sobol``."""
         return self.plan.sampling
 
     @property
     def restarts(self) -> int:
-        """Random starts per pose before it counted as not found."""
+        """Random starts per pose before it counts as not found."""
         return self.plan.restarts
 
-    def of(self, optimised: bool) -> Distribution:
-        """The distribution at the best configurations, or at those that inverse kinematics found.
+    def distribution_of(self, optimised: bool) -> Distribution:
+        """Return the distribution at the best configurations, or at those that inverse kinematics found.
 
         Raises:
             InputError: The run was not optimised.
@@ -115,12 +115,14 @@ class Assessment(Result):
             raise InputError("this run was not optimised; assess again with optimise=True")
         return self.optimised
 
-    @checked
+    @check_arguments
     def cdf(self, h: ArrayLike, optimised: bool = False, reachable_only: bool = False) -> Array:
-        """``F(h)``: share of poses whose index is below h; one without a configuration counts as 0 unless asked otherwise."""
-        return self.of(optimised).cdf(h, reachable_only)
+        """Return ``F(h)``: the fraction of poses whose index is below h; a pose without a configuration counts as 0 unless
+        ``reachable_only``.
+        """
+        return self.distribution_of(optimised).cdf(h, reachable_only)
 
-    @checked
+    @check_arguments
     def probability(
         self,
         at_least: float | None = None,
@@ -129,10 +131,10 @@ class Assessment(Result):
         *,
         reachable_only: bool = False,
     ) -> float:
-        """Probability that the index meets a threshold: ``1 - F(h)``."""
-        return self.of(optimised).probability(at_least, at_most, reachable_only)
+        """Return the probability that the index meets a threshold: ``1 - F(h)``."""
+        return self.distribution_of(optimised).probability(at_least, at_most, reachable_only)
 
-    @checked
+    @check_arguments
     def interval(
         self,
         at_least: float | None = None,
@@ -142,12 +144,13 @@ class Assessment(Result):
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
-        """That probability with its exact (Clopper-Pearson) interval."""
-        return self.of(optimised).interval(at_least, at_most, reachable_only, confidence=confidence)
+        """Return the probability that the index meets a threshold, with its Clopper-Pearson interval."""
+        return self.distribution_of(optimised).interval(at_least, at_most, reachable_only, confidence=confidence)
 
-    @checked
+    @check_arguments
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
-        """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
+        """Return the fraction of all poses of the region that are still reachable after a joint has locked, with its
+        Clopper-Pearson interval.
 
         The joint is locked at the angle that ``locked`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
@@ -166,23 +169,25 @@ class Assessment(Result):
             raise InputError("this run did not look at what survives a lock; assess again with after_lock=True")
         chosen = list(self.plan.locks) if joint is None else [self.arm.joint_index(joint)]
         names = self.arm.joint_names
-        for k in chosen:
-            if k not in self.plan.locks:
+        for lock in chosen:
+            if lock not in self.plan.locks:
                 raise InputError(
-                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with it in locked"
+                    f"this run did not look at a lock of '{names[lock]}'; assess again with after_lock=True or with "
+                    f"it in locked"
                 )
-        return {names[k]: self._share(float(self.survivors[k]), confidence) for k in chosen}
+        return {names[lock]: self._compute_interval(float(self.survivors[lock]), confidence) for lock in chosen}
 
-    def _share(self, hits: float, confidence: float) -> Interval:
-        """Of all poses, by weight if they have one."""
-        d = self.distribution
-        if d.weighted:
-            return Interval.of_share(min(hits / d.total_weight(), 1.0), d.effective(), confidence)
-        return Interval.of(int(hits), d.samples, confidence)
+    def _compute_interval(self, hits: float, confidence: float) -> Interval:
+        """Return the fraction of all poses with its interval, by weight if poses have weights."""
+        distribution = self.distribution
+        if distribution.weighted:
+            return Interval.of_share(min(hits / distribution.total_weight(), 1.0), distribution.effective(), confidence)
+        return Interval.of(int(hits), distribution.samples, confidence)
 
-    @checked
+    @check_arguments
     def reached_clear(self, confidence: float = 0.95) -> Interval:
-        """Share of all poses that the healthy arm reaches clear of itself and its cell, with its exact interval.
+        """Return the fraction of all poses that the healthy arm reaches free of collisions with itself and its cell, with its
+        Clopper-Pearson interval.
 
         A pose of which no such configuration was found in a limited number of starts counts as lost, and the spheres that
         cover the arm reach a little beyond it, so the share is a lower bound.
@@ -193,16 +198,16 @@ class Assessment(Result):
         check_confidence(confidence)
         if self.clear is None:
             raise InputError("this run had no cell around the arm; assess again with cell=")
-        return self._share(self.clear, confidence)
+        return self._compute_interval(self.clear, confidence)
 
     @property
     def locks(self) -> dict[str, float | None]:
-        """Where each joint of :meth:`survival` locks: an angle (rad or m), or None for where it was at another pose."""
-        return {self.arm.joint_names[k]: angle for k, angle in self.plan.locks.items()}
+        """Locked value of each joint of :meth:`survival`: an angle (rad or m), or None for its value at another pose."""
+        return {self.arm.joint_names[lock]: angle for lock, angle in self.plan.locks.items()}
 
-    @checked
+    @check_arguments
     def expected_survival(self, rates: Mapping[str | int, float]) -> float:
-        """Share of the region that is left after a failure, weighted by how often each joint fails.
+        """Return the fraction of the region that remains after a failure, weighted by the failure rate of each joint.
 
         Args:
             rates: Relative failure rates by joint name or index from 0; joints that are not named do not fail.
@@ -211,34 +216,34 @@ class Assessment(Result):
             InputError: A negative rate, or none above 0, or the run did not ask (for a joint with a rate above 0).
         """
         weights = check_rates(self.arm, rates)
-        some = np.flatnonzero(weights)
-        shares = np.array([self.survival(int(k))[self.arm.joint_names[k]].value for k in some])
-        return float(shares @ weights[some] / weights.sum())
+        failing = np.flatnonzero(weights)
+        shares = np.array([self.survival(int(joint))[self.arm.joint_names[joint]].value for joint in failing])
+        return float(shares @ weights[failing] / weights.sum())
 
     # ---- what it means ---------------------------------------------------------------------------------------------
 
     def default_threshold(self) -> float:
-        """The value that reports ask for unless they are given one: half of the bound, else about the median; two digits."""
+        """Return the default threshold of reports: half of the bound, or about the median, with two digits."""
         if self.index.bound is not None:
             return float(f"{self.index.bound / 2:.2g}")
-        d = self.distribution
-        for v in [*(d.quantile([0.5, 0.25]).tolist() if d.reached else []), d.highest]:
-            if np.isfinite(v) and abs(v) > ZERO:
-                return float(f"{v:.2g}")
+        distribution = self.distribution
+        for value in [*(distribution.quantile([0.5, 0.25]).tolist() if distribution.reached else []), distribution.highest]:
+            if np.isfinite(value) and abs(value) > ZERO_INDEX:
+                return float(f"{value:.2g}")
         return 1.0
 
     def gap(self, optimised: bool = False) -> float | None:
-        """Distance of the median over the reached poses from the bound of every configuration; None if unknown.
+        """Return the distance of the median over the reached poses from the bound of every configuration; None if unknown.
 
         For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
         the bound for several failures at a time, ``index.bound_note`` says.
         """
-        d = self.of(optimised)
-        if self.index.bound is None or not d.reached:
+        distribution = self.distribution_of(optimised)
+        if self.index.bound is None or not distribution.reached:
             return None
-        return self.index.bound - float(d.quantile(0.5))
+        return self.index.bound - float(distribution.quantile(0.5))
 
-    @checked
+    @check_arguments
     def if_never_fails(self, joint: str | int, optimised: bool = False) -> Distribution:
         """Compute the distribution if one joint could never fail: the worst case over the remaining failures.
 
@@ -250,12 +255,14 @@ class Assessment(Result):
         Raises:
             InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
         """
-        k, s = self.arm.joint_index(joint), self._sample(optimised)
-        return upgrade.distribution_without(self.index, s, self._without(k, s, optimised))
+        number, run_sample = self.arm.joint_index(joint), self._select_sample(optimised)
+        return upgrade.make_distribution_without(
+            self.index, run_sample, self._compute_values_without(number, run_sample, optimised)
+        )
 
-    @checked
+    @check_arguments
     def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
-        """Rank the joints by what a redundant motor or brake, with which the joint could never fail, would gain.
+        """Rank the joints by the gain from a redundant motor or brake, with which the joint could never fail.
 
         Args:
             threshold: Value of the index that the task needs; :meth:`default_threshold` if not given.
@@ -267,21 +274,23 @@ class Assessment(Result):
             InputError: The threshold is not finite, the rows were not kept, or the run was not optimised.
         """
         check_confidence(confidence)
-        least = self.default_threshold() if threshold is None else threshold
-        s = self._sample(optimised)
-        return upgrade.upgrades(self.index, s, lambda k: self._without(k, s, optimised), least, confidence)
+        minimum = self.default_threshold() if threshold is None else threshold
+        run_sample = self._select_sample(optimised)
+        return upgrade.rank_upgrades(
+            self.index, run_sample, lambda k: self._compute_values_without(k, run_sample, optimised), minimum, confidence
+        )
 
-    def _sample(self, optimised: bool) -> Sample:
-        self.of(optimised)  # says so where the run was not optimised
-        s = sample(self.index, self.columns, optimised)
-        return s.first if optimised else s
+    def _select_sample(self, optimised: bool) -> RunSample:
+        self.distribution_of(optimised)  # says so where the run was not optimised
+        run_sample = select_sample(self.index, self.columns, optimised)
+        return run_sample.first_poses if optimised else run_sample
 
-    def _without(self, k: int, s: Sample, optimised: bool) -> Array:
-        """Values (N,) of a sample if joint k, from 0, never failed; optimised ones are computed once."""
-        known: dict[int, Array] = self.__dict__.setdefault("_optimised_without", {})
-        if optimised and k not in known:
-            known[k] = upgrade.optimised_value_without(self.plan, self.columns, k, s)
-        return known[k] if optimised else upgrade.value_without(self.index, k, s)
+    def _compute_values_without(self, joint: int, run_sample: RunSample, optimised: bool) -> Array:
+        """Return the values (N,) of a sample if a joint, from 0, never failed; optimised values are computed once."""
+        cached: dict[int, Array] = self.__dict__.setdefault("_optimised_without", {})
+        if optimised and joint not in cached:
+            cached[joint] = upgrade.optimise_value_without(self.plan, self.columns, joint, run_sample)
+        return cached[joint] if optimised else upgrade.compute_value_without(self.index, joint, run_sample)
 
     # ---- rows, files -----------------------------------------------------------------------------------------------
 
@@ -292,7 +301,7 @@ class Assessment(Result):
 
     @property
     def columns(self) -> Mapping[str, Any]:
-        """The rows by column, (N, ...) each, read when it is sliced: :attr:`dataset` without names and units.
+        """Rows by column, (N, ...) each, read when they are sliced: :attr:`dataset` without names and units.
 
         Raises:
             InputError: The rows were not kept; give ``store`` or ``keep=True``.
@@ -305,7 +314,7 @@ class Assessment(Result):
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Every pose with its configuration and index values, as an xarray dataset with units and provenance.
+        """All poses with configurations and index values, as an xarray dataset with units and provenance.
 
         Raises:
             InputError: The rows were not kept; give ``store`` or ``keep=True``.
@@ -314,11 +323,11 @@ class Assessment(Result):
 
         if self._rows is None and self.store is not None:
             return self.store.dataset()
-        columns = {c.name: c for c in self.plan.columns()}
+        columns = {column.name: column for column in self.plan.columns()}
         data = {
             name: xr.DataArray(
                 values,
-                dims=("row", *[d for d, _ in columns[name].dims]),
+                dims=("row", *[dimension for dimension, _ in columns[name].dims]),
                 attrs={"units": columns[name].units, "long_name": columns[name].about},
             )
             for name, values in self.columns.items()
@@ -326,17 +335,17 @@ class Assessment(Result):
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
 
     def claim(self) -> ReachClaim:
-        """What the sample suggests where it missed no pose: :func:`holdfast.certify` proves that every pose is reached."""
-        from holdfast.assessment.suggested import region_claim
+        """Return the claim that every pose is reached, for a sample that missed none; :func:`holdfast.certify` proves it."""
+        from holdfast.assessment.suggested import make_region_claim
 
-        return region_claim(self.arm, self.region, self.index.task, self.distribution.unreached)
+        return make_region_claim(self.arm, self.region, self.index.task, self.distribution.unreached)
 
     def describe(self) -> list[str]:
-        """The answer at :meth:`default_threshold`, and what it is about."""
-        said = [Answer(self, None).headline]
+        """Return the answer at :meth:`default_threshold`, and the arm, index, and region."""
+        sentences = [ThresholdAnswer(self, None).headline]
         if not self.complete:
-            said.append(f"Not finished: {self.distribution.samples} of {self.poses} poses.")
-        return [*said, f"{self.arm.title}: {self.index.describe()}.", f"{self.region.name}: {self.region.describe()}."]
+            sentences.append(f"Not finished: {self.distribution.samples} of {self.poses} poses.")
+        return [*sentences, f"{self.arm.title}: {self.index.describe()}.", f"{self.region.name}: {self.region.describe()}."]
 
     def to_dict(
         self,
@@ -353,7 +362,7 @@ class Assessment(Result):
         """
         return super().to_dict(thresholds=thresholds, rates=rates, report=report)
 
-    @checked
+    @check_arguments
     def save(self, folder: str | Path, threshold: float | None = None) -> list[Path]:
         """Write the rows and the report into a results folder that :func:`holdfast.load` and ``holdfast report`` read.
 
@@ -370,22 +379,22 @@ class Assessment(Result):
         """
         target = Path(folder)
         if self._rows is not None:
-            self._write(target, self._rows)
+            self._write_rows(target, self._rows)
         elif self.store is None or self.store.path.resolve() != target.resolve():
             raise InputError("the poses of this run were not kept, or are in another folder already; assess with store=PATH")
         return [target / "run.json", self.report(target / "report.html", threshold)]
 
-    @says("writing the results")
-    def _write(self, folder: Path, rows: Rows) -> None:
-        store = self.plan.create(folder)
-        with store.writing():
-            for k in store.missing:
-                start, stop = store.chunks[k]
-                store.write(k, {name: values[start:stop] for name, values in rows.items()})
-            store.note(**provenance(self.seconds))
+    @reports_progress("writing the results")
+    def _write_rows(self, folder: Path, rows: Rows) -> None:
+        store = self.plan.create_store(folder)
+        with store.lock_for_writing():
+            for chunk in store.missing_chunks:
+                start, stop = store.chunks[chunk]
+                store.commit_chunk(chunk, {name: values[start:stop] for name, values in rows.items()})
+            store.add_notes(**describe_provenance(self.seconds))
 
-    @checked
-    @says("drawing the report")
+    @check_arguments
+    @reports_progress("drawing the report")
     def report(self, path: str | Path, threshold: float | None = None) -> Path:
         """Write a self-contained HTML report.
 

@@ -1,4 +1,4 @@
-"""A distribution as counts, in bins that depend on the index alone, so that parts of it can be added."""
+"""Distribution as counts in bins that depend on the index alone, so that partial counts can be added."""
 
 from __future__ import annotations
 
@@ -13,53 +13,57 @@ from holdfast.probability.distribution import Distribution
 
 Array = NDArray[np.float64]
 
-BOUNDED = 4096  # bins of equal width up to the bound of the index
-_PER_OCTAVE, _OCTAVES = 64, 40  # without a bound: 1.1 % wide, from 2^-40 to 2^40
-FACTS = ("unreached", "reached", "singular", "infinite", "total", "lowest", "highest")
+BOUNDED_BINS = 4096  # bins of equal width up to the bound of the index
+_BINS_PER_OCTAVE, _OCTAVE_COUNT = 64, 40  # without a bound: 1.1 % wide, from 2^-40 to 2^40
+FACT_NAMES = ("unreached", "reached", "singular", "infinite", "total", "lowest", "highest")
 
 
-def edges(index: Index) -> Array:
-    """(B + 1,) edges of the bins of an index; the last is infinity, and the one before beyond its bound."""
+def compute_bin_edges(index: Index) -> Array:
+    """Return the edges (B + 1,) of the bins of an index; the last is infinity, and the one before is beyond its bound."""
     if index.bound is not None:
-        return np.concatenate([np.arange(BOUNDED + 2) * (index.bound / BOUNDED), [np.inf]])
-    found: Array = np.r_[0.0, 2.0 ** (np.arange(-_PER_OCTAVE * _OCTAVES, _PER_OCTAVE * _OCTAVES + 1) / _PER_OCTAVE), np.inf]
-    return found
+        return np.concatenate([np.arange(BOUNDED_BINS + 2) * (index.bound / BOUNDED_BINS), [np.inf]])
+    octave_edges: Array = np.r_[
+        0.0,
+        2.0 ** (np.arange(-_BINS_PER_OCTAVE * _OCTAVE_COUNT, _BINS_PER_OCTAVE * _OCTAVE_COUNT + 1) / _BINS_PER_OCTAVE),
+        np.inf,
+    ]
+    return octave_edges
 
 
-class Counts:
-    """Values of an index, counted.
+class IndexCounts:
+    """Counted values of an index.
 
     Attributes:
         bins: (B,) values in each bin.
-        facts: (7,) as :data:`FACTS` names them.
+        facts: (7,) as :data:`FACT_NAMES` names them.
     """
 
     def __init__(self, index: Index) -> None:
-        self._index, self._edges = index, edges(index)
+        self._index, self._edges = index, compute_bin_edges(index)
         self.bins = np.zeros(len(self._edges) - 1, dtype=np.int64)
         self.facts = np.array([0, 0, 0, 0, 0.0, np.inf, -np.inf])
 
     def add(self, values: Array, unreached: int, singular: int) -> None:
-        """Values at reached poses, number of the others, and how many of the values are singular."""
+        """Add values at reached poses, the number of unreached poses, and the number of singular values."""
         last = len(self.bins) - 1
         if self._index.bound is not None:
-            place = np.minimum(values / (self._index.bound / BOUNDED), last).astype(np.int64)
+            bin_numbers = np.minimum(values / (self._index.bound / BOUNDED_BINS), last).astype(np.int64)
         else:
-            place = np.searchsorted(self._edges, values, side="right") - 1
-        known = np.isfinite(values)
-        finite = values if known.all() else values[known]  # numpy picks rows, and counts them, with Python held
-        low, high = (float(finite.min()), float(finite.max())) if finite.size else (np.inf, -np.inf)
-        facts = np.array([unreached, len(values), singular, len(values) - len(finite), finite.sum(), low, high])
-        self.join(np.bincount(place.clip(0, last), minlength=last + 1), facts)
+            bin_numbers = np.searchsorted(self._edges, values, side="right") - 1
+        is_finite = np.isfinite(values)
+        finite = values if is_finite.all() else values[is_finite]  # numpy picks rows, and counts them, with Python held
+        lowest, highest = (float(finite.min()), float(finite.max())) if finite.size else (np.inf, -np.inf)
+        facts = np.array([unreached, len(values), singular, len(values) - len(finite), finite.sum(), lowest, highest])
+        self.add_counts(np.bincount(bin_numbers.clip(0, last), minlength=last + 1), facts)
 
-    def join(self, bins: NDArray[Any], facts: Array) -> None:
-        """Another part, as counted elsewhere."""
+    def add_counts(self, bins: NDArray[Any], facts: Array) -> None:
+        """Add another part that was counted elsewhere."""
         self.bins += bins
         self.facts[:5] += facts[:5]
         self.facts[5:] = min(self.facts[5], facts[5]), max(self.facts[6], facts[6])
 
     def finish(self) -> Distribution:
-        """The distribution of everything added."""
+        """Return the distribution of everything added."""
         unreached, reached, singular, infinite = (int(x) for x in self.facts[:4])
         total, lowest, highest = self.facts[4:].tolist()
         return Distribution(
@@ -78,12 +82,12 @@ class Counts:
 
 def add_chunks(
     index: Index, optimised: bool, chunks: Iterable[Mapping[str, NDArray[Any]]]
-) -> list[tuple[Counts, NDArray[np.int64]]]:
-    """Add up chunks that hold counts: values and worst failures as found and, if ``optimised``, at the best configurations."""
-    befores = ["", *["optimised_"] * optimised]
-    parts = [(Counts(index), np.zeros(len(index.failures), dtype=np.int64)) for _ in befores]
+) -> list[tuple[IndexCounts, NDArray[np.int64]]]:
+    """Add up chunks of counts: values and worst failures as found and, if ``optimised``, at the best configurations."""
+    prefixes = ["", *["optimised_"] * optimised]
+    parts = [(IndexCounts(index), np.zeros(len(index.failures), dtype=np.int64)) for _ in prefixes]
     for rows in chunks:
-        for before, (counts, worst) in zip(befores, parts, strict=True):
-            counts.join(rows[f"{before}bins"][0], rows[f"{before}facts"][0])
-            worst += rows[f"{before}worst_counts"][0]
+        for prefix, (counts, worst_counts) in zip(prefixes, parts, strict=True):
+            counts.add_counts(rows[f"{prefix}bins"][0], rows[f"{prefix}facts"][0])
+            worst_counts += rows[f"{prefix}worst_counts"][0]
     return parts

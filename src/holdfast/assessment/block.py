@@ -1,38 +1,38 @@
-"""The rows of one block of a plan: its poses solved, evaluated, and tried again with joints locked."""
+"""Compute the rows of one block of a plan: its poses solved, evaluated, and tested again with joints locked."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, Plan, Rows
-from holdfast.indices.index import Evaluation, WorstCase
+from holdfast.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, AssessmentPlan, Rows
+from holdfast.indices.index import IndexEvaluation, WorstCase
 from holdfast.solvers.inverse_kinematics import Accept, solver
 from holdfast.solvers.optimum import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-6  # of the pose, m and rad
+POSE_TOLERANCE = 1e-6  # of the pose, m and rad
 
 
-def compile_for(plan: Plan) -> None:
-    """Compile in this thread, once, instead of in every worker at the same time."""
+def compile_plan(plan: AssessmentPlan) -> None:
+    """Compile all kernels of a plan in this thread, once, instead of in every worker at the same time."""
     plan.index.evaluate(np.zeros((1, plan.arm.n)))
     if plan.region.kind != "joints":
         solver(plan.arm, plan.index.task)
     if plan.optimise:
-        _ascent(plan)
+        _make_ascent(plan)
     if plan.clearance is not None:
-        _apart(plan, np.zeros((1, plan.arm.n)))
+        _measure_clearance(plan, np.zeros((1, plan.arm.n)))
 
 
-def _ascent(plan: Plan) -> Ascent:
+def _make_ascent(plan: AssessmentPlan) -> Ascent:
     return objective_ascent(plan.index, None, plan.clearance, plan.margin)
 
 
-def evaluate(plan: Plan, samples: Array, number: int) -> Rows:
-    """The rows of block ``number``."""
+def evaluate_block(plan: AssessmentPlan, samples: Array, number: int) -> Rows:
+    """Return the rows of block ``number``."""
     from scipy.spatial.transform import Rotation
 
     count = len(samples)
@@ -43,38 +43,43 @@ def evaluate(plan: Plan, samples: Array, number: int) -> Rows:
             "status": result.status,
             "index": result.value,
             "by_failure": result.by_failure,
-            "worst": _worst(result),
+            "worst": _find_worst_failures(result),
         }
         if plan.clearance is not None:
-            direct |= _apart(plan, samples)[0]
+            direct |= _measure_clearance(plan, samples)[0]
         return direct
     poses = plan.region.poses(samples)
-    engine = solver(plan.arm, plan.index.task)
-    drawn = np.random.SeedSequence(plan.seed, spawn_key=(1, number))
-    reach = engine.solve(poses, drawn, plan.restarts, engine.within(TOLERANCE))
-    ok = np.flatnonzero(reach.success)
+    pose_solver = solver(plan.arm, plan.index.task)
+    start_seed = np.random.SeedSequence(plan.seed, spawn_key=(1, number))
+    solutions = pose_solver.solve(poses, start_seed, plan.restarts, pose_solver.scale_tolerance(POSE_TOLERANCE))
+    solved = np.flatnonzero(solutions.success)
     value, by_failure = np.full(count, np.nan), np.full((count, len(plan.index.failures)), np.nan)
-    worst, status = np.full(count, -1, dtype=np.int16), reach.status.copy()
-    if ok.size:
-        result = plan.index.evaluate(reach.q[ok])
-        value[ok], by_failure[ok], worst[ok], status[ok] = result.value, result.by_failure, _worst(result), result.status
+    worst, status = np.full(count, -1, dtype=np.int16), solutions.status.copy()
+    if solved.size:
+        result = plan.index.evaluate(solutions.q[solved])
+        value[solved], by_failure[solved], worst[solved], status[solved] = (
+            result.value,
+            result.by_failure,
+            _find_worst_failures(result),
+            result.status,
+        )
     rows: Rows = {
         "position": poses[:, :3, 3],
         "quaternion": Rotation.from_matrix(poses[:, :3, :3]).as_quat(),
-        "q": np.where(reach.success[:, None], reach.q, np.nan),
+        "q": np.where(solutions.success[:, None], solutions.q, np.nan),
         "status": status,
         "index": value,
         "by_failure": by_failure,
         "worst": worst,
     }
     if plan.optimise:
-        others = np.random.SeedSequence(plan.seed, spawn_key=(2, number))
+        optimiser_seed = np.random.SeedSequence(plan.seed, spawn_key=(2, number))
         starts = default_starts(plan.arm, plan.index.task)
-        best = _ascent(plan).solve(poses, reach, others, starts, engine.within(TOLERANCE))
+        best = _make_ascent(plan).solve(poses, solutions, optimiser_seed, starts, pose_solver.scale_tolerance(POSE_TOLERANCE))
         best_worst = np.full(count, -1, dtype=np.int16)
-        good = np.flatnonzero(best.success)
-        if good.size:
-            best_worst[good] = _worst(plan.index.evaluate(best.q[good]))
+        optimised = np.flatnonzero(best.success)
+        if optimised.size:
+            best_worst[optimised] = _find_worst_failures(plan.index.evaluate(best.q[optimised]))
         rows |= {
             "optimised_q": best.q,
             "optimised_index": best.value,
@@ -84,104 +89,115 @@ def evaluate(plan: Plan, samples: Array, number: int) -> Rows:
         if plan.clearance is not None:
             rows |= {"optimised_status": best.status, "blocked": best.blocked.astype(np.int8)}
         if plan.cell is not None:
-            rows["blocked_by"] = _other(plan, best.blocked_by)
+            rows["blocked_by"] = _find_collision_partner(plan, best.blocked_by)
     if plan.clearance is not None:
-        apart, enough = _apart(plan, rows["q"])
-        rows |= apart
-    q, usable = reach.q, reach.success
+        clearance_rows, is_clear = _measure_clearance(plan, rows["q"])
+        rows |= clearance_rows
+    q, usable = solutions.q, solutions.success
     if plan.cell is not None:
-        q, usable = _clear(plan, poses, q, enough, reach.success, number)
-        rows["clear"] = np.where(reach.success, usable, -1).astype(np.int8)
-    if plan.weighted:
+        q, usable = _solve_collision_free(plan, poses, q, is_clear, solutions.success, number)
+        rows["clear"] = np.where(solutions.success, usable, -1).astype(np.int8)
+    if plan.has_weights:
         rows["weight"] = plan.region.weights(samples)
     if plan.locks:
-        rows["survives"], rows["lock_angle"] = _survival(plan, poses, q, usable, number)
+        rows["survives"], rows["lock_angle"] = _test_survival(plan, poses, q, usable, number)
     return rows
 
 
-def _apart(plan: Plan, q: Array) -> tuple[Rows, NDArray[np.bool_]]:
-    """How far the arm is from itself and its cell at q (N, n), and whether that is enough (N,)."""
+def _measure_clearance(plan: AssessmentPlan, q: Array) -> tuple[Rows, NDArray[np.bool_]]:
+    """Return the distances of the arm from itself and its cell at q (N, n), and whether they are sufficient (N,)."""
     clearance = plan.clearance
     assert clearance is not None
-    own = clearance.alone(q)
-    around = clearance.obstacles
-    if around is None:
-        return {"clearance": own}, np.asarray(own >= plan.margin)
-    apart = around.distances(q)
-    objects = apart.reshape(len(q), -1, len(around.cell)).min(axis=1)
-    each = np.column_stack([own, objects]) if clearance.pairs else objects
-    enough = (own >= plan.margin) & ((apart - around.margins).min(axis=1) >= plan.margin)
-    return {"clearance": each.min(axis=1), "from_each": each}, enough
+    own_distance = clearance.alone(q)
+    obstacles = clearance.obstacles
+    if obstacles is None:
+        return {"clearance": own_distance}, np.asarray(own_distance >= plan.margin)
+    distances = obstacles.pair_distances(q)
+    object_distances = distances.reshape(len(q), -1, len(obstacles.cell)).min(axis=1)
+    all_distances = np.column_stack([own_distance, object_distances]) if clearance.pairs else object_distances
+    is_clear = (own_distance >= plan.margin) & ((distances - obstacles.margins).min(axis=1) >= plan.margin)
+    return {"clearance": all_distances.min(axis=1), "from_each": all_distances}, is_clear
 
 
-def _other(plan: Plan, pair: NDArray[np.int64]) -> NDArray[np.int16]:
-    """Position in ``plan.others`` of what a pair of the clearance is with; -1 for none."""
+def _find_collision_partner(plan: AssessmentPlan, pair: NDArray[np.int64]) -> NDArray[np.int16]:
+    """Return the position in ``plan.collision_partners`` of the partner in a pair of the clearance; -1 for none."""
     assert plan.clearance is not None
     assert plan.cell is not None
-    own = len(plan.clearance.pairs)
-    thing = np.where(pair < own, 0, (pair - own) % len(plan.cell) + bool(own))
-    return np.where(pair < 0, -1, thing).astype(np.int16)
+    own_pairs = len(plan.clearance.pairs)
+    partner = np.where(pair < own_pairs, 0, (pair - own_pairs) % len(plan.cell) + bool(own_pairs))
+    return np.where(pair < 0, -1, partner).astype(np.int16)
 
 
-def _accept(plan: Plan) -> Accept | None:
-    """Which configurations count where the cell is kept clear of."""
+def _make_acceptance_test(plan: AssessmentPlan) -> Accept | None:
+    """Return the test of acceptable configurations if the arm must be free of collisions with a cell, or None."""
     clearance = plan.clearance
     if clearance is None or plan.cell is None:
         return None
-    return lambda q: np.asarray(clearance.room(q) >= plan.margin)
+    return lambda q: np.asarray(clearance.margin_left(q) >= plan.margin)
 
 
-def _clear(
-    plan: Plan, poses: Array, q: Array, enough: NDArray[np.bool_], reached: NDArray[np.bool_], number: int
+def _solve_collision_free(
+    plan: AssessmentPlan, poses: Array, q: Array, is_clear: NDArray[np.bool_], reached: NDArray[np.bool_], number: int
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """The configurations q (N, n) of the poses that are reached, and others of those where q is not clear enough."""
-    engine, some = solver(plan.arm, plan.index.task), np.flatnonzero(reached & ~enough)
-    around = None if plan.clearance is None else plan.clearance.obstacles
-    if around is not None and plan.index.task.m == 6:
-        some = some[~around.never_clear(poses[some], plan.margin)]
+    """Return the configurations q (N, n) of the reached poses, replaced by collision-free ones where q is too close."""
+    pose_solver, unclear = solver(plan.arm, plan.index.task), np.flatnonzero(reached & ~is_clear)
+    obstacles = None if plan.clearance is None else plan.clearance.obstacles
+    if obstacles is not None and plan.index.task.m == 6:
+        unclear = unclear[~obstacles.never_collision_free(poses[unclear], plan.margin)]
     seed = np.random.SeedSequence(plan.seed, spawn_key=(4, number))
-    tolerance, accept = engine.within(TOLERANCE), _accept(plan)
-    found = engine.solve(poses[some], seed, CLEAR_RESTARTS, tolerance, accept=accept, steps=CLEAR_STEPS)
-    q, clear = q.copy(), reached & enough
-    q[some], clear[some] = found.q, found.success
-    return q, clear
+    tolerance, accept = pose_solver.scale_tolerance(POSE_TOLERANCE), _make_acceptance_test(plan)
+    solutions = pose_solver.solve(poses[unclear], seed, CLEAR_RESTARTS, tolerance, accept=accept, steps=CLEAR_STEPS)
+    q, collision_free = q.copy(), reached & is_clear
+    q[unclear], collision_free[unclear] = solutions.q, solutions.success
+    return q, collision_free
 
 
-def worst_cases(plan: Plan, configurations: Array) -> Rows:
-    """Of a region of joints, from the rows of :meth:`evaluate`, only those that are counted: no failure but the worst."""
-    found = plan.index.worst_case(configurations)
-    return {"status": found.status, "index": found.value, "worst": _worst(found)}
+def evaluate_worst_cases(plan: AssessmentPlan, configurations: Array) -> Rows:
+    """Return those rows of :func:`evaluate_block` for a region of joints that are counted: only the worst failure."""
+    worst = plan.index.worst_case(configurations)
+    return {"status": worst.status, "index": worst.value, "worst": _find_worst_failures(worst)}
 
 
-def _survival(plan: Plan, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> tuple[NDArray[np.int8], Array]:
-    """For each reached pose and each joint asked for: is it still reached once the joint has locked, and where it locked.
+def _test_survival(
+    plan: AssessmentPlan, poses: Array, q: Array, reached: NDArray[np.bool_], number: int
+) -> tuple[NDArray[np.int8], Array]:
+    """Return for each reached pose and each requested joint whether the pose is still reached after a lock, and the locked
+    value.
 
     It locks at the angle given, or at one drawn from those in use: where it was at another reached pose of the block.
     """
     n = plan.arm.n
-    result, where = np.full((len(poses), n), -1, dtype=np.int8), np.full((len(poses), n), np.nan)
-    rows = np.flatnonzero(reached)
-    if not rows.size:
-        return result, where
+    result, lock_values = np.full((len(poses), n), -1, dtype=np.int8), np.full((len(poses), n), np.nan)
+    reached_rows = np.flatnonzero(reached)
+    if not reached_rows.size:
+        return result, lock_values
     seed = np.random.SeedSequence(plan.seed, spawn_key=(3, number))
-    draw, starts = seed.spawn(2)
-    generator = np.random.default_rng(draw)
-    angles = np.stack([q[rows[generator.integers(rows.size, size=rows.size)], k] for k in range(n)], axis=1)
-    for k, angle in plan.lock_at:
-        angles[:, k] = angle
-    asked = np.array(list(plan.locks))
-    locked = np.tile(asked, rows.size)
-    engine = solver(plan.arm, plan.index.task)
-    found = engine.reaches_locked(
-        poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE, _accept(plan)
+    angle_seed, start_seed = seed.spawn(2)
+    generator = np.random.default_rng(angle_seed)
+    angles = np.stack(
+        [q[reached_rows[generator.integers(reached_rows.size, size=reached_rows.size)], joint] for joint in range(n)], axis=1
     )
-    result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
-    where[np.ix_(rows, asked)] = angles[:, asked]
-    return result, where
+    for joint, angle in plan.lock_at:
+        angles[:, joint] = angle
+    requested = np.array(list(plan.locks))
+    locked = np.tile(requested, reached_rows.size)
+    pose_solver = solver(plan.arm, plan.index.task)
+    survives = pose_solver.reaches_locked(
+        poses[np.repeat(reached_rows, requested.size)],
+        locked,
+        angles[:, requested].ravel(),
+        start_seed,
+        LOCK_RESTARTS,
+        POSE_TOLERANCE,
+        _make_acceptance_test(plan),
+    )
+    result[np.ix_(reached_rows, requested)] = survives.reshape(-1, requested.size)
+    lock_values[np.ix_(reached_rows, requested)] = angles[:, requested]
+    return result, lock_values
 
 
-def _worst(result: Evaluation | WorstCase) -> NDArray[np.int16]:
-    """Worst failure; none at a singular configuration, where all are equally bad."""
+def _find_worst_failures(result: IndexEvaluation | WorstCase) -> NDArray[np.int16]:
+    """Return the worst failure; -1 at a singular configuration, where all are equally bad."""
     worst = result.worst.astype(np.int16)
     worst[result.status != Status.OK] = -1
     return worst

@@ -1,4 +1,4 @@
-"""Draw poses in a region, solve, evaluate, count: in memory or chunk by chunk into a folder."""
+"""Sample poses in a region, solve, evaluate, and count, in memory or chunk by chunk into a folder."""
 
 from __future__ import annotations
 
@@ -9,14 +9,21 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.bins import add_chunks
-from holdfast.assessment.block import compile_for
-from holdfast.assessment.plan import Plan, Rows, make_plan
-from holdfast.assessment.rows import Progress, Tally, blocks, fill, provenance, stored
+from holdfast.assessment.block import compile_plan
+from holdfast.assessment.plan import AssessmentPlan, Rows, make_plan
+from holdfast.assessment.rows import (
+    AssessmentTally,
+    Progress,
+    compute_blocks,
+    compute_missing_chunks,
+    describe_provenance,
+    read_chunks,
+)
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Store
@@ -24,15 +31,15 @@ from holdfast.engine.study import STUDY_FILE, Study
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.indices.index import Index, by_name
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.regions.region import Region, Sampling, default_region
 
-_KEEP = 2_000_000  # rows held in memory unless asked otherwise
-_NAMED_CELLS = 4  # of a study, in a message
+_MAX_ROWS_IN_MEMORY = 2_000_000  # rows held in memory unless asked otherwise
+_MAX_NAMED_CELLS = 4  # of a study, in a message
 
 
-@checked
-@says("assessing poses")
+@check_arguments
+@reports_progress("assessing poses")
 def assess(
     arm: Arm,
     region: Region | None = None,
@@ -53,7 +60,7 @@ def assess(
     cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> Assessment:
-    """The distribution of an index over a region.
+    """Compute the distribution of an index over a region.
 
     Each pose is solved by inverse kinematics from random starts; the configuration found is evaluated as it is (the
     paper's non-optimised sample) and, if asked for, the best configuration of the pose as well (the optimised sample).
@@ -95,47 +102,48 @@ def assess(
     if isinstance(index, str):
         index = by_name(index, arm, "pose" if task is None else task)
     elif task is not None:
-        own, other = index.task, as_task(arm, task)
-        if not own.same_rows(other) or (isinstance(task, Task) and own.length != other.length):
+        index_task, requested_task = index.task, as_task(arm, task)
+        if not index_task.same_rows(requested_task) or (isinstance(task, Task) and index_task.length != requested_task.length):
             raise InputError(
-                f"the index is for task {own.describe()}, asked for is {other.describe()}; make it with the task to assess, or "
+                f"the index is for task {index_task.describe()}, asked for is {requested_task.describe()}; make it with "
+                f"the task to assess, or "
                 "leave task out"
             )
     region = default_region(arm) if region is None else region
     plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin, cell)
-    begin = time.monotonic()
-    keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
-    folder = None if store is None else plan.create(Path(store))
-    compile_for(plan)
-    tally = Tally(plan)
-    kept: list[Rows] = []
+    start_time = time.monotonic()
+    keep = (store is None and plan.poses <= _MAX_ROWS_IN_MEMORY) if keep is None else keep
+    folder = None if store is None else plan.create_store(Path(store))
+    compile_plan(plan)
+    tally = AssessmentTally(plan)
+    kept_rows: list[Rows] = []
 
-    def take(rows: Rows) -> None:
+    def add_rows(rows: Rows) -> None:
         tally.add(rows)
         if keep:
-            kept.append(rows)
+            kept_rows.append(rows)
 
     if folder is None:
-        for start, rows in blocks(plan, 0, plan.poses):
-            take(rows)
+        for start, rows in compute_blocks(plan, 0, plan.poses):
+            add_rows(rows)
             if progress is not None:
                 progress(start + len(rows["status"]), plan.poses)
     else:
-        with folder.writing():
-            was_complete = folder.complete
-            fill(folder, plan, progress)
+        with folder.lock_for_writing():
+            was_complete = folder.is_complete
+            compute_missing_chunks(folder, plan, progress)
             if not was_complete:
-                spent = folder.notes.get("seconds") or 0.0
-                folder.note(**provenance(spent + time.monotonic() - begin))
-        for rows in stored(folder, plan):
-            take(rows)
+                earlier_seconds = folder.notes.get("seconds") or 0.0
+                folder.add_notes(**describe_provenance(earlier_seconds + time.monotonic() - start_time))
+        for rows in read_chunks(folder, plan):
+            add_rows(rows)
     if plan.cell is not None:
         plan.cell.require_unchanged()
-    merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
-    return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
+    merged = {name: np.concatenate([block[name] for block in kept_rows]) for name in kept_rows[0]} if kept_rows else None
+    return _make_assessment(plan, tally, folder, time.monotonic() - start_time, True, merged)
 
 
-@checked
+@check_arguments
 def load(path: str | Path) -> Assessment:
     """Read the assessment in a results folder, or in the folder of a study or of one of its cells.
 
@@ -148,68 +156,70 @@ def load(path: str | Path) -> Assessment:
     Raises:
         StoreError: Not a results folder of an assessment, or damaged, or a study of several cells; the message names them.
     """
-    folder = _cell_of(Path(path))
+    folder = _find_cell_folder(Path(path))
     store = Store.open(folder)
     kind = store.plan.get("kind")
     if kind == "assess-counts":
-        return _counted(store)
+        return _load_counted(store)
     if kind != "assess":
         raise StoreError(f"'{folder}' is not an assessment; give the folder that `holdfast assess --out` wrote")
-    plan = Plan.stored(store, store.rows)
-    tally = Tally(plan)
-    for rows in stored(store, plan):
+    plan = AssessmentPlan.from_store(store, store.rows)
+    tally = AssessmentTally(plan)
+    for rows in read_chunks(store, plan):
         tally.add(rows)
-    return _finished(plan, tally, store, store.notes.get("seconds"), store.complete, None)
+    return _make_assessment(plan, tally, store, store.notes.get("seconds"), store.is_complete, None)
 
 
-def _cell_of(folder: Path) -> Path:
+def _find_cell_folder(folder: Path) -> Path:
     """Return the folder of the only cell of a study; any other folder as it is."""
-    if not reading.exists(folder / STUDY_FILE):
+    if not reading.path_exists(folder / STUDY_FILE):
         return folder
     study = Study.open(folder)
     if len(study.cells) == 1:
-        return study.folder(0)
-    cells = [f"'{study.folder(k)}'" for k in range(min(len(study.cells), _NAMED_CELLS))]
-    more = f" or one of {len(study.cells) - len(cells)} more" if len(study.cells) > len(cells) else ""
-    raise StoreError(f"'{folder}' is a study of {len(study.cells)} cells; load one of them: {', '.join(cells)}{more}")
+        return study.cell_folder(0)
+    cells = [f"'{study.cell_folder(number)}'" for number in range(min(len(study.cells), _MAX_NAMED_CELLS))]
+    more_text = f" or one of {len(study.cells) - len(cells)} more" if len(study.cells) > len(cells) else ""
+    raise StoreError(f"'{folder}' is a study of {len(study.cells)} cells; load one of them: {', '.join(cells)}{more_text}")
 
 
-def _counted(store: Store) -> Assessment:
+def _load_counted(store: Store) -> Assessment:
     """Build the assessment of a study's cell that kept counts instead of rows."""
     parent = store.path.resolve().parents[1]
-    sizes = {}
-    if reading.exists(parent / STUDY_FILE):
-        sizes = {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
-    first = Plan.stored(store, 1, rows=False)
-    parts = add_chunks(first.index, first.optimise, (store.checked(k) for k in store.done))
+    rows_by_cell = {}
+    if reading.path_exists(parent / STUDY_FILE):
+        rows_by_cell = {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
+    one_pose_plan = AssessmentPlan.from_store(store, 1, rows=False)
+    parts = add_chunks(
+        one_pose_plan.index, one_pose_plan.optimise, (store.read_checked(chunk) for chunk in store.committed_chunks)
+    )
     samples = int(parts[0][0].facts[:2].sum())
-    plan = replace(first, poses=max(sizes.get(store.path.resolve().name, samples), 1))
-    best = parts[1] if plan.optimise else None
+    plan = replace(one_pose_plan, poses=max(rows_by_cell.get(store.path.resolve().name, samples), 1))
+    best_counts = parts[1] if plan.optimise else None
     return Assessment(
         plan=plan,
         distribution=parts[0][0].finish(),
         worst_counts=parts[0][1],
-        optimised=None if best is None else best[0].finish(),
-        optimised_worst_counts=None if best is None else best[1],
+        optimised=None if best_counts is None else best_counts[0].finish(),
+        optimised_worst_counts=None if best_counts is None else best_counts[1],
         survivors=None,
         collisions=None,
         clear=None,
         store=None,
         seconds=sum(entry.seconds for entry in store.entries.values()),
-        complete=store.complete,
+        complete=store.is_complete,
     )
 
 
-def _finished(
-    plan: Plan, tally: Tally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
+def _make_assessment(
+    plan: AssessmentPlan, tally: AssessmentTally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
 ) -> Assessment:
-    best = tally.optimised
+    best_statistics = tally.optimised
     return Assessment(
         plan=plan,
-        distribution=tally.found.finish(),
-        worst_counts=tally.found.worst,
-        optimised=None if best is None else best.finish(),
-        optimised_worst_counts=None if best is None else best.worst,
+        distribution=tally.unoptimised.finish(),
+        worst_counts=tally.unoptimised.worst_counts,
+        optimised=None if best_statistics is None else best_statistics.finish(),
+        optimised_worst_counts=None if best_statistics is None else best_statistics.worst_counts,
         survivors=tally.survivors,
         collisions=tally.collisions,
         clear=tally.clear,

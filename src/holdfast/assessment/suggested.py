@@ -1,4 +1,4 @@
-"""What an assessment suggests that a certificate could prove."""
+"""Claims that an assessment suggests for a certificate."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from holdfast.errors import InputError
 from holdfast.regions import Region
 
 
-def region_claim(arm: Arm, region: Region, task: Task, unreached: float) -> ReachClaim:
-    """The claim that the arm reaches every pose of a region, of which a sample missed ``unreached``.
+def make_region_claim(arm: Arm, region: Region, task: Task, unreached: float) -> ReachClaim:
+    """Return the claim that the arm reaches every pose of a region, of which a sample missed ``unreached``.
 
     Raises:
         InputError: The region is no box of positions, the task neither position nor pose, or some poses were not reached.
@@ -21,9 +21,9 @@ def region_claim(arm: Arm, region: Region, task: Task, unreached: float) -> Reac
         raise InputError("certificates are for boxes of positions and angles, and for tasks position and pose")
     if unreached:
         raise InputError("poses of the sample were not reached, so that not every one of the region is; take a smaller region")
-    middle, edges = np.array(region.center), np.array(region.size)
+    center, sizes = np.array(region.center), np.array(region.size)
     if task.name == "position":
-        return reach_claim(arm, middle[:3], edges[:3])
+        return reach_claim(arm, center[:3], sizes[:3])
     # A region has its angles in the order of the paper, about z, y and x; a certificate in that of URDF.
-    turns = np.column_stack([middle - edges / 2, middle + edges / 2])[:2:-1]
-    return reach_claim(arm, middle[:3], edges[:3], rpy=turns)
+    angle_ranges = np.column_stack([center - sizes / 2, center + sizes / 2])[:2:-1]
+    return reach_claim(arm, center[:3], sizes[:3], rpy=angle_ranges)

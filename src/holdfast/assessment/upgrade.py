@@ -1,4 +1,4 @@
-"""Which joint deserves the redundant motor or brake: what the arm would keep if one joint could never fail."""
+"""Rank joints for a redundant motor or brake by the fault tolerance of the arm if one joint could never fail."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotations_of_quaternions
-from holdfast.assessment.plan import Plan
+from holdfast.assessment.plan import AssessmentPlan
 from holdfast.errors import InputError
 from holdfast.indices.index import Index
 from holdfast.probability.distribution import Distribution
@@ -21,12 +21,12 @@ from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-MOST_OPTIMISED_AGAIN = 500  # poses; each is optimised once for each joint, which takes 1 to 2 ms of two threads
+MAX_REOPTIMISED_POSES = 500  # poses; each is optimised once for each joint, which takes 1 to 2 ms of two threads
 
 
 @dataclass(frozen=True, kw_only=True)
 class Upgrade:
-    """The gain of a region if one joint could never fail, at the same poses.
+    """Gain of a region if one joint could never fail, at the same poses.
 
     Without optimisation the configurations are the same; with it they are optimised again for the failures that remain.
 
@@ -50,8 +50,8 @@ class Upgrade:
 
 
 @dataclass(frozen=True)
-class Sample:
-    """The computed poses of a run at one choice of configurations.
+class RunSample:
+    """Computed poses of a run at one choice of configurations.
 
     Attributes:
         number: (N,) which row of the dataset.
@@ -72,128 +72,141 @@ class Sample:
     weight: Array | None
 
     @property
-    def first(self) -> Sample:
-        """The first 500 poses: those that are optimised again without each joint."""
-        kept: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
-        return replace(self, **{name: x[:MOST_OPTIMISED_AGAIN] for name, x in kept.items() if x is not None})
+    def first_poses(self) -> RunSample:
+        """First 500 poses, which are optimised again without each joint."""
+        values: dict[str, Any] = {entry.name: getattr(self, entry.name) for entry in fields(self)}
+        return replace(self, **{name: column[:MAX_REOPTIMISED_POSES] for name, column in values.items() if column is not None})
 
 
-def sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> Sample:
-    """The rows of a run by its columns.
+def select_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> RunSample:
+    """Return the sample of a run from its columns.
 
     At the best configurations the values after each failure are not stored but computed again, which costs less than reading.
     """
     status = columns["status"][:]
-    keep = np.flatnonzero(status != Status.NOT_COMPUTED)
-    reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
+    computed = np.flatnonzero(status != Status.NOT_COMPUTED)
+    reached = np.isin(status[computed], (Status.OK, Status.SINGULAR))
     if (
         optimised and "optimised_status" in columns
     ):  # where every configuration brings the arm into collision with itself there is no best one
-        reached &= columns["optimised_status"][:][keep] != Status.INFEASIBLE
-    weight = columns["weight"][:][keep] if "weight" in columns else None
-    before = "optimised_" if optimised else ""
-    q = columns[f"{before}q"][:][keep]
+        reached &= columns["optimised_status"][:][computed] != Status.INFEASIBLE
+    weight = columns["weight"][:][computed] if "weight" in columns else None
+    prefix = "optimised_" if optimised else ""
+    q = columns[f"{prefix}q"][:][computed]
     if optimised:
-        by_failure = np.full((len(keep), len(index.failures)), np.nan)
+        by_failure = np.full((len(computed), len(index.failures)), np.nan)
         by_failure[reached] = index.by_joint(q[reached])
     else:
-        by_failure = columns["by_failure"][:][keep]
-    value, worst = columns[f"{before}index"][:][keep], columns[f"{before}worst"][:][keep].astype(np.int64)
-    return Sample(keep, reached, q, value, by_failure, worst, weight)
+        by_failure = columns["by_failure"][:][computed]
+    value, worst = columns[f"{prefix}index"][:][computed], columns[f"{prefix}worst"][:][computed].astype(np.int64)
+    return RunSample(computed, reached, q, value, by_failure, worst, weight)
 
 
-def value_without(index: Index, k: int, s: Sample) -> Array:
-    """Compute the worst case (N,) over the failures in which joint k, from 0, has no part; NaN where no pose is reached.
+def compute_value_without(index: Index, joint: int, run_sample: RunSample) -> Array:
+    """Compute the worst case (N,) over the failures that do not include a joint, from 0; NaN where no pose is reached.
 
     Raises:
         InputError: No such failure is left.
     """
-    left = _remaining(index, k)
-    if not left:
+    remaining = _find_failures_without(index, joint)
+    if not remaining:
         raise InputError(
-            f"every failure considered is one of '{index.arm.joint_names[k]}', so nothing could fail; assess with more failures"
+            f"every failure considered is one of '{index.arm.joint_names[joint]}', so nothing could fail; assess with "
+            f"more failures"
         )
-    values = s.by_failure[:, left]
+    values = run_sample.by_failure[:, remaining]
     return np.asarray(values.min(axis=1) if index.better == "larger" else values.max(axis=1))
 
 
-def optimised_value_without(plan: Plan, columns: Mapping[str, Any], k: int, s: Sample) -> Array:
-    """Compute what :func:`value_without` does, at configurations optimised again for the failures that remain.
+def optimise_value_without(plan: AssessmentPlan, columns: Mapping[str, Any], joint: int, run_sample: RunSample) -> Array:
+    """Compute the values of :func:`compute_value_without`, at configurations optimised again for the remaining failures.
 
     The configuration optimised for all failures is the first start, so the value is never worse than there.
     """
-    value = value_without(plan.index, k, s)
-    left = _remaining(plan.index, k)
-    some = s.number[s.reached]
-    if len(left) == len(plan.index.failures) or not some.size:
+    value = compute_value_without(plan.index, joint, run_sample)
+    remaining = _find_failures_without(plan.index, joint)
+    numbers = run_sample.number[run_sample.reached]
+    if len(remaining) == len(plan.index.failures) or not numbers.size:
         return value
-    poses = np.tile(np.eye(4), (some.size, 1, 1))
-    poses[:, :3, 3] = columns["position"][:][some]
-    poses[:, :3, :3] = rotations_of_quaternions(columns["quaternion"][:][some])
-    found = optimise(
+    poses = np.tile(np.eye(4), (numbers.size, 1, 1))
+    poses[:, :3, 3] = columns["position"][:][numbers]
+    poses[:, :3, :3] = rotations_of_quaternions(columns["quaternion"][:][numbers])
+    solutions = optimise(
         plan.arm,
         poses,
-        plan.index.with_failures([plan.index.failures[i] for i in left]),
+        plan.index.with_failures([plan.index.failures[position] for position in remaining]),
         seed=plan.seed,
         restarts=plan.restarts,
         clearance=plan.clearance,
         margin=plan.margin,
-        initial=s.q[s.reached],
+        initial=run_sample.q[run_sample.reached],
     )
     better = np.fmax if plan.index.better == "larger" else np.fmin
-    value[s.reached] = better(value[s.reached], found.value)
+    value[run_sample.reached] = better(value[run_sample.reached], solutions.value)
     return value
 
 
-def distribution_without(index: Index, s: Sample, value: Array) -> Distribution:
+def make_distribution_without(index: Index, run_sample: RunSample, value: Array) -> Distribution:
     """Build the distribution of values (N,) of the sampled poses."""
-    reached, missed = (None, ()) if s.weight is None else (s.weight[s.reached], s.weight[~s.reached])
-    lost, singular = int((~s.reached).sum()), int((s.worst[s.reached] < 0).sum())
-    return Distribution.of(value[s.reached], index.better, lost, singular=singular, weights=reached, unreached_weights=missed)
+    reached, unreached = (
+        (None, ())
+        if run_sample.weight is None
+        else (run_sample.weight[run_sample.reached], run_sample.weight[~run_sample.reached])
+    )
+    lost_count, singular = int((~run_sample.reached).sum()), int((run_sample.worst[run_sample.reached] < 0).sum())
+    return Distribution.of(
+        value[run_sample.reached], index.better, lost_count, singular=singular, weights=reached, unreached_weights=unreached
+    )
 
 
-def upgrades(index: Index, s: Sample, without: Callable[[int], Array], threshold: float, confidence: float) -> list[Upgrade]:
+def rank_upgrades(
+    index: Index, run_sample: RunSample, values_without: Callable[[int], Array], threshold: float, confidence: float
+) -> list[Upgrade]:
     """Compute :meth:`Assessment.upgrades` from the values (N,) that remain without each joint."""
     if not np.isfinite(threshold):
         raise InputError(f"threshold is {threshold:g}; it must be a finite number")
-    larger = index.better == "larger"
-    d = distribution_without(index, s, s.value)
-    now = d.interval(at_least=threshold) if larger else d.interval(at_most=threshold)
+    larger_is_better = index.better == "larger"
+    distribution = make_distribution_without(index, run_sample, run_sample.value)
+    probability = distribution.interval(at_least=threshold) if larger_is_better else distribution.interval(at_most=threshold)
 
-    def meets(value: Array) -> NDArray[np.bool_]:
-        return np.asarray(s.reached & (value >= threshold if larger else value <= threshold))
+    def meets_threshold(value: Array) -> NDArray[np.bool_]:
+        return np.asarray(run_sample.reached & (value >= threshold if larger_is_better else value <= threshold))
 
-    found = []
-    for k, name in enumerate(index.arm.joint_names):
-        left = _remaining(index, k)
-        if not left or len(left) == len(index.failures):
+    gains = []
+    for joint, name in enumerate(index.arm.joint_names):
+        remaining = _find_failures_without(index, joint)
+        if not remaining or len(remaining) == len(index.failures):
             continue  # nothing would be left to fail, or nothing would change
-        gained = ~meets(s.value) & meets(without(k))
-        if s.weight is None:
-            gain = Interval.of(int(gained.sum()), d.samples, confidence)
+        gained = ~meets_threshold(run_sample.value) & meets_threshold(values_without(joint))
+        if run_sample.weight is None:
+            gain = Interval.of(int(gained.sum()), distribution.samples, confidence)
         else:
-            gain = Interval.of_share(min(float(s.weight[gained].sum()) / d.total_weight(), 1.0), d.effective(), confidence)
-        found.append(
+            gain = Interval.of_share(
+                min(float(run_sample.weight[gained].sum()) / distribution.total_weight(), 1.0),
+                distribution.effective(),
+                confidence,
+            )
+        gains.append(
             Upgrade(
                 joint=name,
-                before=now.value,
-                after=now.value + gain.value,
+                before=probability.value,
+                after=probability.value + gain.value,
                 gain=gain.value,
                 low=gain.low,
                 high=gain.high,
                 confidence=confidence,
             )
         )
-    return sorted(found, key=lambda u: -u.gain)
+    return sorted(gains, key=lambda entry: -entry.gain)
 
 
-def _remaining(index: Index, k: int) -> list[int]:
-    """Positions of the failures in which joint k, from 0, has no part."""
-    return [i for i, failed in enumerate(index.failures) if k not in failed]
+def _find_failures_without(index: Index, joint: int) -> list[int]:
+    """Return the positions of the failures that do not include a joint, from 0."""
+    return [position for position, failed in enumerate(index.failures) if joint not in failed]
 
 
 def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
-    """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
+    """Return the failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
     weights = np.zeros(arm.n)
     for joint, rate in rates.items():
         weights[arm.joint_index(joint)] = rate

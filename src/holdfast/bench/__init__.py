@@ -1,4 +1,4 @@
-"""Suites of cases that anyone can run again: what planners finish, ours and others', on the same ones."""
+"""Benchmark suites that anyone can run again, with the same cases for the planners of holdfast and for others."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Cases of the suite: a failure, where the arm is, and what it must do, all of them from one seed.
+"""Cases of the suite, all from one seed: a failure, the start configuration, and the task.
 
 The suite is rebuilt from what is public of DEFT (arXiv 2602.02895): its own sampling, tolerances and split could not be read.
 """
@@ -14,30 +14,30 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, as_task, rows_task
+from holdfast.arm.task import Task, as_task, task_from_rows
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
-from holdfast.keep.kept import Kept, upright
+from holdfast.keep.kept import ToolConstraint, upright
 from holdfast.paths.path import Path, line, sequence
-from holdfast.recovery.rows import row_solver
+from holdfast.recovery.rows import make_row_solver
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator
 
-_DRAWS = 4000  # configurations drawn before a case counts as impossible to draw
-_LANES, _LANE, _APART = 3, 0.2, 0.04  # of wiping: lanes, and m of each and between two
-_LEANS = np.deg2rad(2)  # by which the tool may lean where it is kept upright
-_KINDS = ("lock", "range", "speed")
-_OFTEN = (0.5, 0.3, 0.2)  # how often each is drawn
+_MAX_SAMPLES = 4000  # configurations drawn before a case counts as impossible to draw
+_LANE_COUNT, _LANE_LENGTH_M, _LANE_SPACING_M = 3, 0.2, 0.04  # of wiping: lanes, and m of each and between two
+_MAX_TILT_RAD = np.deg2rad(2)  # by which the tool may lean where it is kept upright
+_FAILURE_KINDS = ("lock", "range", "speed")
+_KIND_PROBABILITIES = (0.5, 0.3, 0.2)  # how often each is drawn
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
-    """One case.
+class BenchmarkCase:
+    """Failure, start configuration, and task of one benchmark case.
 
     Attributes:
-        task: Its name, a key of ``TASKS``.
+        task: Its name, a key of ``CASE_MAKERS``.
         degraded: What has failed.
         at: (n,) where the arm is, rad and m: within what is left, and clear.
         rows: Of the end effector's pose that matter.
@@ -53,194 +53,222 @@ class Case:
     rows: Task
     goal: Array | None = None
     path: Path | None = None
-    keep: tuple[Kept, ...] = ()
+    keep: tuple[ToolConstraint, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """As JSON data: everything that defines it."""
-        d = self.degraded
+        """Return everything that defines the case, as JSON data."""
+        failed = self.degraded
         corners = None if self.path is None else self.path.pose(self.path.bounds).tolist()
         return {
             "task": self.task,
-            "locked": dict(d.locked),
-            "range": {name: list(limits) for name, limits in d.ranges.items()},
-            "speed": dict(d.speeds),
+            "locked": dict(failed.locked),
+            "range": {name: list(limits) for name, limits in failed.ranges.items()},
+            "speed": dict(failed.speeds),
             "at": self.at.tolist(),
             "rows": self.rows.to_dict(),
             "goal": None if self.goal is None else self.goal.tolist(),
             "path": corners,
-            **({"keep": [kept.to_dict() for kept in self.keep]} if self.keep else {}),
+            **({"keep": [constraint.to_dict() for constraint in self.keep]} if self.keep else {}),
         }
 
 
-def draw_failure(arm: Arm, most: int, rng: Rng) -> Degraded:
-    """One to ``most`` joints, each locked, with a part of its range, or slower.
+def sample_failure(arm: Arm, max_joints: int, rng: Rng) -> Degraded:
+    """Sample one to ``max_joints`` joints, each locked, with a reduced range, or slower.
 
     The number is uniform; of each joint a lock, a range, a speed with probability 0.5, 0.3, 0.2. A lock is uniform within the
     limits, a range a fraction from 0.1 to 0.7 of them anywhere, a speed a fraction from 0.1 to 0.5.
     """
-    low, high = finite_limits(arm)
-    found: dict[str, dict[str, Any]] = {kind: {} for kind in _KINDS}
-    for k in rng.choice(arm.n, size=rng.integers(1, most + 1), replace=False):
-        kind = _KINDS[rng.choice(len(_KINDS), p=_OFTEN)]
-        width = (high[k] - low[k]) * rng.uniform(0.1, 0.7)
-        begin = rng.uniform(low[k], high[k] - width)
-        values = {"lock": rng.uniform(low[k], high[k]), "range": (begin, begin + width), "speed": rng.uniform(0.1, 0.5)}
-        found[kind][arm.joint_names[k]] = values[kind]
-    return Degraded(arm, locked=found["lock"], ranges=found["range"], speeds=found["speed"])
+    lower, upper = finite_limits(arm)
+    failures: dict[str, dict[str, Any]] = {kind: {} for kind in _FAILURE_KINDS}
+    for index in rng.choice(arm.n, size=rng.integers(1, max_joints + 1), replace=False):
+        kind = _FAILURE_KINDS[rng.choice(len(_FAILURE_KINDS), p=_KIND_PROBABILITIES)]
+        width = (upper[index] - lower[index]) * rng.uniform(0.1, 0.7)
+        range_start = rng.uniform(lower[index], upper[index] - width)
+        values = {
+            "lock": rng.uniform(lower[index], upper[index]),
+            "range": (range_start, range_start + width),
+            "speed": rng.uniform(0.1, 0.5),
+        }
+        failures[kind][arm.joint_names[index]] = values[kind]
+    return Degraded(arm, locked=failures["lock"], ranges=failures["range"], speeds=failures["speed"])
 
 
-class Draw:
-    """Draws cases of an arm, with what must be kept clear."""
+class CaseSampler:
+    """Sampler of the cases of an arm and the objects that it must avoid."""
 
     def __init__(self, arm: Arm, clearance: Clearance | None) -> None:
         self.arm, self.clearance = arm, clearance
-        self._down = row_solver(arm, rows_task(["wx", "wy"], frame="tool"))
+        self._pointing_solver = make_row_solver(arm, task_from_rows(["wx", "wy"], frame="tool"))
 
-    def case(self, task: str, rng: Rng) -> Case:
-        """A case of a task.
+    def sample_case(self, task: str, rng: Rng) -> BenchmarkCase:
+        """Return a case of a task.
 
         Raises:
             InputError: No such task, or no case of it was found.
         """
-        if task not in TASKS:
-            raise InputError(f"task '{task}' of the suite is not known; use {', '.join(TASKS)}")
-        return TASKS[task](self, task, rng)
+        if task not in CASE_MAKERS:
+            raise InputError(f"task '{task}' of the suite is not known; use {', '.join(CASE_MAKERS)}")
+        return CASE_MAKERS[task](self, task, rng)
 
     # ---- configurations ----------------------------------------------------------------------------------------------
 
-    def clear(self, q: Array) -> NDArray[np.bool_]:
-        """(N,) True where configurations (N, n) keep away from everything."""
+    def is_collision_free(self, q: Array) -> NDArray[np.bool_]:
+        """Return (N,) True for collision-free configurations (N, n)."""
         if self.clearance is None:
             return np.ones(len(q), dtype=bool)
-        return np.asarray(self.clearance.room(q) >= 0)
+        return np.asarray(self.clearance.margin_left(q) >= 0)
 
-    def anywhere(self, low: Array, high: Array, rng: Rng) -> Array:
-        """A clear configuration (n,), uniform between the limits (n,) each."""
-        for _ in range(_DRAWS // 40):
-            q = rng.uniform(low, high, (40, self.arm.n))
-            good = np.flatnonzero(self.clear(q))
-            if good.size:
-                return np.asarray(q[good[0]])
-        raise NothingDrawn
+    def sample_configuration(self, lower: Array, upper: Array, rng: Rng) -> Array:
+        """Return a collision-free configuration (n,), uniform between the limits (n,) each."""
+        for _ in range(_MAX_SAMPLES // 40):
+            q = rng.uniform(lower, upper, (40, self.arm.n))
+            valid = np.flatnonzero(self.is_collision_free(q))
+            if valid.size:
+                return np.asarray(q[valid[0]])
+        raise NoValidSampleError
 
-    def pointing_down(self, low: Array, high: Array, rng: Rng) -> Array:
-        """The same, its tool's z axis straight down."""
-        free = high > low
-        down = np.diag([1.0, -1.0, -1.0, 1.0])
-        for _ in range(_DRAWS // 40):
-            q = rng.uniform(low, high, (40, self.arm.n))
-            poses = np.tile(down, (len(q), 1, 1))
-            kept = np.ones((len(q), 2))
-            q = self._down.run(q, poses, kept, free)
-            inside = ((q >= low) & (q <= high) | ~free).all(axis=1)
-            good = np.flatnonzero(inside & self._down.meets(q, poses, kept, free) & self.clear(q))
-            if good.size:
-                return np.asarray(q[good[0]])
-        raise NothingDrawn
-
-
-class NothingDrawn(Exception):
-    """No configuration was found for a failure: another one is drawn."""
+    def sample_pointing_down(self, lower: Array, upper: Array, rng: Rng) -> Array:
+        """Return a collision-free configuration (n,) whose tool z axis points straight down."""
+        is_movable = upper > lower
+        downward_pose = np.diag([1.0, -1.0, -1.0, 1.0])
+        for _ in range(_MAX_SAMPLES // 40):
+            q = rng.uniform(lower, upper, (40, self.arm.n))
+            poses = np.tile(downward_pose, (len(q), 1, 1))
+            weights = np.ones((len(q), 2))
+            q = self._pointing_solver.solve(q, poses, weights, is_movable)
+            within_limits = ((q >= lower) & (q <= upper) | ~is_movable).all(axis=1)
+            valid = np.flatnonzero(
+                within_limits & self._pointing_solver.meets_rows(q, poses, weights, is_movable) & self.is_collision_free(q)
+            )
+            if valid.size:
+                return np.asarray(q[valid[0]])
+        raise NoValidSampleError
 
 
-def _limits(degraded: Degraded) -> tuple[Array, Array]:
-    """Finite limits in force."""
-    low, high = finite_limits(degraded.limited)
-    moves = degraded.moves
-    return np.where(moves, low, degraded.lo), np.where(moves, high, degraded.hi)
+class NoValidSampleError(Exception):
+    """Exception for a failure for which no valid configuration was found; another failure is sampled then."""
 
 
-def _again(make: Callable[[Draw, str, Rng], Case]) -> Callable[[Draw, str, Rng], Case]:
-    """With other failures until one allows a case."""
+def _limits_in_force(degraded: Degraded) -> tuple[Array, Array]:
+    """Return the finite limits in force."""
+    lower, upper = finite_limits(degraded.limited)
+    is_movable = degraded.moves
+    return np.where(is_movable, lower, degraded.lo), np.where(is_movable, upper, degraded.hi)
 
-    def made(draw: Draw, task: str, rng: Rng) -> Case:
+
+def _retry_failures(
+    make_case: Callable[[CaseSampler, str, Rng], BenchmarkCase],
+) -> Callable[[CaseSampler, str, Rng], BenchmarkCase]:
+    """Wrap a function that makes a case so that it tries other failures until one allows a case."""
+
+    def make_with_retries(draw: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
         for _ in range(100):
             try:
-                return make(draw, task, rng)
-            except NothingDrawn:
+                return make_case(draw, task, rng)
+            except NoValidSampleError:
                 continue
         raise InputError(f"no case of '{task}' could be drawn for '{draw.arm.name}': hardly any configuration of it is clear")
 
-    return made
+    return make_with_retries
 
 
 # ---- tasks ---------------------------------------------------------------------------------------------------------------
 
 
-@_again
-def _reach(draw: Draw, task: str, rng: Rng) -> Case:
-    """A goal that a clear configuration has: of the degraded arm, or of the healthy one."""
-    arm, degraded = draw.arm, draw_failure(draw.arm, 3, rng)
-    limits = _limits(degraded)
-    at = draw.anywhere(*limits, rng)
-    there = draw.anywhere(*(finite_limits(arm) if "healthy" in task else limits), rng)
-    return Case(task, degraded, at, rows=as_task(arm, task.rpartition("-")[2]), goal=arm.forward_kinematics(there))
+@_retry_failures
+def _make_reach_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
+    """Make a case whose goal is the pose of a collision-free configuration of the degraded or of the healthy arm."""
+    arm, degraded = sampler.arm, sample_failure(sampler.arm, 3, rng)
+    limits = _limits_in_force(degraded)
+    start = sampler.sample_configuration(*limits, rng)
+    goal_configuration = sampler.sample_configuration(*(finite_limits(arm) if "healthy" in task else limits), rng)
+    return BenchmarkCase(
+        task, degraded, start, rows=as_task(arm, task.rpartition("-")[2]), goal=arm.forward_kinematics(goal_configuration)
+    )
 
 
-@_again
-def _line(draw: Draw, task: str, rng: Rng) -> Case:
-    """0.3 m in a random direction, the orientation kept; or 0.25 m back along the tool, as of a drawer."""
-    degraded = draw_failure(draw.arm, 2, rng)
-    at = draw.anywhere(*_limits(degraded), rng)
-    here = draw.arm.forward_kinematics(at)
-    way = rng.normal(size=3)
-    way = -0.25 * here[:3, 2] if task == "drawer" else 0.3 * way / np.linalg.norm(way)
-    return Case(task, degraded, at, rows=as_task(draw.arm, "pose"), path=line(here, _moved(here, way)))
+@_retry_failures
+def _make_line_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
+    """Make a case of a 0.3 m line in a random direction at constant orientation, or of 0.25 m back along the tool axis, as for
+    a drawer.
+    """
+    degraded = sample_failure(sampler.arm, 2, rng)
+    start = sampler.sample_configuration(*_limits_in_force(degraded), rng)
+    start_pose = sampler.arm.forward_kinematics(start)
+    displacement = rng.normal(size=3)
+    displacement = -0.25 * start_pose[:3, 2] if task == "drawer" else 0.3 * displacement / np.linalg.norm(displacement)
+    return BenchmarkCase(
+        task,
+        degraded,
+        start,
+        rows=as_task(sampler.arm, "pose"),
+        path=line(start_pose, _translate_pose(start_pose, displacement)),
+    )
 
 
-@_again
-def _wipe(draw: Draw, task: str, rng: Rng) -> Case:
-    """Three lanes in the plane across the tool, whose axis stays normal to it; turning about that is free."""
-    degraded = draw_failure(draw.arm, 2, rng)
-    at = draw.anywhere(*_limits(degraded), rng)
-    here = draw.arm.forward_kinematics(at)
-    poses, x, y = [here], 0.0, 0.0
-    for lane in range(_LANES):
-        x = _LANE - x
-        poses.append(_moved(here, x * here[:3, 0] + y * here[:3, 1]))
-        if lane < _LANES - 1:
-            y += _APART
-            poses.append(_moved(here, x * here[:3, 0] + y * here[:3, 1]))
-    return Case(task, degraded, at, rows=as_task(draw.arm, "pointing"), path=sequence(poses))
+@_retry_failures
+def _make_wipe_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
+    """Make a case of three lanes in the plane normal to the tool axis, whose direction is constant; rotation about
+    it is free.
+    """
+    degraded = sample_failure(sampler.arm, 2, rng)
+    start = sampler.sample_configuration(*_limits_in_force(degraded), rng)
+    start_pose = sampler.arm.forward_kinematics(start)
+    poses, x, y = [start_pose], 0.0, 0.0
+    for lane_index in range(_LANE_COUNT):
+        x = _LANE_LENGTH_M - x
+        poses.append(_translate_pose(start_pose, x * start_pose[:3, 0] + y * start_pose[:3, 1]))
+        if lane_index < _LANE_COUNT - 1:
+            y += _LANE_SPACING_M
+            poses.append(_translate_pose(start_pose, x * start_pose[:3, 0] + y * start_pose[:3, 1]))
+    return BenchmarkCase(task, degraded, start, rows=as_task(sampler.arm, "pointing"), path=sequence(poses))
 
 
-@_again
-def _tray(draw: Draw, task: str, rng: Rng) -> Case:
-    """0.3 m on the level, the tool straight down; turning about the vertical is free."""
-    degraded = draw_failure(draw.arm, 2, rng)
-    at = draw.pointing_down(*_limits(degraded), rng)
-    here = draw.arm.forward_kinematics(at)
+@_retry_failures
+def _make_tray_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
+    """Make a case of a horizontal 0.3 m line with the tool straight down; rotation about the vertical is free."""
+    degraded = sample_failure(sampler.arm, 2, rng)
+    start = sampler.sample_pointing_down(*_limits_in_force(degraded), rng)
+    start_pose = sampler.arm.forward_kinematics(start)
     angle = rng.uniform(0, 2 * np.pi)
-    way = 0.3 * np.array([np.cos(angle), np.sin(angle), 0.0])
-    return Case(task, degraded, at, rows=as_task(draw.arm, "pointing"), path=line(here, _moved(here, way)))
+    displacement = 0.3 * np.array([np.cos(angle), np.sin(angle), 0.0])
+    return BenchmarkCase(
+        task,
+        degraded,
+        start,
+        rows=as_task(sampler.arm, "pointing"),
+        path=line(start_pose, _translate_pose(start_pose, displacement)),
+    )
 
 
-@_again
-def _upright(draw: Draw, task: str, rng: Rng) -> Case:
-    """From one configuration with the tool straight down to the pose of another; it leans by 2 deg at most on the way."""
-    degraded = draw_failure(draw.arm, 2, rng)
-    at, there = (draw.pointing_down(*_limits(degraded), rng) for _ in range(2))
-    goal = draw.arm.forward_kinematics(there)
-    keep = upright(_LEANS).anchored(draw.arm.forward_kinematics(at))
-    return Case(task, degraded, at, rows=as_task(draw.arm, "pose"), goal=goal, keep=(keep,))
+@_retry_failures
+def _make_upright_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
+    """Make a case between two configurations with the tool straight down, where the tool may tilt by at most 2 deg
+    on the path.
+    """
+    degraded = sample_failure(sampler.arm, 2, rng)
+    start, goal_configuration = (sampler.sample_pointing_down(*_limits_in_force(degraded), rng) for _ in range(2))
+    goal = sampler.arm.forward_kinematics(goal_configuration)
+    constraint = upright(_MAX_TILT_RAD).anchored(sampler.arm.forward_kinematics(start))
+    return BenchmarkCase(task, degraded, start, rows=as_task(sampler.arm, "pose"), goal=goal, keep=(constraint,))
 
 
-def _moved(pose: Array, way: Array) -> Array:
-    moved = pose.copy()
-    moved[:3, 3] += way
-    return moved
+def _translate_pose(pose: Array, displacement: Array) -> Array:
+    translated = pose.copy()
+    translated[:3, 3] += displacement
+    return translated
 
 
-TASKS: dict[str, Callable[[Draw, str, Rng], Case]] = {
-    "reach-pose": _reach,
-    "reach-pointing": _reach,
-    "reach-position": _reach,
-    "reach-healthy-pose": _reach,
-    "reach-healthy-pointing": _reach,
-    "reach-healthy-position": _reach,
-    "line": _line,
-    "drawer": _line,
-    "wipe": _wipe,
-    "tray": _tray,
-    "upright": _upright,
+CASE_MAKERS: dict[str, Callable[[CaseSampler, str, Rng], BenchmarkCase]] = {
+    "reach-pose": _make_reach_case,
+    "reach-pointing": _make_reach_case,
+    "reach-position": _make_reach_case,
+    "reach-healthy-pose": _make_reach_case,
+    "reach-healthy-pointing": _make_reach_case,
+    "reach-healthy-position": _make_reach_case,
+    "line": _make_line_case,
+    "drawer": _make_line_case,
+    "wipe": _make_wipe_case,
+    "tray": _make_tray_case,
+    "upright": _make_upright_case,
 }

@@ -1,4 +1,4 @@
-"""Planners that the suite compares, each from a case to a motion: ours and the usual ones."""
+"""Planners that the suite compares, each from a case to a motion: those of holdfast and standard ones."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
-from holdfast.bench.cases import Case
-from holdfast.bench.judge import NEAR, TURN, Motion, trouble
+from holdfast.bench.cases import BenchmarkCase
+from holdfast.bench.judge import ORIENTATION_TOLERANCE_RAD, POSITION_TOLERANCE_M, BenchmarkMotion, find_violation
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError
 from holdfast.paths.path import line
-from holdfast.recovery.goals import configurations_of
+from holdfast.recovery.goals import find_goal_configurations
 from holdfast.recovery.recovery import Answer
 from holdfast.recovery.routes import find_route
-from holdfast.recovery.rows import row_solver
+from holdfast.recovery.rows import make_row_solver
 from holdfast.recovery.search import recover
-from holdfast.recovery.space import Metric, Space
+from holdfast.recovery.space import FreeSpace, JointMetric
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator
 
-STARTS = 256  # of the search for a configuration of the goal, of every planner that needs one
-_RESTARTS = 8
-_SPACING = 0.01  # m or rad of the end effector between poses that differential inverse kinematics follows
-_STEP = 0.1  # rad or m that a joint may move between two of them
-_NEWTON = 10  # steps at each of them
-_AIM = 0.1  # of the tolerances that count, which differential inverse kinematics aims at
+GOAL_SEARCH_STARTS = 256  # of the search for a configuration of the goal, of every planner that needs one
+_RESTART_COUNT = 8
+_POSE_SPACING = 0.01  # m or rad of the end effector between poses that differential inverse kinematics follows
+_MAX_JOINT_STEP = 0.1  # rad or m that a joint may move between two of them
+_NEWTON_STEPS = 10  # steps at each of them
+_TOLERANCE_FRACTION = 0.1  # of the tolerances that count, which differential inverse kinematics aims at
 
 
 @dataclass(frozen=True, eq=False)
-class Attempt:
-    """What became of a case.
+class PlanningResult:
+    """Result of a planner for a case.
 
     Attributes:
         verdict: What the planner says.
@@ -45,35 +45,35 @@ class Attempt:
     """
 
     verdict: Answer
-    motion: Motion | None = None
+    motion: BenchmarkMotion | None = None
     within: bool = False
 
 
 @dataclass(frozen=True)
-class Limit:
-    """When to stop.
+class TimeLimit:
+    """Time limit of one case.
 
     Attributes:
         seconds: From when it was made.
-        begin: When that was, s.
+        started_at: When that was, s.
     """
 
     seconds: float
-    begin: float
+    started_at: float
 
     @classmethod
-    def of(cls, seconds: float) -> Limit:
-        """From now on."""
+    def start(cls, seconds: float) -> TimeLimit:
+        """Return a limit that starts now."""
         return cls(seconds, time.perf_counter())
 
     @property
-    def over(self) -> bool:
-        """The time is up."""
-        return time.perf_counter() - self.begin > self.seconds
+    def is_reached(self) -> bool:
+        """True once the time limit is reached."""
+        return time.perf_counter() - self.started_at > self.seconds
 
 
-def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> Attempt:
-    """:func:`holdfast.recover`."""
+def _plan_recovery(case: BenchmarkCase, clearance: Clearance | None, limit: TimeLimit, rng: Rng) -> PlanningResult:
+    """Plan with :func:`holdfast.recover`."""
     answer = recover(
         case.degraded.arm,
         case.degraded,
@@ -84,148 +84,170 @@ def _recover(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) ->
         keep=case.keep,
         clearance=False if clearance is None else clearance,
         samples=0,
-        starts=STARTS,
+        starts=GOAL_SEARCH_STARTS,
         time_limit=limit.seconds,
-        tolerance=(NEAR, TURN),
+        tolerance=(POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD),
         seed=int(rng.integers(2**31)),
     )
     if not answer.ok:
-        return Attempt(answer.verdict.answer, within=answer.proved_within)
-    along = next((leg for leg in answer.legs if leg.name == "along the path"), None)
-    share = np.zeros(0) if along is None or answer.rest is None else answer.rest.share
-    return Attempt(answer.verdict.answer, Motion(answer.q, first=0 if along is None else along.first, share=share))
+        return PlanningResult(answer.verdict.answer, within=answer.proved_within)
+    path_leg = next((candidate for candidate in answer.legs if candidate.name == "along the path"), None)
+    path_fractions = np.zeros(0) if path_leg is None or answer.rest is None else answer.rest.share
+    return PlanningResult(
+        answer.verdict.answer, BenchmarkMotion(answer.q, first=0 if path_leg is None else path_leg.first, share=path_fractions)
+    )
 
 
-def _differential(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng, restarts: int = 1) -> Attempt:
-    """Newton's method from pose to pose, joints kept within their limits; from the start, then by way of others."""
-    for way in _ways(case, restarts, rng):
-        if limit.over:
+def _plan_differential(
+    case: BenchmarkCase, clearance: Clearance | None, limit: TimeLimit, rng: Rng, restarts: int = 1
+) -> PlanningResult:
+    """Follow poses with Newton's method within the joint limits, first from the start, then from other configurations."""
+    for approach in _approaches(case, restarts, rng):
+        if limit.is_reached:
             break
-        motion = _followed(case, way)
-        if motion is not None and not trouble(case, motion, clearance):
-            return Attempt("solved", motion)
-    return Attempt("undecided")
+        motion = _follow_path(case, approach)
+        if motion is not None and not find_violation(case, motion, clearance):
+            return PlanningResult("solved", motion)
+    return PlanningResult("undecided")
 
 
-def _with_restarts(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> Attempt:
-    return _differential(case, clearance, limit, rng, _RESTARTS)
+def _plan_with_restarts(case: BenchmarkCase, clearance: Clearance | None, limit: TimeLimit, rng: Rng) -> PlanningResult:
+    return _plan_differential(case, clearance, limit, rng, _RESTART_COUNT)
 
 
-def _ways(case: Case, restarts: int, rng: Rng) -> Iterator[Array]:
-    """(K, n) to where following begins: where the arm is, or straight on from there to somewhere else."""
+def _approaches(case: BenchmarkCase, restarts: int, rng: Rng) -> Iterator[Array]:
+    """Yield approaches (K, n) to the beginning of the path: the start alone, or a straight motion from it to another
+    configuration.
+    """
     yield case.at[None]
-    arm, moves = case.degraded.limited, case.degraded.moves
-    solver = row_solver(arm, case.rows)
-    low, high = finite_limits(arm)
+    arm, is_movable = case.degraded.limited, case.degraded.moves
+    solver = make_row_solver(arm, case.rows)
+    lower, upper = finite_limits(arm)
     for _ in range(restarts - 1):
-        q = np.where(moves, rng.uniform(low, high), case.at)[None]
+        q = np.where(is_movable, rng.uniform(lower, upper), case.at)[None]
         if case.path is not None:
-            q = solver.run(q, case.path.pose(0.0)[None], np.ones((1, solver.rows.m)), moves)
-        yield np.concatenate([case.at[None], np.where(moves, np.clip(q, low, high), case.at)])
+            q = solver.solve(q, case.path.pose(0.0)[None], np.ones((1, solver.rows.m)), is_movable)
+        yield np.concatenate([case.at[None], np.where(is_movable, np.clip(q, lower, upper), case.at)])
 
 
-def _followed(case: Case, way: Array) -> Motion | None:
-    """The path, or the straight line of the end effector to the goal, followed from the end of a way; None if it is lost."""
-    arm, moves = case.degraded.limited, case.degraded.moves
-    solver, low, high = row_solver(arm, case.rows), *finite_limits(arm)
+def _follow_path(case: BenchmarkCase, approach: Array) -> BenchmarkMotion | None:
+    """Follow the path, or the straight line of the end effector to the goal, from the end of an approach; None if
+    it is lost.
+    """
+    arm, is_movable = case.degraded.limited, case.degraded.moves
+    solver, lower, upper = make_row_solver(arm, case.rows), *finite_limits(arm)
     if case.path is not None:
         path = case.path
     else:
         assert case.goal is not None
-        path = line(arm.forward_kinematics(way[-1]), case.goal)
-    count = max(int(np.ceil(path.length / _SPACING)), 20)
-    share = np.linspace(0, 1, count + 1)
-    tolerance = np.where(np.array(solver.rows.units) == "m", NEAR, TURN) * _AIM
-    kept, q, along = np.ones((1, solver.rows.m)), way[-1], [way[-1]]
-    for pose in path.pose(share[1:]):
-        for _ in range(_NEWTON):
-            new = solver.run(q[None], pose[None], kept, moves, 1)[0]
-            new = np.where(moves, np.clip(q + np.clip(new - q, -_STEP, _STEP), low, high), q)
-            moved, q = np.abs(new - q).max(), new
-            if (np.abs(solver.errors(q[None], pose[None])[0]) <= tolerance).all() or moved < 1e-9:
+        path = line(arm.forward_kinematics(approach[-1]), case.goal)
+    pose_count = max(int(np.ceil(path.length / _POSE_SPACING)), 20)
+    path_fractions = np.linspace(0, 1, pose_count + 1)
+    tolerance = (
+        np.where(np.array(solver.rows.units) == "m", POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD) * _TOLERANCE_FRACTION
+    )
+    weights, q, configurations = np.ones((1, solver.rows.m)), approach[-1], [approach[-1]]
+    for pose in path.pose(path_fractions[1:]):
+        for _ in range(_NEWTON_STEPS):
+            next_q = solver.solve(q[None], pose[None], weights, is_movable, 1)[0]
+            next_q = np.where(is_movable, np.clip(q + np.clip(next_q - q, -_MAX_JOINT_STEP, _MAX_JOINT_STEP), lower, upper), q)
+            step_size, q = np.abs(next_q - q).max(), next_q
+            if (np.abs(solver.compute_errors(q[None], pose[None])[0]) <= tolerance).all() or step_size < 1e-9:
                 break
-        along.append(q)
-    missed = np.abs(solver.errors(q[None], path.pose(1.0)[None])[0])
-    if (missed > 10 * tolerance).any():
+        configurations.append(q)
+    final_error = np.abs(solver.compute_errors(q[None], path.pose(1.0)[None])[0])
+    if (final_error > 10 * tolerance).any():
         return None
-    return Motion(np.concatenate([way[:-1], along]), first=len(way) - 1, share=share if case.path is not None else np.zeros(0))
+    return BenchmarkMotion(
+        np.concatenate([approach[:-1], configurations]),
+        first=len(approach) - 1,
+        share=path_fractions if case.path is not None else np.zeros(0),
+    )
 
 
-def _one_goal(case: Case, clearance: Clearance | None, rng: Rng) -> tuple[Space, Metric, Array] | None:
-    """A clear configuration (n,) of the goal, and the space it lies in."""
-    arm, moves = case.degraded.limited, case.degraded.moves
-    space = Space(arm, moves, clearance, 0.0, case.at[None])
-    metric = Metric.of(arm, "travel", None, moves)
+def _find_goal(case: BenchmarkCase, clearance: Clearance | None, rng: Rng) -> tuple[FreeSpace, JointMetric, Array] | None:
+    """Return a collision-free configuration (n,) of the goal, and its configuration space."""
+    arm, is_movable = case.degraded.limited, case.degraded.moves
+    space = FreeSpace(arm, is_movable, clearance, 0.0, case.at[None])
+    metric = JointMetric.for_arm(arm, "travel", None, is_movable)
     assert case.goal is not None
-    goals = configurations_of(row_solver(arm, case.rows), space, metric, case.goal, case.at, STARTS, rng)
+    goals = find_goal_configurations(
+        make_row_solver(arm, case.rows), space, metric, case.goal, case.at, GOAL_SEARCH_STARTS, rng
+    )
     return (space, metric, goals[0]) if len(goals) else None
 
 
-def _rrt_connect(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> Attempt:
-    """Two trees to one configuration of the goal, every piece proved clear: the trees of ours with nothing around them."""
+def _plan_rrt_connect(case: BenchmarkCase, clearance: Clearance | None, limit: TimeLimit, rng: Rng) -> PlanningResult:
+    """Plan with two trees to one configuration of the goal, every segment proved collision-free, with the trees of holdfast
+    alone.
+    """
     del limit  # of one search; it is bounded by its rounds
-    found = _one_goal(case, clearance, rng)
-    if found is None:
-        return Attempt("undecided")
-    space, metric, goal = found
+    goal_search = _find_goal(case, clearance, rng)
+    if goal_search is None:
+        return PlanningResult("undecided")
+    space, metric, goal = goal_search
     route = find_route(space, metric, case.at, goal[None], 1, rng)
-    return Attempt("undecided") if route is None else Attempt("solved", Motion(route.q, share=np.zeros(0)))
+    return (
+        PlanningResult("undecided") if route is None else PlanningResult("solved", BenchmarkMotion(route.q, share=np.zeros(0)))
+    )
 
 
-def _ompl(case: Case, clearance: Clearance | None, limit: Limit, rng: Rng) -> Attempt:
-    """OMPL's RRT-Connect to the same configuration, its validity our bound, at its own resolution of 1 % of the box."""
+def _plan_ompl(case: BenchmarkCase, clearance: Clearance | None, limit: TimeLimit, rng: Rng) -> PlanningResult:
+    """Plan with OMPL's RRT-Connect to the same configuration and with our bound as validity check, at its own resolution of 1 %
+    of the box.
+    """
     from ompl import base, geometric, util
 
-    found = _one_goal(case, clearance, rng)
-    if found is None:
-        return Attempt("undecided")
-    space, _, goal = found
-    moves = np.flatnonzero(space.free)
+    goal_search = _find_goal(case, clearance, rng)
+    if goal_search is None:
+        return PlanningResult("undecided")
+    space, _, goal = goal_search
+    movable_joints = np.flatnonzero(space.free)
     util.setLogLevel(util.LOG_ERROR)
-    states = base.RealVectorStateSpace(len(moves))
-    bounds = base.RealVectorBounds(len(moves))
-    for k, joint in enumerate(moves):
-        bounds.setLow(k, float(space.low[joint]))
-        bounds.setHigh(k, float(space.high[joint]))
+    states = base.RealVectorStateSpace(len(movable_joints))
+    bounds = base.RealVectorBounds(len(movable_joints))
+    for index, joint in enumerate(movable_joints):
+        bounds.setLow(index, float(space.low[joint]))
+        bounds.setHigh(index, float(space.high[joint]))
     states.setBounds(bounds)
     setup = geometric.SimpleSetup(states)
 
-    def whole(state: object) -> Array:
+    def full_configuration(state: object) -> Array:
         q = case.at.copy()
-        q[moves] = [state[k] for k in range(len(moves))]  # type: ignore[index]
+        q[movable_joints] = [state[index] for index in range(len(movable_joints))]  # type: ignore[index]
         return q
 
-    setup.setStateValidityChecker(lambda state: bool(space.clear(whole(state)[None])[0]))
-    ends = [states.allocState() for _ in range(2)]
-    for state, q in zip(ends, (case.at, goal), strict=True):
-        for k, joint in enumerate(moves):
-            state[k] = float(q[joint])
-    setup.setStartAndGoalStates(*ends)
+    setup.setStateValidityChecker(lambda state: bool(space.are_valid(full_configuration(state)[None])[0]))
+    end_states = [states.allocState() for _ in range(2)]
+    for state, q in zip(end_states, (case.at, goal), strict=True):
+        for index, joint in enumerate(movable_joints):
+            state[index] = float(q[joint])
+    setup.setStartAndGoalStates(*end_states)
     setup.setPlanner(geometric.RRTConnect(setup.getSpaceInformation()))
     setup.solve(limit.seconds)
     if not setup.haveExactSolutionPath():
-        return Attempt("undecided")
-    q = np.stack([whole(state) for state in setup.getSolutionPath().getStates()])
-    return Attempt("solved", Motion(q, share=np.zeros(0)))
+        return PlanningResult("undecided")
+    q = np.stack([full_configuration(state) for state in setup.getSolutionPath().getStates()])
+    return PlanningResult("solved", BenchmarkMotion(q, share=np.zeros(0)))
 
 
-Method = Callable[[Case, Clearance | None, Limit, Rng], Attempt]
-METHODS: dict[str, Method] = {
-    "recover": _recover,
-    "differential-ik": _differential,
-    "differential-ik-8-starts": _with_restarts,
-    "rrt-connect": _rrt_connect,
-    "ompl-rrt-connect": _ompl,
+Method = Callable[[BenchmarkCase, Clearance | None, TimeLimit, Rng], PlanningResult]
+PLANNERS_BY_NAME: dict[str, Method] = {
+    "recover": _plan_recovery,
+    "differential-ik": _plan_differential,
+    "differential-ik-8-starts": _plan_with_restarts,
+    "rrt-connect": _plan_rrt_connect,
+    "ompl-rrt-connect": _plan_ompl,
 }
-ROUTES = ("rrt-connect", "ompl-rrt-connect")  # those that reach a pose and keep no rows on the way
+POSE_PLANNERS = ("rrt-connect", "ompl-rrt-connect")  # those that reach a pose and keep no rows on the way
 
 
-def usable(name: str, task: str) -> bool:
-    """Whether a method can be asked for a task at all."""
-    return name not in ROUTES or task.startswith("reach")
+def is_applicable(name: str, task: str) -> bool:
+    """Return whether a method can solve a task."""
+    return name not in POSE_PLANNERS or task.startswith("reach")
 
 
-def require(name: str) -> None:
-    """Raise :class:`HoldfastError` where a method needs a package that is not installed."""
+def require_installed(name: str) -> None:
+    """Raise :class:`HoldfastError` if a method needs a package that is not installed."""
     if name == "ompl-rrt-connect" and find_spec("ompl") is None:
         raise HoldfastError("method 'ompl-rrt-connect' needs OMPL, which is not installed; install it with: pip install ompl")

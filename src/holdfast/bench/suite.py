@@ -1,4 +1,4 @@
-"""The suite as a whole: run into a folder, and what it found."""
+"""Run the whole suite into a folder, and summarize the results."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import registry
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arms.serial import to_dict
 from holdfast.bench import methods
-from holdfast.bench.cases import TASKS
-from holdfast.bench.job import VERDICTS, FailActiveJob, digest
+from holdfast.bench.cases import CASE_MAKERS
+from holdfast.bench.job import VERDICT_NAMES, FailActiveJob, case_digest
 from holdfast.cell.cell import Cell, as_cell
-from holdfast.clearance.choice import CellLike, chosen_clearance, stored
-from holdfast.engine.job import Cell as StudyCell
-from holdfast.engine.runner import Runner, Stop, Threads
+from holdfast.clearance.choice import CellLike, chosen_clearance, encode_clearance
+from holdfast.engine.job import SweepCell as StudyCell
+from holdfast.engine.runner import Runner, Stop, ThreadRunner
 from holdfast.engine.study import Study
 from holdfast.engine.work import Progress
 from holdfast.errors import InputError, StoreError
-from holdfast.files.output import replaced
+from holdfast.files.output import replace_file
 from holdfast.probability.intervals import Interval
 from holdfast.result import Result
-from holdfast.studies.results import chunks
+from holdfast.studies.results import read_chunks
 
 Rows = dict[str, NDArray[Any]]
 
-NAME = "fail-active"
-FEWER = 10  # how many times fewer cases there are of tasks that are no reach, as in the suite of the specification
+SUITE_NAME = "fail-active"
+PATH_CASE_DIVISOR = 10  # how many times fewer cases there are of tasks that are no reach, as in the suite of the specification
 
 
 @dataclass(frozen=True, kw_only=True)
 class Score:
-    """What a planner did with the cases of a task.
+    """Results of one planner for the cases of a task.
 
     Attributes:
         task, method: Their names.
@@ -73,22 +73,22 @@ class Score:
 
     @property
     def success(self) -> Interval:
-        """Share of all cases that are solved, with its exact interval."""
+        """Fraction of all cases that are solved, with its Clopper-Pearson interval."""
         return Interval.of(self.solved, self.cases)
 
     @property
     def success_of_feasible(self) -> Interval | None:
-        """Share of the cases that are not proved infeasible; None if all are."""
+        """Fraction of the cases that are not proved infeasible; None if all are."""
         return Interval.of(self.solved, self.feasible) if self.feasible else None
 
     @property
     def decided(self) -> Interval:
-        """Share of the cases that are solved or proved infeasible."""
+        """Fraction of the cases that are solved or proved infeasible."""
         return Interval.of(self.solved + self.proved, self.cases)
 
 
 class FailActive(Result):
-    """What the suite found so far; see :func:`fail_active`.
+    """Results of the suite so far; see :func:`fail_active`.
 
     Attributes:
         study: Its folder.
@@ -97,54 +97,55 @@ class FailActive(Result):
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        rows = {k: _rows(study, k) for k in range(len(study.cells))}
-        labels = [c["labels"] for c in study.cells]
-        if any(label.get("job") != NAME for label in labels):
-            raise StoreError(f"'{study.path}' is not a suite; give the folder that 'holdfast bench {NAME} --out' wrote")
+        rows = {index: _read_rows(study, index) for index in range(len(study.cells))}
+        labels = [study_cell["labels"] for study_cell in study.cells]
+        if any(label.get("job") != SUITE_NAME for label in labels):
+            raise StoreError(f"'{study.path}' is not a suite; give the folder that 'holdfast bench {SUITE_NAME} --out' wrote")
         proofs = {
-            (label["task"], label["around"]): _proofs(rows[k])
-            for k, label in enumerate(labels)
-            if label["method"] == "recover" and rows[k]
+            (label["task"], label["around"]): _proved_cases(rows[index])
+            for index, label in enumerate(labels)
+            if label["method"] == "recover" and rows[index]
         }
         self.scores = tuple(
-            _score(label, rows[k], proofs.get((label["task"], label["around"]), set()))
-            for k, label in enumerate(labels)
-            if rows[k]
+            _make_score(label, rows[index], proofs.get((label["task"], label["around"]), set()))
+            for index, label in enumerate(labels)
+            if rows[index]
         )
 
     @property
     def complete(self) -> bool:
-        """Every case is done."""
-        return self.study.complete
+        """True if every case is done."""
+        return self.study.is_complete
 
     def describe(self) -> list[str]:
-        """A sentence a task and method."""
+        """Describe the results of each task and method in one sentence."""
         lines = self.study.describe()
-        for s in self.scores:
-            where = "in its cell" if s.in_cell else "without a cell"
+        for score in self.scores:
+            place = "in its cell" if score.in_cell else "without a cell"
             lines.append(
-                f"{s.task} {where}, {s.method}: {s.solved} of {s.cases} solved, {s.proved} proved infeasible, {s.argued} "
-                f"argued infeasible, {s.undecided} undecided; median {np.median(s.seconds):.2g} s"
+                f"{score.task} {place}, {score.method}: {score.solved} of {score.cases} solved, {score.proved} proved "
+                f"infeasible, {score.argued} "
+                f"argued infeasible, {score.undecided} undecided; median {np.median(score.seconds):.2g} s"
             )
         return lines
 
 
-def _rows(study: Study, cell: int) -> Rows:
-    parts = list(chunks(study, cell))
-    return {name: np.concatenate([p[name] for p in parts]) for name in parts[0]} if parts else {}
+def _read_rows(study: Study, cell: int) -> Rows:
+    parts = list(read_chunks(study, cell))
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
 
 
-def _proofs(rows: Rows) -> set[int]:
-    return set(rows["case"][(rows["verdict"] == VERDICTS.index("proved infeasible")) & (rows["within"] == 1)].tolist())
+def _proved_cases(rows: Rows) -> set[int]:
+    return set(rows["case"][(rows["verdict"] == VERDICT_NAMES.index("proved infeasible")) & (rows["within"] == 1)].tolist())
 
 
-def _score(label: dict[str, Any], rows: Rows, proofs: set[int]) -> Score:
+def _make_score(label: dict[str, Any], rows: Rows, proofs: set[int]) -> Score:
     verdict = rows["verdict"]
-    good = (verdict == 0) & (rows["trouble"] == 0)
+    is_solved = (verdict == 0) & (rows["trouble"] == 0)
     infeasible = np.isin(rows["case"], list(proofs))
-    _, proved, argued, _ = (int(np.count_nonzero(verdict == k)) for k in range(len(VERDICTS)))
-    refused = int(np.count_nonzero((verdict == 0) & ~good))
-    solved, cases = int(np.count_nonzero(good)), len(verdict)
+    _, proved, argued, _ = (int(np.count_nonzero(verdict == code)) for code in range(len(VERDICT_NAMES)))
+    refused = int(np.count_nonzero((verdict == 0) & ~is_solved))
+    solved, cases = int(np.count_nonzero(is_solved)), len(verdict)
     return Score(
         task=label["task"],
         method=label["method"],
@@ -157,13 +158,13 @@ def _score(label: dict[str, Any], rows: Rows, proofs: set[int]) -> Score:
         argued=argued,
         undecided=cases - solved - refused - proved - argued,
         feasible=int(np.count_nonzero(~infeasible)),
-        contradictions=int(np.count_nonzero(good & infeasible)),
+        contradictions=int(np.count_nonzero(is_solved & infeasible)),
         seconds=rows["seconds"],
         processor=rows["processor"],
     )
 
 
-@checked
+@check_arguments
 def fail_active(
     arm: Arm,
     out: str | Path,
@@ -178,14 +179,14 @@ def fail_active(
     progress: Progress | None = None,
     stop: Stop = lambda: False,
 ) -> FailActive:
-    """Draw failures and tasks, and count what each planner finishes; the same call resumes.
+    """Sample failures and tasks, and count the cases that each planner solves; the same call resumes.
 
     Args:
         arm: The arm.
         out: Folder of the study, whose cases are written to ``cases.jsonl``.
         cell: Objects around the arm, or their file; every task is then done in it and without it.
         cases: Of each task that reaches a pose; of the others a tenth.
-        tasks: Some of ``holdfast.bench.cases.TASKS``; all if not given.
+        tasks: Some of ``holdfast.bench.cases.CASE_MAKERS``; all if not given.
         planners: Some of ``recover``, ``differential-ik``, ``differential-ik-8-starts``, ``rrt-connect`` and
             ``ompl-rrt-connect`` (needs OMPL). The last two are asked to reach poses alone.
         seconds: Time limit of a case, on one thread.
@@ -201,64 +202,72 @@ def fail_active(
     """
     if cases < 1 or not seconds > 0:
         raise InputError(f"cases is {cases} and seconds {seconds:g}; give 1 or more, and a time above 0")
-    chosen = list(TASKS) if tasks is None else list(tasks)
-    for kind, names, known in (("task", chosen, TASKS), ("planner", planners, methods.METHODS)):
+    chosen = list(CASE_MAKERS) if tasks is None else list(tasks)
+    for kind, names, known_names in (("task", chosen, CASE_MAKERS), ("planner", planners, methods.PLANNERS_BY_NAME)):
         for name in names:
-            if name not in known:
-                raise InputError(registry.unknown(kind, name, known))
+            if name not in known_names:
+                raise InputError(registry.unknown_name_message(kind, name, known_names))
     for name in planners:
-        methods.require(name)
-    around = as_cell(cell)
+        methods.require_installed(name)
+    work_cell = as_cell(cell)
     cells = [
-        _cell(arm, place, task, method, cases, seconds)
-        for place in ([None] if around is None else [None, around])
+        _study_cell(arm, case_cell, task, method, cases, seconds)
+        for case_cell in ([None] if work_cell is None else [None, work_cell])
         for task in chosen
         for method in planners
-        if methods.usable(method, task)
+        if methods.is_applicable(method, task)
     ]
-    study = Study.create(out, NAME, seed, cells=cells)
+    study = Study.create(out, SUITE_NAME, seed, cells=cells)
     _write_cases(study, cells, seed)
-    problems = study.run(cells, Threads(1) if runner is None else runner, progress, stop=stop)
+    problems = study.run(cells, ThreadRunner(1) if runner is None else runner, progress, stop=stop)
     for problem in problems.values():
         raise problem
     return FailActive(study)
 
 
-def _cell(arm: Arm, around: Cell | None, task: str, method: str, cases: int, seconds: float) -> StudyCell:
-    clearance = chosen_clearance(arm, None, around)
+def _study_cell(arm: Arm, work_cell: Cell | None, task: str, method: str, cases: int, seconds: float) -> StudyCell:
+    clearance = chosen_clearance(arm, None, work_cell)
     shape = None if clearance is None else clearance.capsules.shape
     plan = {
-        "kind": NAME,
+        "kind": SUITE_NAME,
         "fingerprint": arm.fingerprint,
         "arm": to_dict(arm),
         "task": task,
         "method": method,
         "seconds": seconds,
-        **({} if clearance is None else stored(clearance)),
+        **({} if clearance is None else encode_clearance(clearance)),
         **({} if shape is None else {"shape": shape.digest}),
     }
-    labels = {"job": NAME, "arm": arm.name, "task": task, "method": method, "around": "" if around is None else around.name}
-    rows = cases if task.startswith("reach") else max(cases // FEWER, 1)
-    name = "-".join([task, method, *(["cell"] if around is not None else [])])
+    labels = {
+        "job": SUITE_NAME,
+        "arm": arm.name,
+        "task": task,
+        "method": method,
+        "around": "" if work_cell is None else work_cell.name,
+    }
+    rows = cases if task.startswith("reach") else max(cases // PATH_CASE_DIVISOR, 1)
+    name = "-".join([task, method, *(["cell"] if work_cell is not None else [])])
     return StudyCell(name, FailActiveJob(plan, shape), plan, rows=rows, chunk=min(rows, 5), labels=labels)
 
 
 def _write_cases(study: Study, cells: Sequence[StudyCell], seed: int) -> None:
-    """Every case, one JSON object a line, for others to try."""
+    """Write every case, one JSON object per line, for other planners."""
     file = study.path / "cases.jsonl"
     if file.exists():
         return
-    lines, seen = [], set()
+    lines, written = [], set()
     for cell in cells:
         job = cell.job
         assert isinstance(job, FailActiveJob)
         key = (job.plan["task"], cell.labels["around"])
-        if key in seen:
+        if key in written:
             continue
-        seen.add(key)
+        written.add(key)
         for row in range(cell.rows):
-            case = job.case(seed, row)
+            case = job.make_case(seed, row)
             lines.append(
-                json.dumps({"number": row, "cell": cell.labels["around"], "digest": f"{digest(case):016x}", **case.to_dict()})
+                json.dumps(
+                    {"number": row, "cell": cell.labels["around"], "digest": f"{case_digest(case):016x}", **case.to_dict()}
+                )
             )
-    replaced(file, "\n".join(lines) + "\n")
+    replace_file(file, "\n".join(lines) + "\n")

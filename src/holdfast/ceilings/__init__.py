@@ -1,4 +1,4 @@
-"""Ceilings: what no arm can keep when joints fail, and what is known to be attainable."""
+"""Certified upper bounds of relative manipulability after joint failures, and the best values known to be attainable."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Theorem R5: the most that relative manipulability can be on average, where joints fail at known rates."""
+"""Largest mean of relative manipulability where joints fail at known rates (theorem R5)."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import real_numbers
+from holdfast.arguments import require_real_numbers
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 
-_SMALL = 1e-15
+_NEGLIGIBLE_EXCESS = 1e-15
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Average:
-    """What no arm can beat on average.
+class AverageBound:
+    """Upper bound of the mean relative manipulability of any arm.
 
     Attributes:
         value: Of the sum of rate times relative manipulability.
@@ -30,8 +30,9 @@ class Average:
     null_space: Array
 
 
-def best_average(rates: ArrayLike, m: int) -> Average:
-    """The largest mean of relative manipulability over single failures of n joints, each as probable as its rate says.
+def bound_average(rates: ArrayLike, m: int) -> AverageBound:
+    """Return the largest mean of relative manipulability over single failures of n joints whose probabilities follow their
+    rates.
 
     The squares of what is left sum to n - m and are at most 1: ``min(1, mu rate^2)`` is best (Cauchy and Schwarz), and some
     Jacobian attains it (Schur and Horn). Equal rates give theorem T1.
@@ -45,13 +46,13 @@ def best_average(rates: ArrayLike, m: int) -> Average:
 
     Source: derived here.
     """
-    given = real_numbers(rates, "the rates")
-    if given.ndim != 1 or not (given > 0).all():
+    failure_rates = require_real_numbers(rates, "the rates")
+    if failure_rates.ndim != 1 or not (failure_rates > 0).all():
         raise InputError("rates are one positive number for each joint")
-    n = len(given)
+    n = len(failure_rates)
     if not 1 <= m < n:
         raise InputError(f"{n} joints for {m} rows of the task; m must be from 1 to {n - 1}")
-    weight = given / given.sum()
+    weight = failure_rates / failure_rates.sum()
     order = np.argsort(-weight, kind="stable")
     falling = weight[order] ** 2
     for full in range(n - m + 1):  # so many of the most probable ones lose nothing
@@ -61,19 +62,21 @@ def best_average(rates: ArrayLike, m: int) -> Average:
     squares = np.empty(n)
     squares[order] = np.minimum(np.concatenate([np.ones(full), scale * falling[full:]]), 1.0)
     null = np.empty((n, n - m))
-    null[order] = _with_lengths(squares[order], n - m)
-    left = np.sqrt(squares)
-    return Average(value=float(weight @ left), left=left, null_space=null)
+    null[order] = _frame_with_lengths(squares[order], n - m)
+    root_lengths = np.sqrt(squares)
+    return AverageBound(value=float(weight @ root_lengths), left=root_lengths, null_space=null)
 
 
-def _with_lengths(squares: Array, p: int) -> Array:
-    """Orthonormal columns (n, p) whose rows have falling squared lengths that sum to p: each turn of two rows settles one."""
+def _frame_with_lengths(squares: Array, p: int) -> Array:
+    """Return orthonormal columns (n, p) whose rows have falling squared lengths that sum to p; each rotation of two rows
+    settles one.
+    """
     rows = np.eye(len(squares), p)
     long, short = p - 1, p
     while long >= 0 and short < len(squares):
         excess, lack = rows[long] @ rows[long] - squares[long], squares[short] - rows[short] @ rows[short]
         part = min(excess, lack)
-        if part > _SMALL:
+        if part > _NEGLIGIBLE_EXCESS:
             a, b, g = rows[long] @ rows[long], rows[short] @ rows[short], rows[long] @ rows[short]
             # Tangent of the angle after which the longer row has lost its part.
             aim = a - part

@@ -1,4 +1,4 @@
-"""Null spaces that attain a ceiling for every number of joints, written down instead of searched for."""
+"""Null spaces that attain an upper bound for every number of joints, in closed form."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def equal_rows(n: int, p: int) -> Array:
-    """Orthonormal columns (n, p) whose n rows are equally long: cosines and sines, and a constant column if p is odd."""
+def equal_row_frame(n: int, p: int) -> Array:
+    """Return orthonormal columns (n, p) whose n rows are equally long: cosines and sines, and a constant column if p is odd."""
     i = np.arange(n)
     waves = 2 * np.pi * np.outer(i, np.arange(1, p // 2 + 1)) / n
     columns = [*np.cos(waves).T * np.sqrt(2 / n), *np.sin(waves).T * np.sqrt(2 / n)]
@@ -18,14 +18,14 @@ def equal_rows(n: int, p: int) -> Array:
     return np.array(columns).T.reshape(n, p)
 
 
-def star(n: int) -> Array:
-    """Orthonormal columns (n, 2): n lines of a plane with equal angles between neighbours."""
+def star_frame(n: int) -> Array:
+    """Return orthonormal columns (n, 2): n lines of a plane with equal angles between neighbours."""
     angle = np.pi * np.arange(n) / n
     return np.asarray(np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
-def bundles(n: int) -> Array:
-    """Orthonormal columns (n, n - 2) for even n of 6 or more: the best known for two failures under tasks of two rows.
+def bundle_frame(n: int) -> Array:
+    """Return orthonormal columns (n, n - 2) for even n of 6 or more, the best known for two failures under tasks of two rows.
 
     The columns of the Jacobian are two bundles of h - 1 lines, n = 2 h, at right angles to one another, and between them two
     single lines, longer ones. After the worst two locks
@@ -35,23 +35,23 @@ def bundles(n: int) -> Array:
     square = (2 * h + 1 - np.sqrt(4 * h * h - 4 * h + 9)) / (2 * (h - 1))  # of each line of a bundle
     lengths = np.sqrt(np.repeat([square, 1 - (h - 1) * square] * 2, [h - 1, 1] * 2))
     angle = np.repeat(np.pi / 4 * np.arange(4), [h - 1, 1] * 2)
-    return complement((lengths * np.stack([np.cos(angle), np.sin(angle)])).T)
+    return orthogonal_complement((lengths * np.stack([np.cos(angle), np.sin(angle)])).T)
 
 
-def complement(columns: Array) -> Array:
-    """Orthonormal columns (n, n - p) across the given (n, p)."""
+def orthogonal_complement(columns: Array) -> Array:
+    """Return orthonormal columns (n, n - p) that are orthogonal to the given (n, p)."""
     return np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
 
 
-def known(n: int, m: int, k: int) -> Array | None:
-    """The null space that theorem T1, T2 or T3 says attains its bound, or that is the best known of a family; else None."""
+def known_null_space(n: int, m: int, k: int) -> Array | None:
+    """Return the null space that attains its bound by theorem T1, T2 or T3, or the best known of a family; else None."""
     p = n - m
     if k == 1 or m == 1:
-        return equal_rows(n, p)
+        return equal_row_frame(n, p)
     if p == k == 2:
-        return star(n)
+        return star_frame(n)
     if m == 2 and k == p:
-        return complement(star(n))
+        return orthogonal_complement(star_frame(n))
     if m == k == 2 and n >= 6 and n % 2 == 0:
-        return bundles(n)
+        return bundle_frame(n)
     return None

@@ -1,4 +1,4 @@
-"""What no Jacobian can keep of its least singular value when joints lock: it has a unit, so the lengths of columns count."""
+"""Upper bounds of the least singular value after joints lock; it has a unit, so the lengths of the columns count."""
 
 from __future__ import annotations
 
@@ -10,32 +10,40 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.ceilings.ceiling import OfArm, OfFailures, OfTask, at_once, look_up, rows_of, when
-from holdfast.ceilings.frames import equal_rows
+from holdfast.ceilings.ceiling import (
+    ArmSize,
+    FailureProblem,
+    TaskSize,
+    count_rows,
+    failure_phrase,
+    simultaneous_failures,
+    upper_bound,
+)
+from holdfast.ceilings.frames import equal_row_frame
 from holdfast.errors import InputError
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-REASONS = {
+BOUND_REASONS = {
     "S0": "the mean over all sets of joints",
     "S1": "one failure: isotropy and columns of one length",
     "S2": "every two failures: blocks of two rows",
     "S3": "the three angular rows, whatever the lengths",
 }
-_POSE = 6
+_POSE_ROWS = 6
 
 
-class OfJoint(Protocol):
-    """A joint of an arm."""
+class JointGeometry(Protocol):
+    """Joint of an arm."""
 
     @property
     def origin(self) -> Array:
-        """(4, 4) in the frame of the one before, m."""
+        """Pose (4, 4) in the frame of the joint before, m."""
 
     @property
     def prismatic(self) -> bool:
-        """Whether it slides."""
+        """True for a prismatic joint."""
 
     @property
     def lower(self) -> float:
@@ -46,11 +54,11 @@ class OfJoint(Protocol):
         """Limit, rad or m."""
 
 
-class JointedArm(OfArm, Protocol):
-    """What bounds the levers: an index's arm."""
+class JointedArm(ArmSize, Protocol):
+    """Arm whose geometry bounds the levers, such as an index's arm."""
 
     @property
-    def joints(self) -> Sequence[OfJoint]:
+    def joints(self) -> Sequence[JointGeometry]:
         """In order."""
 
     @property
@@ -58,8 +66,8 @@ class JointedArm(OfArm, Protocol):
         """(4, 4) of the tool in the last joint's frame, m."""
 
 
-class RowsOfTask(OfTask, Protocol):
-    """What says the unit: an index's task."""
+class TaskGeometry(TaskSize, Protocol):
+    """Task whose rows determine the unit, such as an index's task."""
 
     @property
     def rows(self) -> Array:
@@ -70,21 +78,21 @@ class RowsOfTask(OfTask, Protocol):
         """Characteristic length, m."""
 
 
-class OfSingularValue(OfFailures, Protocol):
-    """What a ceiling of the least singular value is asked for: an index with its arm, its task and its failures."""
+class SingularValueProblem(FailureProblem, Protocol):
+    """Arm, task, and failures for which an upper bound of the least singular value is requested, such as an index."""
 
     @property
     def arm(self) -> JointedArm:
         """Its arm."""
 
     @property
-    def task(self) -> RowsOfTask:
+    def task(self) -> TaskGeometry:
         """Its task."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class SingularValueCeiling(Result):
-    """The ceiling of the worst-case least singular value of n columns in m rows.
+class SingularValueBound(Result):
+    """Upper bound of the worst-case least singular value of n columns in m rows.
 
     Attributes:
         n, m, k: Joints, rows of the task, joints that lock at once.
@@ -108,21 +116,22 @@ class SingularValueCeiling(Result):
         """(m, n) that attains the bound: where one joint locks, rows of one unit; None where none is known."""
         if self.angular or self.k > 1:
             return None
-        return sqrt(self.n / self.m) * self.lever * equal_rows(self.n, self.m).T
+        return sqrt(self.n / self.m) * self.lever * equal_row_frame(self.n, self.m).T
 
     def describe(self) -> list[str]:
         """The bound, why, and what it supposes."""
         unit = " in characteristic lengths" if self.angular else ""
         lengths = "any lengths" if self.lever == inf else f"mean lever of the joints {self.lever:.4g}{unit or ' m'}"
-        why = f"{self.bound_by}, {REASONS[self.bound_by]}{', attained' if self.jacobian is not None else ''}"
+        reason = f"{self.bound_by}, {BOUND_REASONS[self.bound_by]}{', attained' if self.jacobian is not None else ''}"
         return [
-            f"{self.n} joints, a task of {rows_of(self.m)}, {lengths}: when {when(self.k)}, no least singular value is above "
-            f"{self.bound:.6g} ({why})"
+            f"{self.n} joints, a task of {count_rows(self.m)}, {lengths}: when {failure_phrase(self.k)}, no least "
+            f"singular value is above "
+            f"{self.bound:.6g} ({reason})"
         ]
 
 
-def singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angular: bool = False) -> SingularValueCeiling:
-    """The ceiling of the least singular value that is left after the worst k of n joints lock.
+def bound_singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angular: bool = False) -> SingularValueBound:
+    """Return the upper bound of the least singular value that remains after the worst k of n joints lock.
 
     Args:
         n: Joints.
@@ -137,25 +146,25 @@ def singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angular: b
 
     Source: derived here (``docs/ceilings.md``, S0 to S3).
     """
-    look_up(n=n, m=m, k=k)  # the same sizes have one
-    pose = angular and m == _POSE
-    if not lever > 0 or not (pose or isfinite(lever)):
+    upper_bound(n=n, m=m, k=k)  # the same sizes have one
+    is_pose = angular and m == _POSE_ROWS
+    if not lever > 0 or not (is_pose or isfinite(lever)):
         raise InputError(f"the lever is {lever:g}; give a positive length in m, infinite for a pose alone")
     square = lever**2 + angular
-    found = {"S0": square * (n - k) / m}
+    bounds = {"S0": square * (n - k) / m}
     if k == 1:
-        found["S1"] = square * (n - m) / m
+        bounds["S1"] = square * (n - m) / m
     else:
         trace = n * (n - 1) / (n - 1 + sqrt((n - 1) * (n / m - 1)))
-        found["S2"] = square * (n / m) * (1 - m / trace)
-    if pose:
-        found["S3"] = n * (n - 6) / (3 * (n - 3))
-    by = min(found, key=lambda name: found[name])
-    return SingularValueCeiling(n=n, m=m, k=k, lever=lever, angular=angular, bound=sqrt(found[by]), bound_by=by)
+        bounds["S2"] = square * (n / m) * (1 - m / trace)
+    if is_pose:
+        bounds["S3"] = n * (n - 6) / (3 * (n - 3))
+    theorem = min(bounds, key=lambda name: bounds[name])
+    return SingularValueBound(n=n, m=m, k=k, lever=lever, angular=angular, bound=sqrt(bounds[theorem]), bound_by=theorem)
 
 
-def singular_value_of_index(index: OfSingularValue) -> SingularValueCeiling | None:
-    """The ceiling for the arm, the task and the failures of an index: the lengths of the arm's links bound the levers.
+def bound_singular_value_of_index(index: SingularValueProblem) -> SingularValueBound | None:
+    """Return the upper bound for the arm, the task, and the failures of an index; the lengths of the links bound the levers.
 
     Args:
         index: Of the least singular value, :func:`holdfast.indices.minimum_singular_value`.
@@ -165,7 +174,7 @@ def singular_value_of_index(index: OfSingularValue) -> SingularValueCeiling | No
 
     Source: derived here.
     """
-    k, arm, rows = at_once(index), index.arm, index.task.rows
+    k, arm, rows = simultaneous_failures(index), index.arm, index.task.rows
     lever, square = float(np.linalg.norm(arm.tool[:3, 3])), 0.0
     for joint in reversed(arm.joints):
         travel = max(abs(joint.lower), abs(joint.upper)) if joint.prismatic else 0.0
@@ -174,5 +183,5 @@ def singular_value_of_index(index: OfSingularValue) -> SingularValueCeiling | No
     if k is None or not isfinite(square):
         return None
     mean = sqrt(square / arm.n) / index.task.length if abs(rows[:, :3]).max() > 0 else 1.0
-    mixed = abs(rows[:, :3]).max() > 0 and abs(rows[:, 3:]).max() > 0
-    return singular_value(n=arm.n, m=index.task.m, k=k, lever=mean, angular=bool(mixed))
+    has_both_units = abs(rows[:, :3]).max() > 0 and abs(rows[:, 3:]).max() > 0
+    return bound_singular_value(n=arm.n, m=index.task.m, k=k, lever=mean, angular=bool(has_both_units))

@@ -1,4 +1,4 @@
-"""Theorem R4: for each class of pseudoline arrangements a convex programme that bounds the least minor, and its certificate.
+"""Convex programme for each class of pseudoline arrangements that bounds the least minor, with its certificate (theorem R4).
 
 Once the signs of the minors are known each relation reads ``x + y = z`` of three positive products. With ``x + y <= z`` instead
 and ``t`` the log of each minor over the least one, ``log(exp(a.t) + exp(b.t)) <= 0`` is convex, and the least minor is at most
@@ -14,20 +14,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.ceilings.pseudolines import Signs, classes, relations
+from holdfast.ceilings.pseudolines import Signs, arrangement_classes, minor_relations
 
 Array = NDArray[np.float64]
 
-_STEPS = 60
-_TIGHT = 1e-11
-_NOTHING = 1e-13  # weights below it are left out of a certificate
-_SLACK = 1e-12  # by which weights are enlarged, so that rounding cannot refute a certificate
-_BITS = 128
+_MAX_NEWTON_STEPS = 60
+_DUALITY_GAP = 1e-11
+_NEGLIGIBLE_WEIGHT = 1e-13  # weights below it are left out of a certificate
+_WEIGHT_MARGIN = 1e-12  # by which weights are enlarged, so that rounding cannot refute a certificate
+_PRECISION_BITS = 128
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
-    """A dual point of the programme of one class.
+class MinorCertificate:
+    """Dual point of the programme of one class.
 
     Attributes:
         n: Lines.
@@ -43,22 +43,22 @@ class Certificate:
     split: Array
     weights: Array
 
-    def bound(self) -> float:
-        """What the least minor of this class cannot exceed, in floating point; infinite if the point proves nothing."""
+    def approximate_bound(self) -> float:
+        """Return the upper bound of the least minor of this class in floating point; infinite if the point proves nothing."""
         first, second = _exponents(self.n, self.signs)
-        pull = (self.relation * self.split) @ first + (self.relation * (1 - self.split)) @ second
+        exponents = (self.relation * self.split) @ first + (self.relation * (1 - self.split)) @ second
         total = self.weights.sum()
-        if (2 * self.weights + pull < -1e-9 * total).any() or (self.relation < 0).any():
+        if (2 * self.weights + exponents < -1e-9 * total).any() or (self.relation < 0).any():
             return np.inf
-        mixed = (self.split > 0) & (self.split < 1)
+        is_interior = (self.split > 0) & (self.split < 1)
         entropy = np.zeros(len(self.split))
-        v = self.split[mixed]
-        entropy[mixed] = -v * np.log(v) - (1 - v) * np.log(1 - v)
+        v = self.split[is_interior]
+        entropy[is_interior] = -v * np.log(v) - (1 - v) * np.log(1 - v)
         w = self.weights[self.weights > 0]
         return float(np.exp(-(np.log(total) + (self.relation @ entropy - w @ np.log(w)) / total) / 2))
 
-    def proven(self) -> float:
-        """The same in ball arithmetic: a number that is certainly not less than the least minor of this class.
+    def proved_bound(self) -> float:
+        """Return the bound in ball arithmetic, a number that is certainly not less than the least minor of this class.
 
         Raises:
             ImportError: python-flint is not installed (``pip install "holdfast[certify]"``).
@@ -66,13 +66,13 @@ class Certificate:
         """
         import flint
 
-        pairs, side = relations(self.n)
+        pairs, side = minor_relations(self.n)
         # With integers alone, apart from the programme: two products of one sign, and the third, alone, of the other.
         signs = [int(x) for x in self.signs]
         arb, before = flint.arb, flint.ctx.prec
-        flint.ctx.prec = _BITS
+        flint.ctx.prec = _PRECISION_BITS
         try:
-            pull: list[Any] = [arb(0)] * len(signs)
+            exponents: list[Any] = [arb(0)] * len(signs)
             proof = arb(0)
             for i in np.flatnonzero(self.relation).tolist():
                 lam, v = arb(float(self.relation[i])), arb(float(self.split[i]))
@@ -84,10 +84,10 @@ class Certificate:
                 alone = products.index(-sum(products))
                 for k, weight in (((alone + 1) % 3, lam * v), ((alone + 2) % 3, lam * (1 - v)), (alone, -lam)):
                     for triple in pairs[i, k].tolist():
-                        pull[triple] = pull[triple] + weight
+                        exponents[triple] = exponents[triple] + weight
                 proof -= lam * (v * v.log() + (1 - v) * (1 - v).log())
             total = arb(0)
-            for w, pulled in zip(map(float, self.weights), pull, strict=True):
+            for w, pulled in zip(map(float, self.weights), exponents, strict=True):
                 if not 2 * arb(w) + pulled >= 0:
                     raise ValueError("the weights of the minors do not hold against those of the relations")
                 total += arb(w)
@@ -99,23 +99,23 @@ class Certificate:
 
 
 def _exponents(n: int, signs: Signs) -> tuple[Array, Array]:
-    """For each relation the exponents of both smaller products over the largest, each (R, C(n, 3))."""
-    pairs, side = relations(n)
+    """Return for each relation the exponents of both smaller products over the largest, each (R, C(n, 3))."""
+    pairs, side = minor_relations(n)
     products = side * signs[pairs[:, :, 0]] * signs[pairs[:, :, 1]]
     total = products.sum(axis=1)
     if (abs(total) != 1).any():
         raise ValueError("the signs are of no oriented matroid")
-    alone = np.argmax(products == -total[:, None], axis=1)
+    largest = np.argmax(products == -total[:, None], axis=1)
     rows, found = np.arange(len(pairs)), []
     for shift in (1, 2):
         a = np.zeros((len(pairs), len(signs)))
-        for triple, amount in ((pairs[rows, (alone + shift) % 3], 1.0), (pairs[rows, alone], -1.0)):
+        for triple, amount in ((pairs[rows, (largest + shift) % 3], 1.0), (pairs[rows, largest], -1.0)):
             np.add.at(a, (rows[:, None], triple), amount)
         found.append(a)
     return found[0], found[1]
 
 
-def certificate(n: int, signs: Signs, enough: float = 0.0) -> Certificate:
+def find_certificate(n: int, signs: Signs, enough: float = 0.0) -> MinorCertificate:
     """Solve the programme of one class by an interior point method, and stop at the first dual point that proves enough.
 
     Args:
@@ -131,21 +131,21 @@ def certificate(n: int, signs: Signs, enough: float = 0.0) -> Certificate:
     difference = first - second
     t, lam = np.ones(size), np.full(count + size, 0.1)
     slack = np.ones(count + size)
-    best: Certificate | None = None
-    least = np.inf
-    for _ in range(_STEPS):
+    best_point: MinorCertificate | None = None
+    smallest_bound = np.inf
+    for _ in range(_MAX_NEWTON_STEPS):
         x, y = first @ t, second @ t
         top = np.maximum(x, y)
         value = top + np.log(np.exp(x - top) + np.exp(y - top))
         v = np.exp(x - value)
         soft = np.exp(2 * t - (2 * t).max())
         soft /= soft.sum()
-        found = _point(n, signs, lam[:count], v, soft, first, second)
-        bound = found.bound()
-        if bound < least:
-            best, least = found, bound
+        found = _dual_point(n, signs, lam[:count], v, soft, first, second)
+        bound = found.approximate_bound()
+        if bound < smallest_bound:
+            best_point, smallest_bound = found, bound
         gap = slack @ lam / len(lam)
-        if least <= enough or gap < _TIGHT:
+        if smallest_bound <= enough or gap < _DUALITY_GAP:
             break
         slope = v[:, None] * first + (1 - v)[:, None] * second
         residual = np.concatenate([value, -t]) + slack
@@ -160,27 +160,27 @@ def certificate(n: int, signs: Signs, enough: float = 0.0) -> Certificate:
         along = np.concatenate([slope @ step, -step])
         dual = aim - lam + strength * along
         change = -residual - along
-        part = min(1.0, 0.97 * _far(lam, dual), 0.97 * _far(slack, change))
+        part = min(1.0, 0.97 * _max_step(lam, dual), 0.97 * _max_step(slack, change))
         t, lam, slack = t + part * step, lam + part * dual, slack + part * change
-    assert best is not None
-    return best
+    assert best_point is not None
+    return best_point
 
 
-def _far(at: Array, change: Array) -> float:
-    """How far along a change all numbers stay positive."""
+def _max_step(values: Array, change: Array) -> float:
+    """Return the largest step along a change that keeps all numbers positive."""
     falling = change < 0
-    return float((at[falling] / -change[falling]).min()) if falling.any() else 2.0
+    return float((values[falling] / -change[falling]).min()) if falling.any() else 2.0
 
 
-def _point(n: int, signs: Signs, lam: Array, v: Array, soft: Array, first: Array, second: Array) -> Certificate:
-    lam = np.where((lam > _NOTHING) & (v > 1e-15) & (v < 1 - 1e-15), lam, 0.0)
-    pull = (lam * v) @ first + (lam * (1 - v)) @ second
-    weights = np.maximum(soft, -pull / 2) * (1 + _SLACK) + _SLACK * 1e-3
-    return Certificate(n, signs, lam, v, weights)
+def _dual_point(n: int, signs: Signs, lam: Array, v: Array, soft: Array, first: Array, second: Array) -> MinorCertificate:
+    lam = np.where((lam > _NEGLIGIBLE_WEIGHT) & (v > 1e-15) & (v < 1 - 1e-15), lam, 0.0)
+    exponents = (lam * v) @ first + (lam * (1 - v)) @ second
+    weights = np.maximum(soft, -exponents / 2) * (1 + _WEIGHT_MARGIN) + _WEIGHT_MARGIN * 1e-3
+    return MinorCertificate(n, signs, lam, v, weights)
 
 
 def bounds_by_arrangement(n: int, enough: float = 0.0) -> list[float]:
-    """What the least minor of n lines in space cannot exceed, for each class of their arrangements, proven in ball arithmetic.
+    """Return the proved upper bound of the least minor of n lines in space for each class of their arrangements.
 
     The largest bounds relative manipulability after three failures of an arm with three degrees of redundancy.
 
@@ -193,4 +193,4 @@ def bounds_by_arrangement(n: int, enough: float = 0.0) -> list[float]:
 
     Source: derived here.
     """
-    return [certificate(n, signs, enough).proven() for signs in classes(n)]
+    return [find_certificate(n, signs, enough).proved_bound() for signs in arrangement_classes(n)]

@@ -1,4 +1,6 @@
-"""What is left after k failures, from a null-space basis alone; NumPy only, shared with no search."""
+"""Relative manipulability that remains after k failures, from a null-space basis alone, in NumPy and independent of
+any search.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def worst_case(null_space: Array, k: int) -> float:
-    """Least relative manipulability over all sets of k joints that lock.
+def worst_relative_manipulability(null_space: Array, k: int) -> float:
+    """Return the least relative manipulability over all sets of k joints that lock.
 
     Args:
         null_space: (n, p) orthonormal columns.
@@ -21,10 +23,10 @@ def worst_case(null_space: Array, k: int) -> float:
         ``min sqrt(det(N_S N_S'))`` over the sets S of k rows.
     """
     n = len(null_space)
-    left = [np.linalg.svd(null_space[list(s)], compute_uv=False).prod() for s in combinations(range(n), k)]
-    return float(min(left))
+    remaining = [np.linalg.svd(null_space[list(locked)], compute_uv=False).prod() for locked in combinations(range(n), k)]
+    return float(min(remaining))
 
 
-def lack_of_orthonormality(null_space: Array) -> float:
-    """Largest entry of ``N'N - I``."""
+def measure_orthonormality_error(null_space: Array) -> float:
+    """Return the largest entry of ``N'N - I``."""
     return float(abs(null_space.T @ null_space - np.eye(null_space.shape[1])).max())

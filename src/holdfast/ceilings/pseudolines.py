@@ -15,24 +15,24 @@ from numpy.typing import NDArray
 
 Signs = NDArray[np.int8]
 
-COUNTS = {3: 1, 4: 1, 5: 1, 6: 4, 7: 11, 8: 135, 9: 4382}
+CLASS_COUNTS = {3: 1, 4: 1, 5: 1, 6: 4, 7: 11, 8: 135, 9: 4382}
 """Classes that the literature on simple arrangements counts."""
 
 
 @cache
-def triples(n: int) -> NDArray[np.int64]:
-    """All (C(n, 3), 3) triples of 0 .. n - 1, in order."""
+def index_triples(n: int) -> NDArray[np.int64]:
+    """Return all (C(n, 3), 3) triples of 0 .. n - 1, in order."""
     return np.array(list(combinations(range(n), 3)))
 
 
 @cache
-def relations(n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The relations among minors: three products of two triples each.
+def minor_relations(n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the relations among minors: three products of two triples each.
 
     Returns:
         Numbers of the triples (R, 3, 2), and the sign (R, 3) of each product where every minor is positive.
     """
-    number = {tuple(t): i for i, t in enumerate(triples(n).tolist())}
+    number = {tuple(t): i for i, t in enumerate(index_triples(n).tolist())}
     pairs, signs = [], []
     for five in combinations(range(n), 5):
         for a in five:
@@ -40,50 +40,54 @@ def relations(n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
             row, sign = [], []
             for side, (first, second) in zip((1, -1, 1), (((b, c), (d, e)), ((b, d), (c, e)), ((b, e), (c, d))), strict=True):
                 row.append([number[tuple(sorted((a, *x)))] for x in (first, second)])
-                sign.append(side * _turned(a, first) * _turned(a, second))
+                sign.append(side * _permutation_sign(a, first) * _permutation_sign(a, second))
             pairs.append(row)
             signs.append(sign)
     return np.array(pairs, dtype=np.int64).reshape(-1, 3, 2), np.array(signs, dtype=np.int64).reshape(-1, 3)
 
 
-def _turned(a: int, pair: tuple[int, int]) -> int:
-    """Sign of putting ``(a, *pair)`` in order; the pair is in order."""
+def _permutation_sign(a: int, pair: tuple[int, int]) -> int:
+    """Return the sign of the permutation that orders ``(a, *pair)``; the pair is in order."""
     return -1 if pair[0] < a < pair[1] else 1
 
 
-def holds(n: int, signs: Signs) -> NDArray[np.bool_]:
-    """Whether each row of signs (B, C(n, 3)) is of an oriented matroid: no relation has three products of one sign."""
-    pairs, side = relations(n)
+def satisfies_relations(n: int, signs: Signs) -> NDArray[np.bool_]:
+    """Return whether each row of signs (B, C(n, 3)) belongs to an oriented matroid: no relation has three products
+    of one sign.
+    """
+    pairs, side = minor_relations(n)
     products = signs[:, pairs[:, :, 0]] * signs[:, pairs[:, :, 1]] * side.astype(np.int8)
     return np.asarray((abs(products.sum(axis=2, dtype=np.int8)) == 1).all(axis=1))
 
 
 @cache
-def classes(n: int) -> Signs:
-    """One oriented matroid of each class of n elements, 3 to 9, as signs (K, C(n, 3)) of its triples.
+def arrangement_classes(n: int) -> Signs:
+    """Return one oriented matroid of each class of n elements, 3 to 9, as signs (K, C(n, 3)) of its triples.
 
     Those that contain element 0 are all positive: the others cross it one after the other.
     """
     if n == 3:
         return np.ones((1, 1), dtype=np.int8)
-    found: set[int] = set()
-    for parent in classes(n - 1):
-        found.update(np.unique(_canonical(n, _extensions(n, parent))).tolist())
-    codes = np.array(sorted(found), dtype=np.uint64)
-    signs = np.ones((len(codes), len(triples(n))), dtype=np.int8)
-    without = np.flatnonzero((triples(n) > 0).all(axis=1))
+    class_codes: set[int] = set()
+    for parent in arrangement_classes(n - 1):
+        class_codes.update(np.unique(_canonical_codes(n, _extend_signs(n, parent))).tolist())
+    codes = np.array(sorted(class_codes), dtype=np.uint64)
+    signs = np.ones((len(codes), len(index_triples(n))), dtype=np.int8)
+    without = np.flatnonzero((index_triples(n) > 0).all(axis=1))
     signs[:, without] = 1 - 2 * ((codes[:, None] >> np.arange(len(without), dtype=np.uint64)) & np.uint64(1)).astype(np.int8)
     return signs
 
 
-def _extensions(n: int, parent: Signs) -> Signs:
-    """All oriented matroids of n elements whose first n - 1 have the given signs, (B, C(n, 3))."""
-    every, new = triples(n), np.flatnonzero(triples(n)[:, 2] == n - 1)
-    signs = np.zeros((1, len(every)), dtype=np.int8)
-    signs[0, every[:, 2] < n - 1] = parent
-    pairs, side = relations(n)
-    order = new[np.lexsort((every[new, 0], every[new, 1]))]  # (0, 1), (0, 2), (1, 2), (0, 3), ...
-    rank = np.full(len(every), -1)
+def _extend_signs(n: int, parent: Signs) -> Signs:
+    """Return all oriented matroids of n elements whose first n - 1 have the given signs, (B, C(n, 3))."""
+    all_triples, new_triples = index_triples(n), np.flatnonzero(index_triples(n)[:, 2] == n - 1)
+    signs = np.zeros((1, len(all_triples)), dtype=np.int8)
+    signs[0, all_triples[:, 2] < n - 1] = parent
+    pairs, side = minor_relations(n)
+    order = new_triples[
+        np.lexsort((all_triples[new_triples, 0], all_triples[new_triples, 1]))
+    ]  # (0, 1), (0, 2), (1, 2), (0, 3), ...
+    rank = np.full(len(all_triples), -1)
     rank[order] = np.arange(len(order))
     last = rank[pairs].reshape(-1, 6).max(axis=1)  # after which sign all of a relation are known
     for step, triple in enumerate(order):
@@ -95,15 +99,15 @@ def _extensions(n: int, parent: Signs) -> Signs:
     return signs
 
 
-def _canonical(n: int, signs: Signs) -> NDArray[np.uint64]:
-    """A number for the class of each row: the least over all elements put first, all elements second, and both directions."""
-    cube, every = np.zeros((len(signs), n, n, n), dtype=np.int8), triples(n)
+def _canonical_codes(n: int, signs: Signs) -> NDArray[np.uint64]:
+    """Return a number for the class of each row: the least over all choices of first and second element and both directions."""
+    cube, every = np.zeros((len(signs), n, n, n), dtype=np.int8), index_triples(n)
     for order, sign in (((0, 1, 2), 1), ((1, 2, 0), 1), ((2, 0, 1), 1), ((1, 0, 2), -1), ((0, 2, 1), -1), ((2, 1, 0), -1)):
         cube[:, every[:, order[0]], every[:, order[1]], every[:, order[2]]] = sign * signs
-    rows, inner = np.arange(len(signs))[:, None], triples(n - 1)
+    rows, inner = np.arange(len(signs))[:, None], index_triples(n - 1)
     weights = np.uint64(1) << np.arange(len(inner), dtype=np.uint64)
     mask = np.uint64((1 << len(inner)) - 1)
-    best = np.full(len(signs), np.iinfo(np.uint64).max)
+    smallest_code = np.full(len(signs), np.iinfo(np.uint64).max)
     for first in range(n):
         others = np.array([x for x in range(n) if x != first])
         around = cube[:, first][:, others[:, None], others]
@@ -117,5 +121,5 @@ def _canonical(n: int, signs: Signs) -> NDArray[np.uint64]:
                 i, j, k = inner.T
                 shown = cube[rows, named[:, i], named[:, j], named[:, k]] * turned[:, i] * turned[:, j] * turned[:, k]
                 code = ((shown < 0) * weights).sum(axis=1, dtype=np.uint64)
-                best = np.minimum(best, np.minimum(code, code ^ mask))
-    return best
+                smallest_code = np.minimum(smallest_code, np.minimum(code, code ^ mask))
+    return smallest_code

@@ -1,4 +1,4 @@
-"""A search for a null space that keeps more than the best one known."""
+"""Search for a null space with a larger worst case than the best one known."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.ceilings.ascent import best_null_space
-from holdfast.ceilings.ceiling import Ceiling, look_up
-from holdfast.ceilings.minors import worst_case
+from holdfast.ceilings.ceiling import UpperBound, upper_bound
+from holdfast.ceilings.minors import worst_relative_manipulability
 from holdfast.errors import InputError
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-_SAME = 1e-9  # relative
+_BOUND_TOLERANCE = 1e-9  # relative
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class CeilingSearch(Result):
-    """The best null space that a search found.
+class UpperBoundSearch(Result):
+    """Best null space that a search found.
 
     Attributes:
         ceiling: What was known before.
@@ -32,7 +32,7 @@ class CeilingSearch(Result):
         seconds: What it took.
     """
 
-    ceiling: Ceiling
+    ceiling: UpperBound
     null_space: Array
     value: float
     seed: int
@@ -40,22 +40,22 @@ class CeilingSearch(Result):
 
     @property
     def bound(self) -> float:
-        """What no arm can beat."""
+        """Proved upper bound of any arm."""
         return self.ceiling.bound
 
     def describe(self) -> list[str]:
-        """What was found, beside what was known."""
-        known, what = self.ceiling.best_known, f"found {self.value:.12g} in {self.seconds:.0f} s, seed {self.seed}"
+        """Return the value that was found and the best known value in sentences."""
+        known, found_text = self.ceiling.best_known, f"found {self.value:.12g} in {self.seconds:.0f} s, seed {self.seed}"
         if known is None:
-            return [f"{what}: nothing was stored for this size, and no arm can beat {self.bound:.6g}"]
-        if self.value > known * (1 + _SAME):
-            return [f"{what}: a new best, {100 * (self.value / known - 1):.2g} % above {known:.12g}"]
-        if self.value >= known * (1 - _SAME):
-            return [f"{what}: {'the ceiling' if self.ceiling.attained else 'the best known value'}, found again"]
-        return [f"{what}: {100 * (1 - self.value / known):.2g} % below the best known {known:.12g}"]
+            return [f"{found_text}: nothing was stored for this size, and no arm can beat {self.bound:.6g}"]
+        if self.value > known * (1 + _BOUND_TOLERANCE):
+            return [f"{found_text}: a new best, {100 * (self.value / known - 1):.2g} % above {known:.12g}"]
+        if self.value >= known * (1 - _BOUND_TOLERANCE):
+            return [f"{found_text}: {'the ceiling' if self.ceiling.attained else 'the best known value'}, found again"]
+        return [f"{found_text}: {100 * (1 - self.value / known):.2g} % below the best known {known:.12g}"]
 
 
-def search(
+def search_null_space(
     *,
     n: int,
     m: int,
@@ -64,8 +64,9 @@ def search(
     seconds: float = 20.0,
     enough: float | None = None,
     progress: Callable[[float], None] | None = None,
-) -> CeilingSearch:
-    """Search for a null space whose worst case after k failures is large: ascents from random starts, then linear programmes.
+) -> UpperBoundSearch:
+    """Search for a null space whose worst case after k failures is large, by ascents from random starts and then linear
+    programmes.
 
     Args:
         n: Joints.
@@ -81,11 +82,13 @@ def search(
 
     Source: derived here.
     """
-    known = look_up(n=n, m=m, k=k)
+    known = upper_bound(n=n, m=m, k=k)
     if not seconds > 0:
         raise InputError(f"the search may take {seconds:g} s; give a positive number")
     start = monotonic()
-    stop = known.bound * (1 - _SAME) if enough is None else enough
-    found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, enough=stop, progress=progress)
-    null = np.linalg.qr(found)[0]
-    return CeilingSearch(ceiling=known, null_space=null, value=worst_case(null, k), seed=seed, seconds=monotonic() - start)
+    stop = known.bound * (1 - _BOUND_TOLERANCE) if enough is None else enough
+    best_found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, enough=stop, progress=progress)
+    null = np.linalg.qr(best_found)[0]
+    return UpperBoundSearch(
+        ceiling=known, null_space=null, value=worst_relative_manipulability(null, k), seed=seed, seconds=monotonic() - start
+    )

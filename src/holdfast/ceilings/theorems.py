@@ -1,4 +1,4 @@
-"""Proven upper bounds of relative manipulability after k failures, for every arm of n joints and task of m rows.
+"""Proved upper bounds of relative manipulability after k failures, for every arm of n joints and task of m rows.
 
 A bound is the least that the theorems give; each carries the names of those it rests on. ``docs/ceilings.md`` has the proofs.
 """
@@ -9,7 +9,7 @@ from functools import cache
 from math import comb, pi, sin, sqrt
 from typing import NamedTuple
 
-THEOREMS = {
+THEOREM_TEXTS = {
     "T1": "equal entries of the null space, attained (Schur and Horn)",
     "T2": "least of n neighbouring minors of n lines in a plane",
     "T3": "the minors of a null space are those of the row space, by T2",
@@ -23,10 +23,10 @@ THEOREMS = {
 }
 
 # Upper bounds by :mod:`holdfast.ceilings.arrangements`, replayed in balls and rounded up: n -> c(n, 3, 3).
-ARRANGEMENTS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
+ARRANGEMENT_BOUNDS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
 
 # What the certificates of :mod:`holdfast.ceilings.pair_kernels` prove: (n, m) -> c(n, n - m, 2).
-PAIRS = {
+PAIR_BOUNDS = {
     (5, 2): 0.515989,
     (6, 2): 0.610416,
     (7, 2): 0.673477,
@@ -40,8 +40,8 @@ PAIRS = {
 }
 
 
-class Bound(NamedTuple):
-    """A value that no arm can beat.
+class ProvedBound(NamedTuple):
+    """Value that no arm can exceed.
 
     Attributes:
         value: Of the relative manipulability.
@@ -55,8 +55,8 @@ class Bound(NamedTuple):
 
 
 @cache
-def proven(n: int, m: int, k: int) -> Bound:
-    """The least proven bound of what is left after the worst k failures.
+def best_proved_bound(n: int, m: int, k: int) -> ProvedBound:
+    """Return the least proved upper bound after the worst k failures.
 
     Args:
         n: Joints.
@@ -66,48 +66,50 @@ def proven(n: int, m: int, k: int) -> Bound:
     Source: derived here; Cauchy and Binet for ``CB``.
     """
     p = n - m
-    found = [*_of_theorems(n, p, k), *_step_by_step(n, p, k)]
+    bounds = [*_bounds_of_theorems(n, p, k), *_bounds_by_steps(n, p, k)]
     if k == p:
         # T3: the minors of all p rows of N are those of the other m rows of the orthonormal rows of J.
-        found += [b._replace(by=_from("T3", b.by)) for b in [*_of_theorems(n, m, m), *_step_by_step(n, m, m)]]
-    least = min(bound.value for bound in found)
-    return next(bound for bound in found if bound.value <= least * (1 + 1e-12))  # of equal ones the first, the simplest
+        bounds += [b._replace(by=_name_rules("T3", b.by)) for b in [*_bounds_of_theorems(n, m, m), *_bounds_by_steps(n, m, m)]]
+    smallest = min(bound.value for bound in bounds)
+    return next(bound for bound in bounds if bound.value <= smallest * (1 + 1e-12))  # of equal ones the first, the simplest
 
 
-def _of_theorems(n: int, p: int, k: int) -> list[Bound]:
+def _bounds_of_theorems(n: int, p: int, k: int) -> list[ProvedBound]:
     m = n - p
-    found = [Bound(sqrt(comb(p, k) / comb(n, k)), "CB")]
+    bounds = [ProvedBound(sqrt(comb(p, k) / comb(n, k)), "CB")]
     if k == 1:
-        return [Bound(sqrt(p / n), "T1")]
+        return [ProvedBound(sqrt(p / n), "T1")]
     if m == 1 or (n, p, k) in ((6, 3, 2), (10, 5, 2)):
-        return [Bound(found[0].value, "T4")]
+        return [ProvedBound(bounds[0].value, "T4")]
     if p == k == 2:
-        found.append(Bound(2 / n * sin(pi / n), "T2"))
+        bounds.append(ProvedBound(2 / n * sin(pi / n), "T2"))
     elif k == 2:
-        found.append(Bound(sqrt(p * p * (p - 1) / ((p + 2) * n * m)), "R2"))
-    if k == 2 and (n, m) in PAIRS:
-        found.append(Bound(PAIRS[n, m], "R3", (("R3", n, p),)))
+        bounds.append(ProvedBound(sqrt(p * p * (p - 1) / ((p + 2) * n * m)), "R2"))
+    if k == 2 and (n, m) in PAIR_BOUNDS:
+        bounds.append(ProvedBound(PAIR_BOUNDS[n, m], "R3", (("R3", n, p),)))
     if p == k == 3:
         if n == 6:
-            found.append(Bound(sqrt((5 - sqrt(5)) / 100), "T5"))
-        elif n in ARRANGEMENTS:
-            found.append(Bound(ARRANGEMENTS[n], "R4", (("R4", n, 3),)))
-    return found
+            bounds.append(ProvedBound(sqrt((5 - sqrt(5)) / 100), "T5"))
+        elif n in ARRANGEMENT_BOUNDS:
+            bounds.append(ProvedBound(ARRANGEMENT_BOUNDS[n], "R4", (("R4", n, 3),)))
+    return bounds
 
 
-def _step_by_step(n: int, p: int, k: int) -> list[Bound]:
-    """R1: ``c(n, p, k) <= c(n, p, j) c(n - j, p - j, k - j)``."""
-    m, found = n - p, []
+def _bounds_by_steps(n: int, p: int, k: int) -> list[ProvedBound]:
+    """Return the bounds of R1: ``c(n, p, k) <= c(n, p, j) c(n - j, p - j, k - j)``."""
+    m, bounds = n - p, []
     for j in range(1, k):
-        first, then = proven(n, m, j), proven(n - j, m, k - j)
-        found.append(Bound(first.value * then.value, _from("R1", first.by, then.by), first.replayed + then.replayed))
-    return found
+        first, then = best_proved_bound(n, m, j), best_proved_bound(n - j, m, k - j)
+        bounds.append(
+            ProvedBound(first.value * then.value, _name_rules("R1", first.by, then.by), first.replayed + then.replayed)
+        )
+    return bounds
 
 
-def _from(rule: str, *others: str) -> str:
-    """The rule and what it used besides what needs no word."""
+def _name_rules(rule: str, *others: str) -> str:
+    """Return the rule and the other rules that it uses and that need a mention."""
     words = [w for by in others for w in by.replace(" with ", " and ").split(" and ")]
-    used = [w for w in dict.fromkeys(words) if w not in (rule, "T1", "R1", "CB")]
-    if rule == "T3" and used in ([], ["T2"]):
+    used_rules = [w for w in dict.fromkeys(words) if w not in (rule, "T1", "R1", "CB")]
+    if rule == "T3" and used_rules in ([], ["T2"]):
         return "T3"
-    return f"{rule} with {' and '.join(used)}" if used else rule
+    return f"{rule} with {' and '.join(used_rules)}" if used_rules else rule

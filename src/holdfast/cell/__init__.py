@@ -1,4 +1,4 @@
-"""The cell around an arm: objects in the world that it must keep clear of. Pure data, which knows of no arm."""
+"""Work cell: the objects around an arm that it must not touch. The data depend on no arm."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""A cell: the objects around an arm, and what it keeps from them."""
+"""Work cell with the objects around an arm and the margins to keep from them."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import checked, checked_class
-from holdfast.arms.catalogue import outermost
+from holdfast.arguments import check_arguments, check_constructor
+from holdfast.arms.catalogue import root_element_name
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh, Points, Source
 from holdfast.cell.solids import Solid
 from holdfast.errors import ArmError, InputError
-from holdfast.words import counted
+from holdfast.words import format_count
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Objects in the world, which do not move.
+    """Static objects in the world.
 
     Attributes:
         objects: In any order, each with a name of its own.
@@ -56,13 +56,13 @@ class Cell:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))
-        object.__setattr__(self, "may_touch", tuple((a, b) for a, b in self.may_touch))
+        object.__setattr__(self, "may_touch", tuple((object_name, link_name) for object_name, link_name in self.may_touch))
         object.__setattr__(self, "held", tuple(self.held))
         object.__setattr__(self, "hold", dict(self.hold))
         if not 0 <= self.margin < float("inf"):
             raise InputError(f"the margin of cell '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
         names = [solid.name for solid in self.objects]
-        double = next((name for k, name in enumerate(names) if name in names[:k]), None)
+        double = next((name for index, name in enumerate(names) if name in names[:index]), None)
         if double is not None:
             raise InputError(f"cell '{self.name}': the name '{double}' is used by two objects; names must be unique")
 
@@ -73,7 +73,7 @@ class Cell:
         return len(self.objects)
 
     def with_poses(self, poses: Mapping[str, ArrayLike]) -> Cell:
-        """The same cell with some of its objects elsewhere.
+        """Return the same cell with some of its objects at other poses.
 
         Args:
             poses: (4, 4) in the world, m, by the name of the object.
@@ -82,27 +82,28 @@ class Cell:
             InputError: It has no such object.
         """
         names = [solid.name for solid in self.objects]
-        lost = next((name for name in poses if name not in names), None)
-        if lost is not None:
-            raise InputError(f"cell '{self.name}' has no object '{lost}'; it has {', '.join(names)}")
-        moved = [x.moved_to(poses[x.name]) if x.name in poses else x for x in self.objects]
-        return replace(self, objects=moved)
+        unknown = next((name for name in poses if name not in names), None)
+        if unknown is not None:
+            raise InputError(f"cell '{self.name}' has no object '{unknown}'; it has {', '.join(names)}")
+        objects = [member.moved_to(poses[member.name]) if member.name in poses else member for member in self.objects]
+        return replace(self, objects=objects)
 
     def __str__(self) -> str:
         kinds = Counter(type(solid).__name__ for solid in self.objects)
-        said = ", ".join(counted(count, _KINDS.get(kind, kind)) for kind, count in kinds.items())
-        return f"cell '{self.name}': {said or 'no objects'}" + (f"; margin {self.margin:g} m" if self.margin else "")
+        summary = ", ".join(format_count(count, _KIND_NAMES.get(kind, kind)) for kind, count in kinds.items())
+        return f"cell '{self.name}': {summary or 'no objects'}" + (f"; margin {self.margin:g} m" if self.margin else "")
 
     def margin_of(self, solid: Solid) -> float:
-        """What is kept from an object, m: the larger of its own margin and the cell's."""
+        """Return the margin to keep from an object, m: the larger of its own margin and the cell's."""
         return max(self.margin, solid.margin)
 
     # ---- files -------------------------------------------------------------------------------------------------
 
     @classmethod
-    @checked
+    @check_arguments
     def load(cls, path: str | Path) -> Cell:
-        """The cell in a file: YAML, see :mod:`holdfast.cell.cell_file`; or a URDF or MJCF file, which its content tells.
+        """Return the cell of a YAML file, see :mod:`holdfast.cell.cell_file`, or of a URDF or MJCF file, recognized by its
+        content.
 
         Of a URDF or MJCF file with several ends, :meth:`from_urdf` and :meth:`from_mjcf` take the one that is the arm's.
 
@@ -113,15 +114,15 @@ class Cell:
         from holdfast.cell import cell_file
 
         path = Path(path)
-        if path.suffix.lower() in _XML:
-            return cls.from_mjcf(path) if outermost(str(path)) == "mujoco" else cls.from_urdf(path)
+        if path.suffix.lower() in _XML_ENDINGS:
+            return cls.from_mjcf(path) if root_element_name(str(path)) == "mujoco" else cls.from_urdf(path)
         try:
-            return cls.from_dict(cell_file.read(path), path.parent)
+            return cls.from_dict(cell_file.read_cell_file(path), path.parent)
         except (InputError, ArmError) as error:
-            raise cell_file.refused(path, error) from error
+            raise cell_file.cell_file_error(path, error) from error
 
     @classmethod
-    @checked
+    @check_arguments
     def from_urdf(
         cls,
         path: str | Path,
@@ -131,7 +132,8 @@ class Cell:
         hold: Mapping[str, float] | None = None,
         meshes: str | Path | None = None,
     ) -> Cell:
-        """What a URDF file holds beside an arm: the ``<collision>`` of every link that does not move with it.
+        """Return the objects that a URDF file holds in addition to an arm: the ``<collision>`` of every link that does not move
+        with it.
 
         The links from ``base`` to the first joint that moves are the arm's. Poses are in the frame of ``base``, as those of the
         arm that :meth:`holdfast.Arm.from_urdf` reads with the same arguments. A mesh that is not closed becomes its hull. What
@@ -151,16 +153,17 @@ class Cell:
 
         try:
             folder = None if meshes is None else Path(meshes)
-            return cls(**surroundings.from_urdf(Path(path), base, tip, hold or {}, folder))
+            return cls(**surroundings.cell_arguments_from_urdf(Path(path), base, tip, hold or {}, folder))
         except (InputError, ArmError) as error:
-            raise cell_file.refused(Path(path), error) from error
+            raise cell_file.cell_file_error(Path(path), error) from error
 
     @classmethod
-    @checked
+    @check_arguments
     def from_mjcf(
         cls, path: str | Path, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None
     ) -> Cell:
-        """What an MJCF file holds beside an arm: the colliding geoms of the world and of bodies that do not move with it.
+        """Return the objects that an MJCF file holds in addition to an arm: the colliding geoms of the world and of bodies that
+        do not move with it.
 
         The bodies from ``base`` to the first joint that moves are the arm's, but for the world. A mesh is its hull, as MuJoCo
         has it. What the base touches it may touch: neither moves. Needs ``holdfast[physics]``.
@@ -178,13 +181,13 @@ class Cell:
         from holdfast.cell import cell_file, surroundings
 
         try:
-            return cls(**surroundings.from_mjcf(Path(path), base, tip, hold or {}))
+            return cls(**surroundings.cell_arguments_from_mjcf(Path(path), base, tip, hold or {}))
         except (InputError, ArmError) as error:
-            raise cell_file.refused(Path(path), error) from error
+            raise cell_file.cell_file_error(Path(path), error) from error
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], folder: str | Path = ".") -> Cell:
-        """The cell that :meth:`to_dict` wrote, or that of a file's keys and values.
+        """Return the cell of :meth:`to_dict`, or of the keys and values of a file.
 
         Args:
             data: The keys and values.
@@ -195,10 +198,10 @@ class Cell:
         """
         from holdfast.cell import cell_file
 
-        return cls(**cell_file.parse(data, Path(folder)))
+        return cls(**cell_file.parse_cell(data, Path(folder)))
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything as JSON types: a file's keys and values, files by their whole paths.
+        """Return everything as JSON types: the keys and values of a file, with the full paths of other files.
 
         Raises:
             InputError: An object of a kind of your own, which no file can hold.
@@ -206,16 +209,16 @@ class Cell:
         from holdfast.cell import cell_file
 
         data: dict[str, Any] = {"name": self.name} | ({"margin": float(self.margin)} if self.margin else {})
-        data["objects"] = {solid.name: cell_file.entry_of(solid) for solid in self.objects}
-        data |= {"held": [cell_file.entry_of(solid) for solid in self.held]} if self.held else {}
+        data["objects"] = {solid.name: cell_file.describe_object(solid) for solid in self.objects}
+        data |= {"held": [cell_file.describe_object(solid) for solid in self.held]} if self.held else {}
         data |= {"may_touch": [list(pair) for pair in self.may_touch]} if self.may_touch else {}
-        whole = self.shape if self.shape in cell_file.SHAPES else str(Path(self.shape).resolve())
-        arm: dict[str, Any] = {"shape": whole} if whole else {}
+        full_shape = self.shape if self.shape in cell_file.SHAPE_WORDS else str(Path(self.shape).resolve())
+        arm: dict[str, Any] = {"shape": full_shape} if full_shape else {}
         arm |= {"spheres_to": float(self.spheres_to)} if self.spheres_to is not None else {}
         arm |= {"hold": {name: float(value) for name, value in self.hold.items()}} if self.hold else {}
         return data | ({"arm": arm} if arm else {})
 
-    @checked
+    @check_arguments
     def save(self, path: str | Path) -> list[Path]:
         """Write the cell as a YAML file that :meth:`load` reads, with every digit.
 
@@ -233,34 +236,34 @@ class Cell:
         from holdfast.cell import cell_file
         from holdfast.files import mesh, output
 
-        file, data, beside = Path(path), self.to_dict(), {}
-        here = file.absolute().parent
+        file, data, companions = Path(path), self.to_dict(), {}
+        folder = file.absolute().parent
         for number, solid in enumerate(self.objects):
             if not isinstance(solid, (Mesh, Points)):
                 continue
             key, entry = "mesh" if isinstance(solid, Mesh) else "points", data["objects"][solid.name]
             if solid.source is not None:
-                entry[key] = os.path.relpath(solid.source.path, here)
+                entry[key] = os.path.relpath(solid.source.path, folder)
                 continue
             entry[key] = f"{file.stem}-{number + 1}.{'obj' if isinstance(solid, Mesh) else 'npy'}"
             if isinstance(solid, Mesh):
-                beside[here / entry[key]] = mesh.text(solid.surface).encode()
+                companions[folder / entry[key]] = mesh.write_obj_text(solid.surface).encode()
             else:
                 stream = io.BytesIO()
                 np.save(stream, solid.centres)
-                beside[here / entry[key]] = stream.getvalue()
-        if self.shape not in cell_file.SHAPES:
-            data["arm"]["shape"] = os.path.relpath(data["arm"]["shape"], here)
-        for place, content in beside.items():
-            output.replaced(place, content, "cell to")
-        output.replaced(file, cell_file.text(data), "cell to")
-        return [file, *beside]
+                companions[folder / entry[key]] = stream.getvalue()
+        if self.shape not in cell_file.SHAPE_WORDS:
+            data["arm"]["shape"] = os.path.relpath(data["arm"]["shape"], folder)
+        for companion, content in companions.items():
+            output.replace_file(companion, content, "cell to")
+        output.replace_file(file, cell_file.format_cell(data), "cell to")
+        return [file, *companions]
 
     # ---- what it is made of ------------------------------------------------------------------------------------
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of everything that counts, triangles and points included, and of nothing else, as names and paths.
+        """SHA-256 of the geometry and margins, triangles and points included, without names and paths of files.
 
         The same shape from a file of another kind, or from arrays, has the same one. Of a capsule file the bytes count.
 
@@ -270,36 +273,40 @@ class Cell:
         from holdfast.cell import cell_file
         from holdfast.files import reading
 
-        if self.shape in cell_file.SHAPES:
+        if self.shape in cell_file.SHAPE_WORDS:
             return self.digest_with(self.shape)
-        with reading.guarded(f"capsule file '{self.shape}'"):
-            return self.digest_with(hashlib.sha256(reading.raw(Path(self.shape))).hexdigest())
+        with reading.guard_reading(f"capsule file '{self.shape}'"):
+            return self.digest_with(hashlib.sha256(reading.read_bytes(Path(self.shape))).hexdigest())
 
     def digest_with(self, shape: str) -> str:
-        """The same with other words for the shape of the arm: older folders have the path of its capsule file."""
+        """Return the digest with another text for the shape of the arm, because older folders contain the path of its capsule
+        file.
+        """
         from holdfast.cell import cell_file
 
-        def said(solid: Solid) -> Any:
+        def describe_solid(solid: Solid) -> Any:
             if not isinstance(solid, (Mesh, Points)):
-                return [solid.name, cell_file.entry_of(solid)]
+                return [solid.name, cell_file.describe_object(solid)]
             radius = solid.radius if isinstance(solid, Points) else 0.0
             return [solid.name, type(solid).__name__, solid.digest, radius, solid.pose.tolist(), solid.margin]
 
-        counted = [
-            sorted(map(said, self.objects), key=lambda row: row[0]),
-            [cell_file.entry_of(solid) for solid in self.held],
+        content = [
+            sorted(map(describe_solid, self.objects), key=lambda row: row[0]),
+            [cell_file.describe_object(solid) for solid in self.held],
             [float(self.margin), sorted(map(list, self.may_touch))],
             [shape, self.spheres_to, sorted(self.hold.items())],
         ]
-        return hashlib.sha256(json.dumps(counted).encode()).hexdigest()
+        return hashlib.sha256(json.dumps(content).encode()).hexdigest()
 
     @property
     def sources(self) -> dict[str, Source]:
-        """The files that objects were read from, by the name of the object."""
-        return {x.name: x.source for x in self.objects if isinstance(x, (Mesh, Points)) and x.source is not None}
+        """Files that objects were read from, by the name of the object."""
+        return {
+            solid.name: solid.source for solid in self.objects if isinstance(solid, (Mesh, Points)) and solid.source is not None
+        }
 
     def require_unchanged(self) -> None:
-        """Nothing, if the files of meshes and clouds still are as they were read; a run asks before it writes.
+        """Raise an error if a file of a mesh or cloud has changed since it was read; a run calls this before it writes.
 
         Raises:
             InputError: One is not; the sentence names it.
@@ -312,14 +319,14 @@ class Cell:
                 )
 
 
-_XML = (".urdf", ".xml", ".mjcf")
-_KINDS = {"HalfSpace": "half space", "Points": "point cloud"} | {
+_XML_ENDINGS = (".urdf", ".xml", ".mjcf")
+_KIND_NAMES = {"HalfSpace": "half space", "Points": "point cloud"} | {
     kind: kind.lower() for kind in ("Box", "Cylinder", "Capsule", "Sphere", "Mesh")
 }
 
 
 def as_cell(cell: Cell | str | Path | None) -> Cell | None:
-    """A cell as callers give it: itself, or the path of its file.
+    """Return a cell from a cell or from the path of its file.
 
     Raises:
         InputError: The file cannot be used.

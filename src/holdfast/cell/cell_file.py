@@ -1,4 +1,4 @@
-"""Cells from YAML files.
+"""Read and write cells as YAML files.
 
 An example with every key; only ``objects``, and one kind in each object, must be there::
 
@@ -43,54 +43,55 @@ from holdfast.arm.urdf import rpy_rotation
 from holdfast.cell.meshes import Mesh, Points
 from holdfast.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 from holdfast.errors import HoldfastError, InputError
-from holdfast.files.yaml import Four, Number, Strict, Three, content, sentence
+from holdfast.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
 
 Array = NDArray[np.float64]
 Positive = Annotated[Number, Field(gt=0)]
 Least = Annotated[Number, Field(ge=0)]
 
-EXAMPLE = "holdfast.cell.cell_file"
-SHAPES = ("", "meshes", "assumed")  # of the arm; every other is a capsule file
-KINDS = ("box", "cylinder", "capsule", "sphere", "half_space", "mesh", "points")
-_HELD = KINDS[:4]
-_UNIT = 1e-2  # files may round the numbers of a unit quaternion
+EXAMPLE_MODULE = "holdfast.cell.cell_file"
+SHAPE_WORDS = ("", "meshes", "assumed")  # of the arm; every other is a capsule file
+OBJECT_KINDS = ("box", "cylinder", "capsule", "sphere", "half_space", "mesh", "points")
+_HOLDABLE_KINDS = OBJECT_KINDS[:4]
+_QUATERNION_NORM_TOLERANCE = 1e-2  # files may round the numbers of a unit quaternion
 
 
-class _Placement(Strict):
+class _ObjectPlacement(Strict):
     xyz: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
     rpy: Three | None = None
     quaternion: Four | None = None
 
 
-class _Round(Strict):
+class _RoundObject(Strict):
     radius: Positive
     length: Positive
 
 
-class _Surface(Strict):
+class _SurfaceEntry(Strict):
     vertices: list[Three]
     faces: list[Three]
 
 
-TAGS = ("as rows", "as xyz and rpy", "as a list", "as a file", "as vertices and faces")
+FORMAT_TAGS = ("as rows", "as xyz and rpy", "as a list", "as a file", "as vertices and faces")
 _Pose = Annotated[
-    Annotated[list[Four], Field(min_length=4, max_length=4), Tag(TAGS[0])] | Annotated[_Placement, Tag(TAGS[1])],
-    Discriminator(lambda value: TAGS[0] if isinstance(value, list) else TAGS[1]),
+    Annotated[list[Four], Field(min_length=4, max_length=4), Tag(FORMAT_TAGS[0])]
+    | Annotated[_ObjectPlacement, Tag(FORMAT_TAGS[1])],
+    Discriminator(lambda value: FORMAT_TAGS[0] if isinstance(value, list) else FORMAT_TAGS[1]),
 ]
 _Cloud = Annotated[
-    Annotated[list[Three], Tag(TAGS[2])] | Annotated[str, Tag(TAGS[3])],
-    Discriminator(lambda value: TAGS[2] if isinstance(value, list) else TAGS[3]),
+    Annotated[list[Three], Tag(FORMAT_TAGS[2])] | Annotated[str, Tag(FORMAT_TAGS[3])],
+    Discriminator(lambda value: FORMAT_TAGS[2] if isinstance(value, list) else FORMAT_TAGS[3]),
 ]
 _Mesh = Annotated[
-    Annotated[str, Tag(TAGS[3])] | Annotated[_Surface, Tag(TAGS[4])],
-    Discriminator(lambda value: TAGS[4] if isinstance(value, dict) else TAGS[3]),
+    Annotated[str, Tag(FORMAT_TAGS[3])] | Annotated[_SurfaceEntry, Tag(FORMAT_TAGS[4])],
+    Discriminator(lambda value: FORMAT_TAGS[4] if isinstance(value, dict) else FORMAT_TAGS[3]),
 ]
 
 
-class _Object(Strict):
+class _ObjectEntry(Strict):
     box: Annotated[list[Positive], Field(min_length=3, max_length=3)] | None = None
-    cylinder: _Round | None = None
-    capsule: _Round | None = None
+    cylinder: _RoundObject | None = None
+    capsule: _RoundObject | None = None
     sphere: Positive | None = None
     half_space: Three | None = None
     mesh: _Mesh | None = None
@@ -102,34 +103,34 @@ class _Object(Strict):
     margin: Least = 0.0
 
 
-class _Shape(Strict):
+class _ArmEntry(Strict):
     shape: str | None = None
     spheres_to: Positive | None = None
     hold: dict[str, Number] = Field(default_factory=dict)
 
 
-class File(Strict):
-    """A file's keys and values."""
+class CellFile(Strict):
+    """Keys and values of a cell file."""
 
-    objects: dict[str, _Object]
+    objects: dict[str, _ObjectEntry]
     name: str | None = None
     margin: Least = 0.0
-    held: list[_Object] = Field(default_factory=list)
+    held: list[_ObjectEntry] = Field(default_factory=list)
     may_touch: list[Annotated[list[str], Field(min_length=2, max_length=2)]] = Field(default_factory=list)
-    arm: _Shape = Field(default_factory=_Shape)
+    arm: _ArmEntry = Field(default_factory=_ArmEntry)
 
 
-def read(path: Path) -> dict[str, Any]:
-    """The keys and values in a file, not checked yet.
+def read_cell_file(path: Path) -> dict[str, Any]:
+    """Return the unchecked keys and values of a file.
 
     Raises:
         InputError: It cannot be read or is not YAML.
     """
-    return {"name": path.stem} | content(path, EXAMPLE, "objects")
+    return {"name": path.stem} | read_mapping(path, EXAMPLE_MODULE, "objects")
 
 
-def parse(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """What :class:`holdfast.Cell` takes, of a file's keys and values.
+def parse_cell(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Return the arguments of :class:`holdfast.Cell` from the keys and values of a file.
 
     Args:
         data: The keys and values.
@@ -139,138 +140,146 @@ def parse(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         InputError: A key is unknown, missing or wrong, or a file that it names; the sentence says where.
     """
     try:
-        told = File.model_validate(data)
+        parsed = CellFile.model_validate(data)
     except ValidationError as error:
-        raise InputError(sentence(error, File, TAGS)) from error
+        raise InputError(describe_error(error, CellFile, FORMAT_TAGS)) from error
     return {
-        "objects": [_solid(name, entry, f"objects.{name}", folder) for name, entry in told.objects.items()],
-        "name": told.name or "cell",
-        "margin": told.margin,
-        "held": [_held(k, entry, folder) for k, entry in enumerate(told.held)],
-        "may_touch": [(a, b) for a, b in told.may_touch],
-        **told.arm.model_dump(exclude_none=True),
-        "shape": shape if (shape := told.arm.shape or "") in SHAPES else str(folder / shape),
+        "objects": [_build_solid(name, entry, f"objects.{name}", folder) for name, entry in parsed.objects.items()],
+        "name": parsed.name or "cell",
+        "margin": parsed.margin,
+        "held": [_build_held(index, entry, folder) for index, entry in enumerate(parsed.held)],
+        "may_touch": [(object_name, link_name) for object_name, link_name in parsed.may_touch],
+        **parsed.arm.model_dump(exclude_none=True),
+        "shape": shape if (shape := parsed.arm.shape or "") in SHAPE_WORDS else str(folder / shape),
     }
 
 
-def _held(number: int, entry: _Object, folder: Path) -> Solid:
-    place = f"held[{number}]"
-    found = _solid(f"held {number + 1}", entry, place, folder)
-    if _kind(entry, place) not in _HELD:
-        raise InputError(f"{place}: a {_kind(entry, place)} cannot be held; use {', '.join(_HELD)}")
-    return found
+def _build_held(number: int, entry: _ObjectEntry, folder: Path) -> Solid:
+    location = f"held[{number}]"
+    solid = _build_solid(f"held {number + 1}", entry, location, folder)
+    if _object_kind(entry, location) not in _HOLDABLE_KINDS:
+        raise InputError(f"{location}: a {_object_kind(entry, location)} cannot be held; use {', '.join(_HOLDABLE_KINDS)}")
+    return solid
 
 
-def _kind(entry: _Object, place: str) -> str:
-    found = [kind for kind in KINDS if getattr(entry, kind) is not None]
-    if len(found) != 1:
-        said = "no kind" if not found else " and ".join(found)
-        raise InputError(f"{place}: it has {said}; give one of {', '.join(KINDS)}")
-    only = {"scale": "mesh", "solid": "mesh", "radius": "points"}
-    wrong = next((key for key, kind in only.items() if getattr(entry, key) is not None and found[0] != kind), None)
-    if wrong is not None:
-        raise InputError(f"{place}: {wrong} is for {only[wrong]} alone, and this is a {found[0]}; leave it out")
-    return found[0]
+def _object_kind(entry: _ObjectEntry, location: str) -> str:
+    given_kinds = [kind for kind in OBJECT_KINDS if getattr(entry, kind) is not None]
+    if len(given_kinds) != 1:
+        given_text = "no kind" if not given_kinds else " and ".join(given_kinds)
+        raise InputError(f"{location}: it has {given_text}; give one of {', '.join(OBJECT_KINDS)}")
+    kind_of_key = {"scale": "mesh", "solid": "mesh", "radius": "points"}
+    misplaced = next(
+        (key for key, kind in kind_of_key.items() if getattr(entry, key) is not None and given_kinds[0] != kind), None
+    )
+    if misplaced is not None:
+        raise InputError(
+            f"{location}: {misplaced} is for {kind_of_key[misplaced]} alone, and this is a {given_kinds[0]}; leave it out"
+        )
+    return given_kinds[0]
 
 
-def _solid(name: str, entry: _Object, place: str, folder: Path) -> Solid:
-    kind = _kind(entry, place)
-    about: dict[str, Any] = {"pose": _pose(entry.pose, place), "margin": entry.margin}
+def _build_solid(name: str, entry: _ObjectEntry, location: str, folder: Path) -> Solid:
+    kind = _object_kind(entry, location)
+    common_arguments: dict[str, Any] = {"pose": _build_pose(entry.pose, location), "margin": entry.margin}
     value: Any = getattr(entry, kind)
     match kind:
         case "box":
-            return Box(name, np.array(value), **about)
+            return Box(name, np.array(value), **common_arguments)
         case "cylinder" | "capsule":
-            return (Cylinder if kind == "cylinder" else Capsule)(name, value.radius, value.length, **about)
+            return (Cylinder if kind == "cylinder" else Capsule)(name, value.radius, value.length, **common_arguments)
         case "sphere":
-            return Sphere(name, value, **about)
+            return Sphere(name, value, **common_arguments)
         case "half_space":
-            return HalfSpace(name, **about | {"pose": about["pose"] @ _upright(np.array(value), place)})
+            return HalfSpace(
+                name, **common_arguments | {"pose": common_arguments["pose"] @ _rotation_to_normal(np.array(value), location)}
+            )
         case "mesh":
             shape = str(folder / value) if isinstance(value, str) else (np.array(value.vertices), np.array(value.faces))
-            return Mesh(name, shape, scale=entry.scale or 1.0, solid=entry.solid or "exact", **about)
+            return Mesh(name, shape, scale=entry.scale or 1.0, solid=entry.solid or "exact", **common_arguments)
     if entry.radius is None:
-        raise InputError(f"{place}.radius: it is missing; every point is a ball of this radius, m")
-    return Points(name, str(folder / value) if isinstance(value, str) else np.array(value), radius=entry.radius, **about)
+        raise InputError(f"{location}.radius: it is missing; every point is a ball of this radius, m")
+    return Points(
+        name, str(folder / value) if isinstance(value, str) else np.array(value), radius=entry.radius, **common_arguments
+    )
 
 
-def _pose(pose: list[list[float]] | _Placement | None, place: str) -> Array:
+def _build_pose(pose: list[list[float]] | _ObjectPlacement | None, location: str) -> Array:
     if pose is None:
         return np.eye(4)
     if isinstance(pose, list):
         return np.array(pose)
-    out = np.eye(4)
-    out[:3, 3] = pose.xyz
+    matrix = np.eye(4)
+    matrix[:3, 3] = pose.xyz
     if pose.rpy is not None and pose.quaternion is not None:
-        raise InputError(f"{place}.pose: it has both rpy and quaternion; give one of them")
+        raise InputError(f"{location}.pose: it has both rpy and quaternion; give one of them")
     if pose.rpy is not None:
-        out[:3, :3] = rpy_rotation(pose.rpy)
+        matrix[:3, :3] = rpy_rotation(pose.rpy)
     elif pose.quaternion is not None:
-        size = math.hypot(*pose.quaternion)
-        if not abs(size - 1) < _UNIT:
-            raise InputError(f"{place}.pose: the quaternion (x, y, z, w) has length {size:g}; it must be 1")
-        out[:3, :3] = rotations_of_quaternions(pose.quaternion)
-    return out
+        norm = math.hypot(*pose.quaternion)
+        if not abs(norm - 1) < _QUATERNION_NORM_TOLERANCE:
+            raise InputError(f"{location}.pose: the quaternion (x, y, z, w) has length {norm:g}; it must be 1")
+        matrix[:3, :3] = rotations_of_quaternions(pose.quaternion)
+    return matrix
 
 
-def _upright(normal: Array, place: str) -> Array:
-    """(4, 4) rotation of z onto a direction."""
+def _rotation_to_normal(normal: Array, location: str) -> Array:
+    """Return the pose (4, 4) that rotates z onto a direction."""
     largest = np.abs(normal).max()
     if not largest > 0:
-        raise InputError(f"{place}.half_space: the direction is 0, 0, 0; give the one that points out of it")
-    z, out = normal / largest, np.eye(4)
+        raise InputError(f"{location}.half_space: the direction is 0, 0, 0; give the one that points out of it")
+    z, pose = normal / largest, np.eye(4)
     z /= np.linalg.norm(z)
     if z[2] > 1 - 1e-15:
-        return out
+        return pose
     x = np.cross(np.eye(3)[np.abs(z).argmin()], z)
     x /= np.linalg.norm(x)
-    out[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
-    return out
+    pose[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
+    return pose
 
 
 # ---- writing -----------------------------------------------------------------------------------------------------
 
 
-def text(data: dict[str, Any]) -> str:
-    """A file of keys and values."""
+def format_cell(data: dict[str, Any]) -> str:
+    """Return the text of a file with the given keys and values."""
     return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=128)
 
 
-def entry_of(solid: Solid) -> dict[str, Any]:
-    """An object's keys and values, every digit kept; a file is named by its whole path.
+def describe_object(solid: Solid) -> dict[str, Any]:
+    """Return an object's keys and values with every digit; a file is named by its full path.
 
     Raises:
         InputError: It is no kind that a file can hold.
     """
     match solid:
         case Box():
-            said: dict[str, Any] = {"box": solid.size.tolist()}
+            entry: dict[str, Any] = {"box": solid.size.tolist()}
         case Cylinder() | Capsule():
-            said = {type(solid).__name__.lower(): {"radius": float(solid.radius), "length": float(solid.length)}}
+            entry = {type(solid).__name__.lower(): {"radius": float(solid.radius), "length": float(solid.length)}}
         case Sphere():
-            said = {"sphere": float(solid.radius)}
+            entry = {"sphere": float(solid.radius)}
         case HalfSpace():
-            said = {"half_space": [0.0, 0.0, 1.0]}
+            entry = {"half_space": [0.0, 0.0, 1.0]}
         case Mesh():
-            said = {"mesh": _surface(solid) if solid.source is None else str(solid.source.path)}
-            said |= {"scale": float(solid.scale)} if solid.source is not None else {}
-            said |= {"solid": solid.solid}
+            entry = {"mesh": _describe_surface(solid) if solid.source is None else str(solid.source.path)}
+            entry |= {"scale": float(solid.scale)} if solid.source is not None else {}
+            entry |= {"solid": solid.solid}
         case Points():
-            said = {"points": solid.centres.tolist() if solid.source is None else str(solid.source.path)}
-            said |= {"radius": float(solid.radius)}
+            entry = {"points": solid.centres.tolist() if solid.source is None else str(solid.source.path)}
+            entry |= {"radius": float(solid.radius)}
         case _:
             raise InputError(f"object '{solid.name}' is a {type(solid).__name__}, which no file can hold")
     if not np.array_equal(solid.pose, np.eye(4)):
-        turned = not np.array_equal(solid.pose[:3, :3], np.eye(3))
-        said["pose"] = solid.pose.tolist() if turned else {"xyz": solid.pose[:3, 3].tolist()}
-    return said | ({"margin": float(solid.margin)} if solid.margin else {})
+        is_rotated = not np.array_equal(solid.pose[:3, :3], np.eye(3))
+        entry["pose"] = solid.pose.tolist() if is_rotated else {"xyz": solid.pose[:3, 3].tolist()}
+    return entry | ({"margin": float(solid.margin)} if solid.margin else {})
 
 
-def _surface(solid: Mesh) -> dict[str, Any]:
-    """Its triangles, in m: what the scale was is in them."""
+def _describe_surface(solid: Mesh) -> dict[str, Any]:
+    """Return the triangles of a mesh in m, with its scale already applied."""
     return {"vertices": solid.surface.vertices.tolist(), "faces": solid.surface.faces.tolist()}
 
 
-def refused(path: Path, error: HoldfastError) -> InputError:
-    """The sentence for a file that cannot be used."""
+def cell_file_error(path: Path, error: HoldfastError) -> InputError:
+    """Return the error for a cell file that cannot be used."""
     return InputError(f"cell file '{path}': {error}")

@@ -12,9 +12,9 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class, real_numbers
+from holdfast.arguments import check_constructor, require_real_numbers
 from holdfast.caching import cached_property
-from holdfast.cell.field import Field, of_points, of_surface
+from holdfast.cell.field import DistanceField, cloud_field, surface_field
 from holdfast.cell.solids import Solid
 from holdfast.errors import InputError
 from holdfast.files import mesh, reading
@@ -22,13 +22,13 @@ from holdfast.files import mesh, reading
 Array = NDArray[np.float64]
 Kind = Literal["exact", "hull"]
 
-LARGEST = 50.0  # m: an object beyond that is in another unit
-_FARTHEST = 1e6  # m
+MAX_OBJECT_SIZE_M = 50.0  # m: an object beyond that is in another unit
+_MAX_COORDINATE_M = 1e6  # m
 
 
 @dataclass(frozen=True)
 class Source:
-    """A file that an object was read from.
+    """File that an object was read from.
 
     Attributes:
         path: Where it was.
@@ -39,44 +39,44 @@ class Source:
     sha256: str
 
     def changed(self) -> bool:
-        """Whether the file is gone or has other bytes now."""
+        """Return whether the file is missing or has other bytes now."""
         try:
-            return hashlib.sha256(reading.raw(self.path)).hexdigest() != self.sha256
+            return hashlib.sha256(reading.read_bytes(self.path)).hexdigest() != self.sha256
         except OSError:
             return True
 
 
 @dataclass(frozen=True, eq=False)
-class Gridded(Solid):
-    """An object whose distance is a lower bound from a grid of numbers, see :class:`holdfast.cell.Field`."""
+class GriddedSolid(Solid):
+    """Object whose distance is a lower bound from a grid, see :class:`holdfast.cell.field.DistanceField`."""
 
     @property
-    def field(self) -> Field:
-        """The grid, in the object's own frame."""
+    def field(self) -> DistanceField:
+        """Distance field in the object's own frame."""
         raise NotImplementedError
 
     def signed_distance(self, points: ArrayLike) -> Array:
-        """A lower bound of the distance in m of points (..., 3) in the world from its surface, below 0 inside."""
+        """Return a lower bound of the distance in m of points (..., 3) in the world from the surface, below 0 inside."""
         return self.distance_and_gradient(points)[0]
 
     def distance_and_gradient(self, points: ArrayLike) -> tuple[Array, Array]:
-        """The same bound (...,), m, and its gradient (..., 3) in the world, of points (..., 3) in the world."""
-        distance, gradient = self.field.distance_and_gradient(self.own(points))
+        """Return the bound (...,), m, and its gradient (..., 3) in the world, of points (..., 3) in the world."""
+        distance, gradient = self.field.distance_and_gradient(self.to_object_frame(points))
         return distance, gradient @ self.pose[:3, :3].T
 
-    def own(self, points: ArrayLike) -> Array:
-        """Points (..., 3) in the world, m, in the object's own frame."""
+    def to_object_frame(self, points: ArrayLike) -> Array:
+        """Return points (..., 3) in the world, m, in the object's own frame."""
         return np.asarray((np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3])
 
     def __getstate__(self) -> dict[str, Any]:
-        """The data alone: a field is made again, or found on the disk."""
+        """Return the fields of the data class alone; the distance field is computed again or read from the disk."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
-class Mesh(Gridded):
-    """A closed surface of triangles and all that it encloses.
+class Mesh(GriddedSolid):
+    """Closed surface of triangles with the volume inside it.
 
     Attributes:
         shape: File (STL, OBJ, GLB or PLY; needs the extra ``cell``), or ``(vertices, faces)``: (V, 3) numbers and (F, 3)
@@ -106,37 +106,39 @@ class Mesh(Gridded):
             raise InputError(f"object '{self.name}': solid '{self.solid}' is not known; use {' or '.join(get_args(Kind))}")
         if isinstance(self.shape, (str, Path)):
             try:
-                found, content = mesh.read(Path(self.shape))
+                triangles, content = mesh.read_mesh(Path(self.shape))
             except InputError as error:
                 raise InputError(f"object '{self.name}': {error}") from error
             object.__setattr__(self, "source", Source(Path(self.shape).resolve(), hashlib.sha256(content).hexdigest()))
         else:
-            found = mesh.triangles(*_pair(self.shape, self.name), f"the mesh of object '{self.name}'")
-        _in_metres(found.vertices * self.scale, self.name, f"is scale {0.001 * self.scale:g} meant?")
-        object.__setattr__(self, "surface", self._sound(mesh.Triangles(found.vertices * self.scale, found.faces)))
+            triangles = mesh.make_triangles(*_split_pair(self.shape, self.name), f"the mesh of object '{self.name}'")
+        _require_metres(triangles.vertices * self.scale, self.name, f"is scale {0.001 * self.scale:g} meant?")
+        object.__setattr__(
+            self, "surface", self._orient_surface(mesh.Triangles(triangles.vertices * self.scale, triangles.faces))
+        )
 
-    def _sound(self, found: mesh.Triangles) -> mesh.Triangles:
+    def _orient_surface(self, triangles: mesh.Triangles) -> mesh.Triangles:
         if self.solid == "hull":
-            return _hull(found, self.name)
-        if not found.closed:
+            return _convex_hull(triangles, self.name)
+        if not triangles.closed:
             raise InputError(f"object '{self.name}': its mesh is not closed, so it has no inside; close it, or say solid: hull")
-        return found if found.volume > 0 else mesh.Triangles(found.vertices, found.faces[:, ::-1].copy())
+        return triangles if triangles.volume > 0 else mesh.Triangles(triangles.vertices, triangles.faces[:, ::-1].copy())
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of its triangles."""
-        return _sha256(self.surface.vertices, self.surface.faces)
+        """SHA-256 of the triangles."""
+        return _hash_arrays(self.surface.vertices, self.surface.faces)
 
     @cached_property
-    def field(self) -> Field:
-        """The grid, in the mesh's own frame; made when it is first asked for, and kept on the disk."""
-        return of_surface(self.surface, self.digest)
+    def field(self) -> DistanceField:
+        """Distance field in the mesh's own frame; computed on first use and stored on the disk."""
+        return surface_field(self.surface, self.digest)
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
-class Points(Gridded):
-    """A cloud of points, as a scanner gives it: each is a ball.
+class Points(GriddedSolid):
+    """Cloud of points, as a scanner produces it, in which each point is a ball.
 
     Attributes:
         points: (N, 3) m, in the cloud's own frame, or the .npy file that holds them.
@@ -154,40 +156,40 @@ class Points(Gridded):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._length(self.radius, "radius")
-        what = f"the points of object '{self.name}'"
+        self._require_length(self.radius, "radius")
+        label = f"the points of object '{self.name}'"
         values: Any = self.points
         if isinstance(self.points, (str, Path)):
             path = Path(self.points)
-            values, content = _array(path, self.name)
+            values, content = _read_array(path, self.name)
             object.__setattr__(self, "source", Source(path.resolve(), hashlib.sha256(content).hexdigest()))
-        found = np.array(real_numbers(values, what))
-        if found.ndim != 2 or found.shape[-1] != 3 or not len(found):
-            raise InputError(f"{what} have shape {found.shape}; they must be (N, 3) numbers, at least one point, m")
-        if not np.isfinite(found).all():
-            raise InputError(f"{what} hold NaN or infinity; leave those points out")
-        _in_metres(found, self.name, "are they in millimetres?")
-        found.setflags(write=False)
-        object.__setattr__(self, "points", found)
+        points = np.array(require_real_numbers(values, label))
+        if points.ndim != 2 or points.shape[-1] != 3 or not len(points):
+            raise InputError(f"{label} have shape {points.shape}; they must be (N, 3) numbers, at least one point, m")
+        if not np.isfinite(points).all():
+            raise InputError(f"{label} hold NaN or infinity; leave those points out")
+        _require_metres(points, self.name, "are they in millimetres?")
+        points.setflags(write=False)
+        object.__setattr__(self, "points", points)
 
     @property
     def centres(self) -> Array:
-        """(N, 3) m, in its own frame."""
+        """Centers (N, 3) of the balls in the cloud's own frame, m."""
         assert isinstance(self.points, np.ndarray)
         return self.points
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of its points."""
-        return _sha256(self.centres)
+        """SHA-256 of the points."""
+        return _hash_arrays(self.centres)
 
     @cached_property
-    def field(self) -> Field:
-        """The grid, in the cloud's own frame; made when it is first asked for, and kept on the disk."""
-        return of_points(self.centres, self.radius, self.digest)
+    def field(self) -> DistanceField:
+        """Distance field in the cloud's own frame; computed on first use and stored on the disk."""
+        return cloud_field(self.centres, self.radius, self.digest)
 
 
-def _pair(shape: Any, name: str) -> tuple[Any, Any]:
+def _split_pair(shape: Any, name: str) -> tuple[Any, Any]:
     try:
         vertices, faces = shape
     except (TypeError, ValueError) as error:
@@ -195,35 +197,35 @@ def _pair(shape: Any, name: str) -> tuple[Any, Any]:
     return vertices, faces
 
 
-def _in_metres(points: Array, name: str, question: str) -> None:
-    far = float(np.abs(points).max())
-    if far > _FARTHEST:
+def _require_metres(points: Array, name: str, question: str) -> None:
+    farthest = float(np.abs(points).max())
+    if farthest > _MAX_COORDINATE_M:
         raise InputError(
-            f"object '{name}' is {far:.4g} m from the origin of its own frame; give lengths in metres from a place nearby"
+            f"object '{name}' is {farthest:.4g} m from the origin of its own frame; give lengths in metres from a place nearby"
         )
-    size = float(np.ptp(points, axis=0).max())
-    if size > LARGEST:
-        raise InputError(f"object '{name}' is {size:.4g} m large, more than {LARGEST:g} m; {question}")
+    extent = float(np.ptp(points, axis=0).max())
+    if extent > MAX_OBJECT_SIZE_M:
+        raise InputError(f"object '{name}' is {extent:.4g} m large, more than {MAX_OBJECT_SIZE_M:g} m; {question}")
 
 
-def _hull(found: mesh.Triangles, name: str) -> mesh.Triangles:
-    """The convex hull, its triangles facing outward."""
+def _convex_hull(triangles: mesh.Triangles, name: str) -> mesh.Triangles:
+    """Return the convex hull with triangles that face outward."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
-        hull = ConvexHull(found.vertices)
+        hull = ConvexHull(triangles.vertices)
     except QhullError as error:
         raise InputError(f"object '{name}': its mesh is flat, so its hull has no inside; give it as a thin box") from error
     corners = hull.points[hull.simplices]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    inward = (across * hull.equations[:, :3]).sum(axis=1) < 0
-    faces = np.where(inward[:, None], hull.simplices[:, ::-1], hull.simplices)
-    return mesh.triangles(hull.points, faces, f"the hull of object '{name}'")
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    points_inward = (normals * hull.equations[:, :3]).sum(axis=1) < 0
+    faces = np.where(points_inward[:, None], hull.simplices[:, ::-1], hull.simplices)
+    return mesh.make_triangles(hull.points, faces, f"the hull of object '{name}'")
 
 
-def _array(path: Path, name: str) -> tuple[Any, bytes]:
-    with reading.guarded(f"object '{name}': '{path.name}'", "give the path of a .npy file that exists"):
-        content = reading.raw(path)
+def _read_array(path: Path, name: str) -> tuple[Any, bytes]:
+    with reading.guard_reading(f"object '{name}': '{path.name}'", "give the path of a .npy file that exists"):
+        content = reading.read_bytes(path)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -233,8 +235,8 @@ def _array(path: Path, name: str) -> tuple[Any, bytes]:
         raise InputError(f"object '{name}': '{path.name}' is damaged or not a .npy file; write it with numpy.save") from error
 
 
-def _sha256(*arrays: NDArray[Any]) -> str:
-    found = hashlib.sha256()
+def _hash_arrays(*arrays: NDArray[Any]) -> str:
+    digest = hashlib.sha256()
     for array in arrays:
-        found.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
-    return found.hexdigest()
+        digest.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()

@@ -1,4 +1,4 @@
-"""The distance from a surface or a cloud as seen from outside a box about it, as far as one likes, by few numbers.
+"""The distance from a surface or a point cloud for points outside its box, at any distance, from a small table.
 
 A point p, the box's centre the origin, is on a larger box: all faces of the first one, with half edges b, moved outward by z.
 On face k ``p_k = +-(b_k + z)``, and along it ``p_i = a_i (b_i + z)`` with ``|a_i| <= 1``. With ``r = z + e`` for a length e
@@ -15,33 +15,33 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.cell.nodes import DIAGONAL, Grid
+from holdfast.cell.nodes import HALF_DIAGONAL, NodeGrid
 
 Array = NDArray[np.float64]
 
-ACROSS = 33  # nodes along the edges of a face
-AWAY = 17  # nodes of 1 / r, from 0, as far apart as squares
-_MANY = 1 << 16  # points that a search is quick among
-_FINE = 1 << 10  # cubes along an edge
+FACE_NODES = 33  # nodes along the edges of a face
+RADIAL_NODES = 17  # nodes of 1 / r, from 0, as far apart as squares
+_MAX_SAMPLES = 1 << 16  # points that a search is quick among
+_CUBES_PER_EDGE = 1 << 10  # cubes along an edge
 
 
-def half(grid: Grid) -> Array:
-    """(3,) half the edges of its box, m."""
+def half_edges(grid: NodeGrid) -> Array:
+    """Return half the edges (3,) of a grid's box, m."""
     return np.asarray(grid.width * (np.array(grid.shape) - 1) / 2)
 
 
-def length(grid: Grid) -> float:
-    """The length e, m."""
-    return float(half(grid).max() / 2 + grid.width)
+def radial_offset(grid: NodeGrid) -> float:
+    """Return the length e, m."""
+    return float(half_edges(grid).max() / 2 + grid.width)
 
 
-def nearest_to(grid: Grid) -> float:
-    """The largest 1 / r, 1/m: that of one width within the box of a grid."""
-    return float(2 / half(grid).max())
+def largest_inverse_distance(grid: NodeGrid) -> float:
+    """Return the largest 1 / r, 1/m: that of one width inside the box of a grid."""
+    return float(2 / half_edges(grid).max())
 
 
-def seen_from_outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray[np.float32], float]:
-    """E and how far the farthest sample is from the middle of the grid, m.
+def tabulate_outside(grid: NodeGrid, samples: Array, sample_gap: float) -> tuple[NDArray[np.float32], float]:
+    """Return E and the distance of the farthest sample from the center of the grid, m.
 
     E, (6, ACROSS, ACROSS, AWAY), m, is rounded up: faces (low x, high x, low y, ...), the two coordinates that follow, 1 / r.
 
@@ -49,45 +49,62 @@ def seen_from_outside(grid: Grid, samples: Array, apart: float) -> tuple[NDArray
         grid: Its box is the one looked at from outside.
         samples: (N, 3) points of the surface, m, in the frame of the grid. The square of the distance from the nearest of them
             exceeds that from the surface by at most ``apart**2``.
-        apart: m.
+        sample_gap: m.
     """
     from scipy.spatial import cKDTree
 
-    edges, e = half(grid), length(grid)
-    own = samples - (grid.origin + edges)
-    reach = float(np.sqrt((own * own).sum(axis=1).max()))
-    few, off = _thinned(own)
-    tree = cKDTree(few)
-    inverse = nearest_to(grid) * np.linspace(0, 1, AWAY) ** 2
-    across = np.linspace(-1, 1, ACROSS)
-    a, b = (x.ravel() for x in np.meshgrid(across, across, indexing="ij"))
-    found = np.empty((6, ACROSS * ACROSS, AWAY))
+    half_sizes, offset = half_edges(grid), radial_offset(grid)
+    centered = samples - (grid.origin + half_sizes)
+    enclosing_radius = float(np.sqrt((centered * centered).sum(axis=1).max()))
+    thinned, thinning_error = _thin_points(centered)
+    tree = cKDTree(thinned)
+    inverse_distances = largest_inverse_distance(grid) * np.linspace(0, 1, RADIAL_NODES) ** 2
+    face_coordinates = np.linspace(-1, 1, FACE_NODES)
+    first_coordinates, second_coordinates = (
+        coordinates.ravel() for coordinates in np.meshgrid(face_coordinates, face_coordinates, indexing="ij")
+    )
+    table = np.empty((6, FACE_NODES * FACE_NODES, RADIAL_NODES))
     for face in range(6):
         axis = face // 2
-        on_box = np.empty((len(a), 3))
-        on_box[:, axis] = 2.0 * (face % 2) - 1.0
-        on_box[:, (axis + 1) % 3], on_box[:, (axis + 2) % 3] = a, b
-        for k, share in enumerate(inverse[1:], start=1):
-            at = on_box * (1 / share + edges - e)
-            distance = np.maximum(tree.query(at)[0] - off, 0.0)
-            found[face, :, k] = share * ((at * at).sum(axis=1) - np.maximum(distance * distance - apart * apart, 0.0))
+        directions = np.empty((len(first_coordinates), 3))
+        directions[:, axis] = 2.0 * (face % 2) - 1.0
+        directions[:, (axis + 1) % 3], directions[:, (axis + 2) % 3] = first_coordinates, second_coordinates
+        for radial_index, inverse_distance in enumerate(inverse_distances[1:], start=1):
+            points = directions * (1 / inverse_distance + half_sizes - offset)
+            distance = np.maximum(tree.query(points)[0] - thinning_error, 0.0)
+            table[face, :, radial_index] = inverse_distance * (
+                (points * points).sum(axis=1) - np.maximum(distance * distance - sample_gap * sample_gap, 0.0)
+            )
     # Infinitely far away: what E can be more there than at the next node.
-    found[:, :, 0] = found[:, :, 1] + inverse[1] * reach * (2 * np.linalg.norm(edges - e) + reach)
-    above = np.nextafter(found.astype(np.float32), np.float32(np.inf))
-    return above.reshape(6, ACROSS, ACROSS, AWAY), reach
+    table[:, :, 0] = table[:, :, 1] + inverse_distances[1] * enclosing_radius * (
+        2 * np.linalg.norm(half_sizes - offset) + enclosing_radius
+    )
+    rounded_up = np.nextafter(table.astype(np.float32), np.float32(np.inf))
+    return rounded_up.reshape(6, FACE_NODES, FACE_NODES, RADIAL_NODES), enclosing_radius
 
 
-def _thinned(points: Array) -> tuple[Array, float]:
-    """Points (M, 3), not very many, and how far any of those given (N, 3) is from the nearest at most, m."""
-    if len(points) <= 8 * _MANY:
+def _thin_points(points: Array) -> tuple[Array, float]:
+    """Return at most ``_MAX_SAMPLES`` points (M, 3), and the largest distance of a given point (N, 3) from the nearest of them,
+    m.
+    """
+    if len(points) <= 8 * _MAX_SAMPLES:
         points = np.unique(points, axis=0)
-    if len(points) <= _MANY:
+    if len(points) <= _MAX_SAMPLES:
         return points, 0.0
-    low, edge = points.min(axis=0), float(np.ptp(points, axis=0).max()) / _FINE
-    cubes = np.floor((points - low) / edge).astype(np.int64)
+    corner, edge = points.min(axis=0), float(np.ptp(points, axis=0).max()) / _CUBES_PER_EDGE
+    cube_indices = np.floor((points - corner) / edge).astype(np.int64)
     while True:
-        one = np.unique((cubes[:, 0] * 2 * _FINE + cubes[:, 1]) * 2 * _FINE + cubes[:, 2])
-        cubes = np.stack([one // (4 * _FINE**2), one // (2 * _FINE) % (2 * _FINE), one % (2 * _FINE)], axis=1)
-        if len(cubes) <= _MANY:
-            return low + edge * (cubes + 0.5), float(DIAGONAL * edge * (1 + 1e-9))
-        cubes, edge = cubes // 2, 2 * edge
+        codes = np.unique(
+            (cube_indices[:, 0] * 2 * _CUBES_PER_EDGE + cube_indices[:, 1]) * 2 * _CUBES_PER_EDGE + cube_indices[:, 2]
+        )
+        cube_indices = np.stack(
+            [
+                codes // (4 * _CUBES_PER_EDGE**2),
+                codes // (2 * _CUBES_PER_EDGE) % (2 * _CUBES_PER_EDGE),
+                codes % (2 * _CUBES_PER_EDGE),
+            ],
+            axis=1,
+        )
+        if len(cube_indices) <= _MAX_SAMPLES:
+            return corner + edge * (cube_indices + 0.5), float(HALF_DIAGONAL * edge * (1 + 1e-9))
+        cube_indices, edge = cube_indices // 2, 2 * edge

@@ -1,4 +1,4 @@
-"""Certificates: claims about every target of a box, proved by cells and checked by a verifier that trusts nobody."""
+"""Certificates: claims about every target of a box, proved cell by cell and checked by an independent verifier."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Certificates checked."""
+"""Checks of certificate files."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from importlib.util import find_spec
 from pathlib import Path
 from time import monotonic
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
-from holdfast.certificates.documents import need_arm
+from holdfast.certificates.documents import require_same_arm
 from holdfast.errors import HoldfastError, InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.result import Result
 
 
 @dataclass(frozen=True, kw_only=True)
 class CertificateCheck(Result):
-    """What the verifier says of a certificate.
+    """Result of the verifier for a certificate.
 
     Attributes:
         claim: The sentence that is proved, as far as it is.
@@ -31,7 +31,7 @@ class CertificateCheck(Result):
         undecided: Exact share of targets and locked angles; of a bundle in its worst part.
         tolerant: At least this share of the targets is proved, for every locked value and lock.
         seconds: Measured.
-        said: The verifier's own sentence.
+        summary: The verifier's own sentence.
         parts: Of a bundle: the healthy arm, then each lock.
         witnessed: A configuration shows that the claim is false.
     """
@@ -44,7 +44,7 @@ class CertificateCheck(Result):
     undecided: Fraction
     tolerant: Fraction
     seconds: float
-    said: str
+    summary: str
     parts: tuple[CertificateCheck, ...] = ()
     refuted: Fraction = Fraction(0)
     witnessed: bool = False
@@ -55,10 +55,10 @@ class CertificateCheck(Result):
         return self.rejected == 0 and self.accepted == self.leaves
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the claim and the verifier's summary as sentences."""
         sampled = self.accepted + self.rejected < self.leaves
         proved = self.tolerant if self.parts else self.proved
-        return [verifier.qualify_claim(self.claim, proved, refuted=self.witnessed, sampled=sampled), self.said]
+        return [verifier.qualify_claim(self.claim, proved, refuted=self.witnessed, sampled=sampled), self.summary]
 
     @property
     def proved(self) -> Fraction:
@@ -70,8 +70,8 @@ class CheckStopped(HoldfastError):
     """The check of a certificate reached its time limit."""
 
 
-@checked
-@says("checking the certificate")
+@check_arguments
+@reports_progress("checking the certificate")
 def check_certificate(
     file: str | Path,
     *,
@@ -80,7 +80,7 @@ def check_certificate(
     workers: int = 1,
     time_limit: float | None = None,
 ) -> CertificateCheck:
-    """Check a certificate by the verifier, which shares nothing with the prover but the sentence of the claim.
+    """Check a certificate with the verifier, which shares nothing with the prover except the wording of the claim.
 
     Args:
         file: The certificate, or the folder that holds it; the parts of a bundle lie in the same folder.
@@ -99,14 +99,14 @@ def check_certificate(
         raise InputError("sample and workers must be 1 or more")
     try:
         if arm is not None:
-            need_arm(verifier.load(Path(file)), arm)
-        return _of(verifier.verify(file, sample=sample, workers=workers, progress=_stop_after(time_limit)))
-    except verifier.Refused as error:
+            require_same_arm(verifier.load_certificate(Path(file)), arm)
+        return _convert_verdict(verifier.verify(file, sample=sample, workers=workers, progress=_make_time_guard(time_limit)))
+    except verifier.CertificateRejected as error:
         raise InputError(str(error)) from error
 
 
-def need_flint() -> None:
-    """Refuse a check where python-flint is not installed.
+def require_flint() -> None:
+    """Raise an error if python-flint, which the check needs, is not installed.
 
     Raises:
         InputError: It is not.
@@ -115,14 +115,14 @@ def need_flint() -> None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
 
 
-def _stop_after(time_limit: float | None) -> Callable[[int], None]:
-    end = math.inf if time_limit is None else monotonic() + time_limit
+def _make_time_guard(time_limit: float | None) -> Callable[[int], None]:
+    deadline = math.inf if time_limit is None else monotonic() + time_limit
 
-    def stop(checked_leaves: int) -> None:
-        if monotonic() > end:
+    def raise_if_late(checked_leaves: int) -> None:
+        if monotonic() > deadline:
             raise CheckStopped(f"the check was not finished within {time_limit:g} s; nothing is verified")
 
-    return stop
+    return raise_if_late
 
 
 def find_in_folder(path: Path) -> Path:
@@ -138,19 +138,19 @@ def find_in_folder(path: Path) -> Path:
     return whole[0]
 
 
-def _of(found: verifier.Verdict) -> CertificateCheck:
-    locked = found.document.get("locked", -1)
+def _convert_verdict(verdict: verifier.CertificateVerdict) -> CertificateCheck:
+    locked_index = verdict.document.get("locked", -1)
     return CertificateCheck(
-        claim=found.document["claim"],
-        locked=found.document["arm"]["joints"][locked]["name"] if locked >= 0 else "",
-        leaves=found.leaves,
-        accepted=found.accepted,
-        rejected=found.rejected,
-        undecided=found.undecided,
-        tolerant=found.tolerant,
-        seconds=found.seconds,
-        said=found.sentence,
-        parts=tuple(map(_of, found.parts)),
-        refuted=found.false,
-        witnessed=found.refuted,
+        claim=verdict.document["claim"],
+        locked=verdict.document["arm"]["joints"][locked_index]["name"] if locked_index >= 0 else "",
+        leaves=verdict.leaves,
+        accepted=verdict.accepted,
+        rejected=verdict.rejected,
+        undecided=verdict.undecided,
+        tolerant=verdict.tolerant_fraction,
+        seconds=verdict.seconds,
+        summary=verdict.summary,
+        parts=tuple(map(_convert_verdict, verdict.parts)),
+        refuted=verdict.false,
+        witnessed=verdict.refuted,
     )

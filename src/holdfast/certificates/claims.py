@@ -1,4 +1,4 @@
-"""What a certificate is asked to prove."""
+"""Claims about reaching the targets of a box."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, single_joints
-from holdfast.grammar import TASKS
+from holdfast.grammar import TASK_SIZES
 
 Array = NDArray[np.float64]
 
-ROWS = {
+TASK_ROWS = {
     "planar": [0, 1],
     "planar-pose": [0, 1, 5],
     "position": [0, 1, 2],
     "pointing": [0, 1, 2, 3, 4],
     "pose": [0, 1, 2, 3, 4, 5],
 }  # of tool paths
-_TASKS = {2: "planar", 3: "position"}  # by coordinates of a target, where the tool may turn as it likes
-_SKEWED = 1e-6  # of a rotation: so much is mended
+_TASK_BY_DIMENSION = {2: "planar", 3: "position"}  # by coordinates of a target, where the tool may turn as it likes
+_ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReachClaim:
-    """For every target of a box, and every value at which one joint may be locked, a configuration within limits reaches it.
+    """Claim that a configuration within limits reaches every target of a box, at every value at which one joint may be locked.
 
     Attributes:
         arm: The arm.
@@ -55,7 +55,8 @@ class ReachClaim:
 
 @dataclass(frozen=True, kw_only=True)
 class TolerantClaim:
-    """Every target of a box is reached by the healthy arm within working ranges, and after any one joint locked within its own.
+    """Claim that the healthy arm reaches every target of a box within working ranges, and also after any one joint locks within
+    its working range.
 
     Attributes:
         arm, task, box, rotation: As of :class:`ReachClaim`.
@@ -72,14 +73,14 @@ class TolerantClaim:
 
     @property
     def parts(self) -> tuple[ReachClaim, ...]:
-        """Of the healthy arm, then of each lock."""
-        own = np.column_stack([self.arm.lower, self.arm.upper])
-        made = partial(ReachClaim, arm=self.arm, task=self.task, box=self.box, rotation=self.rotation)
-        healthy = made(locked=-1, angle=None, limits=self.working_ranges)
-        return healthy, *(made(locked=k, angle=self.working_ranges[k], limits=own) for k in self.locks)
+        """Claims for the healthy arm, then for each lock."""
+        arm_limits = np.column_stack([self.arm.lower, self.arm.upper])
+        make_claim = partial(ReachClaim, arm=self.arm, task=self.task, box=self.box, rotation=self.rotation)
+        healthy = make_claim(locked=-1, angle=None, limits=self.working_ranges)
+        return healthy, *(make_claim(locked=joint, angle=self.working_ranges[joint], limits=arm_limits) for joint in self.locks)
 
 
-@checked
+@check_arguments
 def reach_claim(
     arm: Arm,
     centre: ArrayLike,
@@ -91,7 +92,7 @@ def reach_claim(
     locked: Mapping[str | int, tuple[float, float]] | None = None,
     limits: Mapping[str | int, tuple[float, float]] | None = None,
 ) -> ReachClaim:
-    """The claim that every point of a box is reached, by the healthy arm or after a lock at any angle of an interval.
+    """Make the claim that the arm reaches every point of a box, while healthy or after a lock at any angle of an interval.
 
     Args:
         arm: The arm.
@@ -108,14 +109,16 @@ def reach_claim(
     Raises:
         InputError: A box, joint, angle or limit that makes no claim.
     """
-    box, rows, turned = _targets(arm, centre, size, rotation, rpy, task)
-    which, angle, kept = _lock(arm, locked, limits)
-    still = (kept[:, 0] == kept[:, 1]) | (np.arange(arm.n) == which)
-    _need_joints(arm, int(still.sum()), rows)
-    return ReachClaim(arm=arm, task=rows, box=box, rotation=turned, locked=which, angle=angle, limits=kept)
+    box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
+    locked_index, lock_interval, joint_limits = _parse_lock(arm, locked, limits)
+    fixed_joints = (joint_limits[:, 0] == joint_limits[:, 1]) | (np.arange(arm.n) == locked_index)
+    _require_free_joints(arm, int(fixed_joints.sum()), task_name)
+    return ReachClaim(
+        arm=arm, task=task_name, box=box, rotation=tool_rotation, locked=locked_index, angle=lock_interval, limits=joint_limits
+    )
 
 
-@checked
+@check_arguments
 def tolerant_claim(
     arm: Arm,
     centre: ArrayLike,
@@ -127,7 +130,7 @@ def tolerant_claim(
     working_ranges: Mapping[str | int, tuple[float, float]] | None = None,
     failures: FailureSpec = "single",
 ) -> TolerantClaim:
-    """The claim that a box of targets is failure-tolerant: reached while healthy, and after any one joint has locked.
+    """Make the claim that a box of targets is failure-tolerant: reached while healthy, and after any one joint has locked.
 
     The healthy arm is kept within its working ranges, so a joint locks somewhere in its own; after that the arm uses all of
     its limits.
@@ -149,117 +152,125 @@ def tolerant_claim(
 
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
     """
-    box, rows, turned = _targets(arm, centre, size, rotation, rpy, task)
-    ranges = narrowed(arm, working_ranges or {})
+    box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
+    ranges = narrow_limits(arm, working_ranges or {})
     locks = tuple(sorted(single_joints(arm, failures)))
-    for k in locks:
-        if not np.isfinite(ranges[k]).all():
-            raise InputError(f"{arm.joint_names[k]} has no limits, so it may lock anywhere; give its working range")
-    _need_joints(arm, 1, rows)
-    return TolerantClaim(arm=arm, task=rows, box=box, rotation=turned, working_ranges=ranges, locks=locks)
+    for joint in locks:
+        if not np.isfinite(ranges[joint]).all():
+            raise InputError(f"{arm.joint_names[joint]} has no limits, so it may lock anywhere; give its working range")
+    _require_free_joints(arm, 1, task_name)
+    return TolerantClaim(arm=arm, task=task_name, box=box, rotation=tool_rotation, working_ranges=ranges, locks=locks)
 
 
-def _targets(
+def _parse_targets(
     arm: Arm, centre: ArrayLike, size: ArrayLike, rotation: ArrayLike | None, rpy: ArrayLike | None, task: str | None
 ) -> tuple[Array, str, Array | None]:
-    """Box, task and rotation of a claim."""
-    box = _box(arm, centre, size)
+    """Return the box, the task and the rotation of a claim."""
+    box = _make_target_box(arm, centre, size)
     if task not in (None, "pointing"):
         raise InputError(f"task is '{task}'; give pointing, or leave it out: the box and the rotation say the rest")
     if rotation is None and rpy is None and task is None:
         if len(box) == 2:
-            need_flat(arm, "a box of two coordinates is", slides=True)
-        return box, _TASKS[len(box)], None
+            require_planar(arm, "a box of two coordinates is", allow_prismatic=True)
+        return box, _TASK_BY_DIMENSION[len(box)], None
     if (rotation is None) == (rpy is None):
         raise InputError("rotation and rpy both say how the tool is turned; give one of them")
     if rpy is not None:
         if task is not None:
             raise InputError("pointing is about one direction: give rotation, whose z axis it is, in place of rpy")
-        angles, said = real_numbers(rpy, "rpy", "lowest and highest roll, pitch and yaw, (3, 2), rad"), [3, 2]
-        what = "the lowest and the highest roll, pitch and yaw, (3, 2)"
+        angles, expected_shape = require_real_numbers(rpy, "rpy", "lowest and highest roll, pitch and yaw, (3, 2), rad"), [3, 2]
+        description = "the lowest and the highest roll, pitch and yaw, (3, 2)"
         if len(box) == 2:
-            need_flat(arm, "a planar pose is")
-            said, what = [2], "the lowest and the highest yaw, (2,)"
-        pairs = angles.reshape(-1, 2) if list(angles.shape) == said else np.array([[1.0, 0.0]])
-        if not np.isfinite(pairs).all() or (pairs[:, 0] > pairs[:, 1]).any():
-            raise InputError(f"rpy must be {what}, rad, finite, the lower first")
-        return np.vstack([box, pairs]), "pose" if len(box) == 3 else "planar-pose", None
+            require_planar(arm, "a planar pose is")
+            expected_shape, description = [2], "the lowest and the highest yaw, (2,)"
+        intervals = angles.reshape(-1, 2) if list(angles.shape) == expected_shape else np.array([[1.0, 0.0]])
+        if not np.isfinite(intervals).all() or (intervals[:, 0] > intervals[:, 1]).any():
+            raise InputError(f"rpy must be {description}, rad, finite, the lower first")
+        return np.vstack([box, intervals]), "pose" if len(box) == 3 else "planar-pose", None
     if len(box) < 3:
         raise InputError("a tool is turned in space; give the centre of the box with three numbers, or in the plane rpy")
-    turn = real_numbers(rotation, "rotation", "a rotation (3, 3)")
-    if turn.shape != (3, 3) or not np.abs(turn.T @ turn - np.eye(3)).max() < _SKEWED or np.linalg.det(turn) < 0:
+    matrix = require_real_numbers(rotation, "rotation", "a rotation (3, 3)")
+    if (
+        matrix.shape != (3, 3)
+        or not np.abs(matrix.T @ matrix - np.eye(3)).max() < _ORTHONORMALITY_TOLERANCE
+        or np.linalg.det(matrix) < 0
+    ):
         raise InputError("rotation must be a rotation (3, 3): orthonormal columns, right-handed")
-    left, _, right = np.linalg.svd(turn)
-    return box, task or "pose", left @ right
+    left_vectors, _, right_vectors = np.linalg.svd(matrix)
+    return box, task or "pose", left_vectors @ right_vectors
 
 
-def _box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
-    """(m, 2) m, of an arm for which there are certificates."""
-    middle = np.asarray(centre, dtype=np.float64).reshape(-1)
-    if middle.shape not in ((2,), (3,)) or not np.isfinite(middle).all():
+def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
+    """Return the (m, 2) bounds of a box of targets, m, after checking its center and size."""
+    center = np.asarray(centre, dtype=np.float64).reshape(-1)
+    if center.shape not in ((2,), (3,)) or not np.isfinite(center).all():
         raise InputError("the centre of the box must be three finite numbers, m, or two for an arm that moves in a plane")
-    edges = np.broadcast_to(np.asarray(size, dtype=np.float64), middle.shape) if np.size(size) in (1, len(middle)) else None
+    edges = np.broadcast_to(np.asarray(size, dtype=np.float64), center.shape) if np.size(size) in (1, len(center)) else None
     if edges is None or not np.isfinite(edges).all() or (edges < 0).any():
-        raise InputError(f"the size of the box must be one number or {len(middle)}, m, finite, not negative")
-    return np.column_stack([middle - edges / 2, middle + edges / 2])
+        raise InputError(f"the size of the box must be one number or {len(center)}, m, finite, not negative")
+    return np.column_stack([center - edges / 2, center + edges / 2])
 
 
-def _lock(
+def _parse_lock(
     arm: Arm,
     locked: Mapping[str | int, tuple[float, float]] | None,
     limits: Mapping[str | int, tuple[float, float]] | None,
 ) -> tuple[int, Array | None, Array]:
-    """Which joint is locked, -1 if none is, between which values, and the limits of all."""
-    kept = narrowed(arm, limits or {})
-    which, angle = -1, None
+    """Return the index of the locked joint (-1 if none is locked), its interval of locked values, and the limits of
+    all joints.
+    """
+    joint_limits = narrow_limits(arm, limits or {})
+    locked_index, lock_interval = -1, None
     if locked is not None:
         if len(locked) != 1:
             raise InputError(f"{len(locked)} joints are given as locked; a certificate is about one, or none")
-        ((joint, pair),) = locked.items()
-        which, angle = arm.joint_index(joint), within(arm, joint, pair)
-        if angle[0] < kept[which, 0] or angle[1] > kept[which, 1]:
+        ((joint, interval),) = locked.items()
+        locked_index, lock_interval = arm.joint_index(joint), validate_interval(arm, joint, interval)
+        if lock_interval[0] < joint_limits[locked_index, 0] or lock_interval[1] > joint_limits[locked_index, 1]:
             raise InputError(
-                f"{arm.joint_names[which]} may lock beyond the limits that are given for it; widen these, or leave them out"
+                f"{arm.joint_names[locked_index]} may lock beyond the limits that are given for it; widen these, or "
+                f"leave them out"
             )
-    return which, angle, kept
+    return locked_index, lock_interval, joint_limits
 
 
-def _need_joints(arm: Arm, locked: int, task: str) -> None:
-    if arm.n - locked < TASKS[task]:
-        raise InputError(f"{arm.n - locked} joints are left for {TASKS[task]} rows: no box can be reached")
+def _require_free_joints(arm: Arm, locked_count: int, task: str) -> None:
+    if arm.n - locked_count < TASK_SIZES[task]:
+        raise InputError(f"{arm.n - locked_count} joints are left for {TASK_SIZES[task]} rows: no box can be reached")
 
 
-def narrowed(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) -> Array:
-    """(n, 2) rad and m, the intervals of some joints, which are in their limits, and the limits of the others."""
-    kept = np.column_stack([arm.lower, arm.upper])
-    for joint, pair in intervals.items():
-        kept[arm.joint_index(joint)] = within(arm, joint, pair)
-    return kept
+def narrow_limits(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) -> Array:
+    """Return (n, 2) joint limits, rad and m, where the given intervals replace the limits of the arm."""
+    limits = np.column_stack([arm.lower, arm.upper])
+    for joint, interval in intervals.items():
+        limits[arm.joint_index(joint)] = validate_interval(arm, joint, interval)
+    return limits
 
 
-def within(arm: Arm, joint: str | int, pair: tuple[float, float]) -> Array:
-    """An interval of a joint, in its limits."""
-    k = arm.joint_index(joint)
-    found = np.asarray(pair, dtype=np.float64).reshape(-1)
-    if found.shape != (2,) or not np.isfinite(found).all() or found[0] > found[1]:
-        values = "lengths, m" if arm.prismatic[k] else "angles, rad"
-        given = " to ".join(f"{x:.4g}" for x in found)
+def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -> Array:
+    """Return the interval of a joint as an array after checking that it lies within the joint's limits."""
+    index = arm.joint_index(joint)
+    interval = np.asarray(bounds, dtype=np.float64).reshape(-1)
+    if interval.shape != (2,) or not np.isfinite(interval).all() or interval[0] > interval[1]:
+        value_kind = "lengths, m" if arm.prismatic[index] else "angles, rad"
+        interval_text = " to ".join(f"{x:.4g}" for x in interval)
         raise InputError(
-            f"the interval of {arm.joint_names[k]} is {given}; it must be two finite {values}, the lower one first"
+            f"the interval of {arm.joint_names[index]} is {interval_text}; it must be two finite {value_kind}, the "
+            f"lower one first"
         )
-    if found[0] < arm.lower[k] or found[1] > arm.upper[k]:
-        factor, unit = arm.joints[k].shown
-        low, high, least, most = (factor * x for x in (*found, arm.lower[k], arm.upper[k]))
+    if interval[0] < arm.lower[index] or interval[1] > arm.upper[index]:
+        factor, unit = arm.joints[index].shown
+        lower, upper, lower_limit, upper_limit = (factor * x for x in (*interval, arm.lower[index], arm.upper[index]))
         raise InputError(
-            f"{arm.joint_names[k]} from {low:.4g} to {high:.4g} {unit} is outside of its limits, "
-            f"{least:.4g} to {most:.4g} {unit}"
+            f"{arm.joint_names[index]} from {lower:.4g} to {upper:.4g} {unit} is outside of its limits, "
+            f"{lower_limit:.4g} to {upper_limit:.4g} {unit}"
         )
-    return found
+    return interval
 
 
 @dataclass(frozen=True, kw_only=True)
 class OutOfReachClaim:
-    """For every target of a box, every value at which one joint may be locked and every configuration: the tool is elsewhere.
+    """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
 
     Attributes:
         arm, task, box, rotation, locked, angle, limits: As of :class:`ReachClaim`.
@@ -274,7 +285,7 @@ class OutOfReachClaim:
     limits: Array
 
 
-@checked
+@check_arguments
 def out_of_reach_claim(
     arm: Arm,
     centre: ArrayLike,
@@ -286,7 +297,7 @@ def out_of_reach_claim(
     locked: Mapping[str | int, tuple[float, float]] | None = None,
     limits: Mapping[str | int, tuple[float, float]] | None = None,
 ) -> OutOfReachClaim:
-    """The claim that no point of a box is reached, by the healthy arm or after a lock at any angle of an interval.
+    """Make the claim that the arm reaches no point of a box, while healthy or after a lock at any angle of an interval.
 
     The arguments are those of :func:`reach_claim`; size may be 0, for a single target.
 
@@ -294,26 +305,30 @@ def out_of_reach_claim(
         InputError: A box, joint, angle or limit that makes no claim, a slide without limits, or two coordinates for an arm that
             does not move in a plane.
     """
-    box, rows, turned = _targets(arm, centre, size, rotation, rpy, task)
-    if rows == "planar":
-        need_flat(arm, "a box of two coordinates is")
-    which, angle, kept = _lock(arm, locked, limits)
-    endless = np.flatnonzero(arm.prismatic & ~np.isfinite(kept).all(axis=1) & (np.arange(arm.n) != which))
+    box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
+    if task_name == "planar":
+        require_planar(arm, "a box of two coordinates is")
+    locked_index, lock_interval, joint_limits = _parse_lock(arm, locked, limits)
+    endless = np.flatnonzero(arm.prismatic & ~np.isfinite(joint_limits).all(axis=1) & (np.arange(arm.n) != locked_index))
     if endless.size:
         raise InputError(f"{arm.joint_names[endless[0]]} slides without limits; give its range")
-    return OutOfReachClaim(arm=arm, task=rows, box=box, rotation=turned, locked=which, angle=angle, limits=kept)
+    return OutOfReachClaim(
+        arm=arm, task=task_name, box=box, rotation=tool_rotation, locked=locked_index, angle=lock_interval, limits=joint_limits
+    )
 
 
-def need_flat(arm: Arm, what: str, slides: bool = False) -> None:
-    """Refuse an arm whose joints do not all turn about axes parallel to z, or slide, if they may; ``what`` is asked of it."""
-    turns = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
-    upright = [slides if joint.prismatic else abs(joint.axis[2]) == 1 for joint in arm.joints]
-    if not all(abs(turn[2, 2]) == 1 for turn in turns) or not all(upright):
-        raise InputError(f"{what} for arms that move in the xy plane, and this one leaves it")
+def require_planar(arm: Arm, subject: str, allow_prismatic: bool = False) -> None:
+    """Raise an error unless the arm moves in the xy plane; ``subject`` starts the message, ``allow_prismatic`` accepts
+    prismatic joints.
+    """
+    rotations = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
+    upright = [allow_prismatic if joint.prismatic else abs(joint.axis[2]) == 1 for joint in arm.joints]
+    if not all(abs(rotation[2, 2]) == 1 for rotation in rotations) or not all(upright):
+        raise InputError(f"{subject} for arms that move in the xy plane, and this one leaves it")
 
 
-def need_turning(arm: Arm, what: str) -> None:
-    """Refuse an arm with a joint that slides; ``what`` is asked of it."""
+def require_revolute(arm: Arm, subject: str) -> None:
+    """Raise an error if the arm has a prismatic joint; ``subject`` is the start of the message's reason."""
     if arm.prismatic.any():
-        slides = [name for name, slide in zip(arm.joint_names, arm.prismatic, strict=True) if slide]
-        raise InputError(f"{slides[0]} slides; {what} for arms whose joints all turn")
+        prismatic_joints = [name for name, is_prismatic in zip(arm.joint_names, arm.prismatic, strict=True) if is_prismatic]
+        raise InputError(f"{prismatic_joints[0]} slides; {subject} for arms whose joints all turn")

@@ -1,4 +1,4 @@
-"""Certificates as their files hold them; :mod:`holdfast.certificates.verifier` says what each key is."""
+"""Certificates as JSON documents; :mod:`holdfast.certificates.verifier` defines the keys."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantCl
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.jobs import Bisection
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
-from holdfast.certificates.target_boxes.jobs import Found
-from holdfast.certificates.taylor import UNIT, Chain
+from holdfast.certificates.target_boxes.jobs import TargetBoxResult
+from holdfast.certificates.taylor import CENTER_UNIT, CertificateChain
 from holdfast.certificates.tool_paths import cells
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tool_paths.rings import rings_of
-from holdfast.certificates.tree import PROVED
+from holdfast.certificates.tool_paths.rings import make_closure_exclusion
+from holdfast.certificates.tree import PROVED_TOKEN
 from holdfast.certificates.verified import paths
 from holdfast.certificates.verified.tree import Cell
 from holdfast.errors import InputError
@@ -33,132 +33,155 @@ from holdfast.errors import InputError
 Document = dict[str, Any]
 
 
-def reach(claim: ReachClaim, found: Found, undecided: Fraction) -> Document:
-    """The certificate of a search, of whose box a part is undecided."""
-    return _signed(
-        _common("reach", claim, found.seconds, found.nodes)
-        | _asked(claim)
+def build_reach_document(claim: ReachClaim, result: TargetBoxResult, undecided: Fraction) -> Document:
+    """Build the certificate of a search that left the fraction ``undecided`` of the box open."""
+    return _sign_document(
+        _common_fields("reach", claim, result.seconds, result.nodes)
+        | _claim_fields(claim)
         | {
-            "unit": UNIT.hex(),
-            "tree": _packed(found.tree),
-            "centres": _packed(found.centres.astype("<i4").tobytes()),
+            "unit": CENTER_UNIT.hex(),
+            "tree": _compress_bytes(result.tree),
+            "centres": _compress_bytes(result.centers.astype("<i4").tobytes()),
             "refutations": [],
-            "volumes": _volumes(undecided),
+            "volumes": _format_volumes(undecided),
         }
     )
 
 
-def said(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> str:
-    """The sentence of a claim, which has all of its numbers and the digest of the arm."""
+def format_claim(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> str:
+    """Return the sentence of a claim, with all of its numbers and the digest of the arm."""
     kinds = {ReachClaim: "reach", OutOfReachClaim: "refutation", PathClaim: "path"}
-    made = _common(claim.kind if isinstance(claim, BoundClaim) else kinds[type(claim)], claim, 0.0, 0) | _asked(claim)
-    return verifier.sentence(made | {"arm_digest": verifier.digest(made["arm"])})
+    fields = _common_fields(claim.kind if isinstance(claim, BoundClaim) else kinds[type(claim)], claim, 0.0, 0) | _claim_fields(
+        claim
+    )
+    return verifier.claim_sentence(fields | {"arm_digest": verifier.compute_digest(fields["arm"])})
 
 
-def bundle(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:
-    """The certificate that names those of its parts, as files; of the worst part it has the volumes."""
-    listed = [
+def build_bundle_document(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:
+    """Build the certificate that lists its parts as files; its volumes are those of the worst part."""
+    part_entries = [
         {"file": name, "digest": part["digest"], "locked": part["locked"]} for name, part in zip(names, parts, strict=True)
     ]
-    spent = {key: sum(part[key] for part in parts) for key in ("seconds", "nodes")}
-    return _signed(
-        _common("bundle", claim, **spent)
+    effort_sums = {key: sum(part[key] for part in parts) for key in ("seconds", "nodes")}
+    return _sign_document(
+        _common_fields("bundle", claim, **effort_sums)
         | {
-            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
-            "working_ranges": _hexes(claim.working_ranges),
+            "limits": _encode_floats(np.column_stack([claim.arm.lower, claim.arm.upper])),
+            "working_ranges": _encode_floats(claim.working_ranges),
             "locks": list(claim.locks),
-            "parts": listed,
+            "parts": part_entries,
             "volumes": parts[worst]["volumes"],
         }
     )
 
 
-def refutation(claim: OutOfReachClaim, found: Exclusion, *, seconds: float) -> Document:
-    """The certificate of an exclusion, or of a witness that says the opposite."""
+def build_refutation_document(claim: OutOfReachClaim, exclusion: Exclusion, *, seconds: float) -> Document:
+    """Build the certificate of an exclusion, or of a witness that disproves the claim."""
     lemmas = [
         {
             "link": lemma.link,
-            "point": _hexes(lemma.point),
-            "least": _hexes(lemma.least),
-            "most": _hexes(lemma.most),
-            "tree": _packed(lemma.tree),
+            "point": _encode_floats(lemma.point),
+            "least": _encode_floats(lemma.least),
+            "most": _encode_floats(lemma.most),
+            "tree": _compress_bytes(lemma.tree),
         }
-        for lemma in found.lemmas
+        for lemma in exclusion.lemmas
     ]
-    return _signed(
-        _common("refutation", claim, seconds, found.nodes)
-        | _asked(claim)
+    return _sign_document(
+        _common_fields("refutation", claim, seconds, exclusion.nodes)
+        | _claim_fields(claim)
         | {
-            "tree": _packed(found.tree),
+            "tree": _compress_bytes(exclusion.tree),
             "lemmas": lemmas,
-            "witness": None if found.witness is None else _hexes(found.witness),
-            "volumes": _volumes(found.undecided),
+            "witness": None if exclusion.witness is None else _encode_floats(exclusion.witness),
+            "volumes": _format_volumes(exclusion.undecided),
         }
     )
 
 
-def bound(claim: BoundClaim, found: Bisection, extreme: NDArray[np.float64], *, seconds: float) -> Document:
-    """The certificate of a ceiling or a floor, with the configuration that was found to come nearest to it."""
-    kept = {"tree": _packed(found.tree), "found": _hexes(extreme), "volumes": _volumes(found.undecided)}
-    return _signed(_common(claim.kind, claim, seconds, found.nodes) | _asked(claim) | kept)
+def build_bound_document(claim: BoundClaim, bisection: Bisection, extreme: NDArray[np.float64], *, seconds: float) -> Document:
+    """Build the certificate of an upper or lower bound, with the extreme configuration that the search found."""
+    fields = {
+        "tree": _compress_bytes(bisection.tree),
+        "found": _encode_floats(extreme),
+        "volumes": _format_volumes(bisection.undecided),
+    }
+    return _sign_document(_common_fields(claim.kind, claim, seconds, bisection.nodes) | _claim_fields(claim) | fields)
 
 
-def structural_zero(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
-    """The certificate of a structural zero: frames and points on axes, as exact fractions."""
-    kept = {"locked": claim.locked, "snapped": snapped, "points": points, "volumes": _volumes(Fraction(0))}
-    return _signed(_common("structural-zero", claim, 0.0, len(points)) | kept)
+def build_structural_zero_document(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
+    """Build the certificate of a structural zero: frames and points on axes, as exact fractions."""
+    fields = {"locked": claim.locked, "snapped": snapped, "points": points, "volumes": _format_volumes(Fraction(0))}
+    return _sign_document(_common_fields("structural-zero", claim, 0.0, len(points)) | fields)
 
 
-def path(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
-    """The certificate of slabs of lock instants, of all locks; it has the volumes of the worst."""
+def build_path_document(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
+    """Build the certificate of slabs of lock instants for all locks; its volumes are those of the worst lock."""
     locks = []
     for part in parts:
-        numbers = [x for slab in part.slabs for x in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
-        rows = np.array([row for slab in part.slabs for row in slab.centres], "<i4")
-        kept = {"joint": part.joint, "followers": list(part.followers)}
-        kept |= {key: paths.text(getattr(part, key)) for key in ("proved", "refuted")}
-        kept["refutations"] = [
-            {"begin": one.begin, "stop": one.stop, "at": one.at, "tree": _packed(one.tree)} for one in part.never
+        numbers = [number for slab in part.slabs for number in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
+        centers = np.array([center for slab in part.slabs for center in slab.centers], "<i4")
+        entry = {"joint": part.joint, "followers": list(part.followers)}
+        entry |= {key: paths.format_fraction(getattr(part, key)) for key in ("proved", "refuted")}
+        entry["refutations"] = [
+            {
+                "begin": interval.begin,
+                "stop": interval.stop,
+                "at": interval.path_instant,
+                "tree": _compress_bytes(interval.tree),
+            }
+            for interval in part.refuted_intervals
         ]
-        locks.append(kept | {"cells": _packed(np.array(numbers, "<i8").tobytes()), "centres": _packed(rows.tobytes())})
-    refuted = next((part.joint for part in parts if part.never), None)
-    rings = None if refuted is None else rings_of(claim, refuted)  # the points of all locks are the same
-    points = [] if rings is None else [{"link": link, "place": _hexes(place)} for link, place in rings.points]
-    return _signed(
-        _common("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
-        | _asked(claim)
+        locks.append(
+            entry
+            | {"cells": _compress_bytes(np.array(numbers, "<i8").tobytes()), "centres": _compress_bytes(centers.tobytes())}
+        )
+    refuted_joint = next((part.joint for part in parts if part.refuted_intervals), None)
+    exclusion = (
+        None if refuted_joint is None else make_closure_exclusion(claim, refuted_joint)
+    )  # the points of all locks are the same
+    points = (
+        [] if exclusion is None else [{"link": link, "place": _encode_floats(position)} for link, position in exclusion.points]
+    )
+    return _sign_document(
+        _common_fields("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
+        | _claim_fields(claim)
         | {
-            "unit": cells.UNIT.hex(),
+            "unit": cells.PATH_CENTER_UNIT.hex(),
             "locks": locks,
             "points": points,
-            "pairs": [] if rings is None else [list(pair) for pair in rings.pairs],
-            "volumes": paths.volumes([(part.proved, part.refuted) for part in parts]),
+            "pairs": [] if exclusion is None else [list(pair) for pair in exclusion.pairs],
+            "volumes": paths.compute_volumes([(part.proved, part.refuted) for part in parts]),
         }
     )
 
 
-def _volumes(undecided: Fraction) -> Document:
-    parts = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
-    return {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in parts.items()}
+def _format_volumes(undecided: Fraction) -> Document:
+    fractions = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
+    return {key: f"{fraction.numerator}/2^{fraction.denominator.bit_length() - 1}" for key, fraction in fractions.items()}
 
 
-def undecided(document: Document) -> list[Cell]:
-    """The cells of a reach certificate that are not proved."""
-    tokens, box = verifier.unpacked(document["tree"], 2 * verifier.MOST_LEAVES, "tree"), document["target"]["box"]
-    return [cell for token, cell in verifier.cells(tokens, len(box) + (document["angle"] is not None)) if token != PROVED]
+def find_undecided_cells(document: Document) -> list[Cell]:
+    """Return the cells of a reach certificate that are not proved."""
+    tokens, box = verifier.decompress_payload(document["tree"], 2 * verifier.MAX_LEAVES, "tree"), document["target"]["box"]
+    return [
+        cell
+        for token, cell in verifier.iterate_cells(tokens, len(box) + (document["angle"] is not None))
+        if token != PROVED_TOKEN
+    ]
 
 
-def _common(
+def _common_fields(
     kind: str,
     claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
     seconds: float,
     nodes: int,
 ) -> Document:
-    made = {
+    fields = {
         "format": "holdfast-certificate",
         "version": 1,
         "kind": kind,
-        "arm": _stored(claim.arm),
+        "arm": _encode_arm(claim.arm),
         "source": {"name": claim.arm.name},
         "task": claim.task,
         "made_by": f"holdfast {__version__}",
@@ -167,76 +190,92 @@ def _common(
         "nodes": nodes,
     }
     if isinstance(claim, BoundClaim | StructuralZeroClaim | PathClaim):
-        return made
-    return made | {"target": {"axes": _axes(claim), "box": _hexes(claim.box), "orientation": _turned(claim)}}
+        return fields
+    return fields | {
+        "target": {"axes": _target_axes(claim), "box": _encode_floats(claim.box), "orientation": _encode_rotation(claim)}
+    }
 
 
-def _asked(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> Document:
-    """What a claim is about, besides arm, task and target."""
+def _claim_fields(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> Document:
+    """Return the fields that define a claim, except arm, task and target."""
     if isinstance(claim, BoundClaim):
-        return {"joint_box": _hexes(claim.joint_box), "threshold": _hexes(claim.threshold), "locks": list(claim.locks)}
+        return {
+            "joint_box": _encode_floats(claim.joint_box),
+            "threshold": _encode_floats(claim.threshold),
+            "locks": list(claim.locks),
+        }
     if isinstance(claim, PathClaim):
         return {
-            "knots": _hexes(claim.knots),
-            "tube": _hexes(claim.tube),
-            "limits": _hexes(np.column_stack([claim.arm.lower, claim.arm.upper])),
+            "knots": _encode_floats(claim.knots),
+            "tube": _encode_floats(claim.tube),
+            "limits": _encode_floats(np.column_stack([claim.arm.lower, claim.arm.upper])),
             "during": list(claim.during),
             "locks": [{"joint": joint} for joint in claim.locks],
         }
-    angle = None if claim.angle is None else _hexes(claim.angle)
-    return {"locked": claim.locked, "angle": angle, "limits": _hexes(claim.limits)}
+    angle = None if claim.angle is None else _encode_floats(claim.angle)
+    return {"locked": claim.locked, "angle": angle, "limits": _encode_floats(claim.limits)}
 
 
-def _turned(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
-    return None if claim.rotation is None else [x for row in _hexes(claim.rotation) for x in row]
+def _encode_rotation(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
+    return None if claim.rotation is None else [number for row in _encode_floats(claim.rotation) for number in row]
 
 
-def _axes(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> str:
-    """Letters of a target's numbers."""
+def _target_axes(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> str:
+    """Return the letters of a target's coordinates."""
     return {"planar": "xy", "planar-pose": "xya"}.get(claim.task, "xyzRPY"[: len(claim.box)])
 
 
-def _signed(document: Document) -> Document:
-    """With the sentence of the claim and the digests."""
-    document["arm_digest"] = verifier.digest(document["arm"])
-    document["claim"] = verifier.sentence(document)
-    return document | {"digest": verifier.digest(document)}
+def _sign_document(document: Document) -> Document:
+    """Return the document with the sentence of the claim and the digests."""
+    document["arm_digest"] = verifier.compute_digest(document["arm"])
+    document["claim"] = verifier.claim_sentence(document)
+    return document | {"digest": verifier.compute_digest(document)}
 
 
-def need_arm(document: Document, arm: Arm) -> None:
-    """Refuse a certificate of another arm.
+def require_same_arm(document: Document, arm: Arm) -> None:
+    """Raise an error if a certificate is about another arm.
 
     Raises:
         InputError: With its name, and what differs.
     """
-    theirs, ours = document["arm"], _stored(arm)
-    if theirs == ours:
+    stored_arm, given_arm = document["arm"], _encode_arm(arm)
+    if stored_arm == given_arm:
         return
-    names = [[joint["name"] for joint in one["joints"]] for one in (theirs, ours)]
-    what = f"its joints are {', '.join(names[0])}"
-    if names[0] == names[1]:
-        pairs = zip([*names[0], "the tool"], [*theirs["joints"], theirs["tool"]], [*ours["joints"], ours["tool"]], strict=True)
-        what = f"{next(name for name, a, b in pairs if a != b)} differs"
-    raise InputError(f"the certificate is about another arm, '{document['source']['name']}': {what}")
+    joint_names = [[joint["name"] for joint in arm_fields["joints"]] for arm_fields in (stored_arm, given_arm)]
+    difference = f"its joints are {', '.join(joint_names[0])}"
+    if joint_names[0] == joint_names[1]:
+        pairs = zip(
+            [*joint_names[0], "the tool"],
+            [*stored_arm["joints"], stored_arm["tool"]],
+            [*given_arm["joints"], given_arm["tool"]],
+            strict=True,
+        )
+        difference = f"{next(name for name, stored_joint, given_joint in pairs if stored_joint != given_joint)} differs"
+    raise InputError(f"the certificate is about another arm, '{document['source']['name']}': {difference}")
 
 
-def _stored(arm: Arm) -> Document:
-    chain, limits = Chain.of(arm), np.column_stack([arm.lower, arm.upper])
+def _encode_arm(arm: Arm) -> Document:
+    chain, limits = CertificateChain.from_arm(arm), np.column_stack([arm.lower, arm.upper])
     frames = [
-        {"rotation": _hexes(turn.ravel()), "origin": _hexes(place)}
-        for turn, place in zip(chain.rotations, chain.origins, strict=True)
+        {"rotation": _encode_floats(rotation.ravel()), "origin": _encode_floats(origin)}
+        for rotation, origin in zip(chain.rotations, chain.origins, strict=True)
     ]
     joints = zip(arm.joints, frames, limits, strict=False)
-    stored = [
-        {"name": joint.name, "type": "prismatic" if joint.prismatic else "revolute", **frame, "limits": _hexes(pair)}
-        for joint, frame, pair in joints
+    joint_entries = [
+        {
+            "name": joint.name,
+            "type": "prismatic" if joint.prismatic else "revolute",
+            **frame,
+            "limits": _encode_floats(interval),
+        }
+        for joint, frame, interval in joints
     ]
-    return {"joints": stored, "tool": frames[-1]}
+    return {"joints": joint_entries, "tool": frames[-1]}
 
 
-def _hexes(values: NDArray[np.float64] | float) -> Any:
-    return [_hexes(x) for x in np.asarray(values)] if np.ndim(values) else float(values).hex()
+def _encode_floats(values: NDArray[np.float64] | float) -> Any:
+    return [_encode_floats(value) for value in np.asarray(values)] if np.ndim(values) else float(values).hex()
 
 
-def _packed(data: bytes) -> str:
+def _compress_bytes(data: bytes) -> str:
     return base64.b64encode(zlib.compress(data, 9)).decode()

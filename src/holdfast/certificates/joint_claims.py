@@ -1,4 +1,4 @@
-"""Claims about configurations: bounds of relative manipulability, and what structure makes of it."""
+"""Claims about configurations: bounds of relative manipulability, and structural zeros."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
-from holdfast.certificates.claims import narrowed, need_flat, need_turning, within
+from holdfast.certificates.claims import narrow_limits, require_planar, require_revolute, validate_interval
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 
 Array = NDArray[np.float64]
 
-_SIX = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
+_TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
 
 @dataclass(frozen=True, kw_only=True)
 class BoundClaim:
-    """For every configuration of a box, a bound of the least relative manipulability after one of some locks.
+    """Bound of the least relative manipulability after one of some locks, for every configuration of a box.
 
     Attributes:
         arm: The arm, all of whose joints turn.
@@ -41,11 +41,11 @@ class BoundClaim:
 
     @property
     def most(self) -> float:
-        """What no configuration exceeds: the squares of all sum to n - m, and the least of some is at most their mean."""
-        return float(np.sqrt(min(1.0, (self.arm.n - _SIX[self.task]) / len(self.locks))))
+        """Upper bound of every configuration: all squares sum to n - m, and the least of some is at most their mean."""
+        return float(np.sqrt(min(1.0, (self.arm.n - _TASK_DIMENSIONS[self.task]) / len(self.locks))))
 
 
-@checked
+@check_arguments
 def ceiling_claim(
     arm: Arm,
     joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
@@ -54,7 +54,7 @@ def ceiling_claim(
     failures: FailureSpec = "single",
     task: str = "pose",
 ) -> BoundClaim:
-    """The claim that nowhere in a box of configurations relative manipulability is above a threshold.
+    """Make the claim that relative manipulability is nowhere above a threshold in a box of configurations.
 
     Args:
         arm: The arm; all of its joints must turn.
@@ -71,10 +71,10 @@ def ceiling_claim(
 
     Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
     """
-    return _bound(arm, "ceiling", joint_box, threshold, failures, task)
+    return _make_bound_claim(arm, "ceiling", joint_box, threshold, failures, task)
 
 
-@checked
+@check_arguments
 def floor_claim(
     arm: Arm,
     joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
@@ -83,14 +83,14 @@ def floor_claim(
     failures: FailureSpec = "single",
     task: str = "pose",
 ) -> BoundClaim:
-    """The claim that everywhere in a box of configurations relative manipulability is a threshold or above.
+    """Make the claim that relative manipulability is everywhere at least a threshold in a box of configurations.
 
     The arguments, errors and source are those of :func:`ceiling_claim`.
     """
-    return _bound(arm, "floor", joint_box, threshold, failures, task)
+    return _make_bound_claim(arm, "floor", joint_box, threshold, failures, task)
 
 
-def _bound(
+def _make_bound_claim(
     arm: Arm,
     kind: str,
     joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
@@ -98,35 +98,36 @@ def _bound(
     failures: FailureSpec,
     task: str,
 ) -> BoundClaim:
-    if task not in _SIX:
-        raise InputError(f"task is '{task}'; bounds are for {' and '.join(_SIX)}, whose rows are all of the motion")
-    need_turning(arm, "bounds are")
+    if task not in _TASK_DIMENSIONS:
+        raise InputError(f"task is '{task}'; bounds are for {' and '.join(_TASK_DIMENSIONS)}, whose rows are all of the motion")
+    require_revolute(arm, "bounds are")
     locks = tuple(sorted(single_joints(arm, failures)))
-    require_redundant(arm, _SIX[task], task, tuple((k,) for k in locks))
+    require_redundant(arm, _TASK_DIMENSIONS[task], task, tuple((index,) for index in locks))
     if task == "planar-pose":
-        need_flat(arm, "task planar-pose is")
+        require_planar(arm, "task planar-pose is")
     if isinstance(joint_box, Mapping):
-        box = narrowed(arm, joint_box)
+        box = narrow_limits(arm, joint_box)
     else:
-        pairs = np.asarray(joint_box, dtype=np.float64)
-        if pairs.shape != (arm.n, 2):
-            raise InputError(f"the box must be two angles for each of {arm.n} joints, rad, not an array of {pairs.shape}")
-        box = np.array([within(arm, k, pair) for k, pair in enumerate(pairs)])
+        intervals = np.asarray(joint_box, dtype=np.float64)
+        if intervals.shape != (arm.n, 2):
+            raise InputError(f"the box must be two angles for each of {arm.n} joints, rad, not an array of {intervals.shape}")
+        box = np.array([validate_interval(arm, index, interval) for index, interval in enumerate(intervals)])
     if not np.isfinite(box).all():
-        k = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
-        raise InputError(f"{arm.joint_names[k]} has no limits; give its range")
+        index = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
+        raise InputError(f"{arm.joint_names[index]} has no limits; give its range")
     if not 1e-6 <= threshold < 1:
         raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
     claim = BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)
     if threshold >= claim.most:
-        tail = "nothing to prove" if kind == "ceiling" else "no box has that floor"
-        raise InputError(f"every configuration is at {claim.most:.4g} or below, by the sum over all joints: {tail}")
+        reason = "nothing to prove" if kind == "ceiling" else "no box has that floor"
+        raise InputError(f"every configuration is at {claim.most:.4g} or below, by the sum over all joints: {reason}")
     return claim
 
 
 @dataclass(frozen=True, kw_only=True)
 class StructuralZeroClaim:
-    """Wherever the arm is, a lock of one joint costs all relative manipulability of the pose: axes say so, not angles.
+    """Claim that the axes of the arm make a lock of one joint remove all relative manipulability of the pose in every
+    configuration.
 
     Attributes:
         arm: The arm, all of whose joints turn.
@@ -140,13 +141,14 @@ class StructuralZeroClaim:
 
     @property
     def task(self) -> str:
-        """All six rows."""
+        """Name of the task, which has all six rows."""
         return "pose"
 
 
-@checked
+@check_arguments
 def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5) -> StructuralZeroClaim:
-    """The claim that the axes before a joint meet in one point, and those behind it in another: that its lock costs everything.
+    """Make the claim that the axes before a joint meet in one point and those behind it in another, so that its lock removes
+    all relative manipulability.
 
     Args:
         arm: The arm; all of its joints must turn.
@@ -156,10 +158,10 @@ def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5
     Raises:
         InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
     """
-    need_turning(arm, "structural zeros are")
-    which = arm.joint_index(joint)
-    if not 1 <= which <= arm.n - 2:
-        raise InputError(f"{arm.joint_names[which]} is not between other joints, and only these can have a structural zero")
+    require_revolute(arm, "structural zeros are")
+    index = arm.joint_index(joint)
+    if not 1 <= index <= arm.n - 2:
+        raise InputError(f"{arm.joint_names[index]} is not between other joints, and only these can have a structural zero")
     if not 0 <= tolerance <= 1e-3:
         raise InputError(f"tolerance is {tolerance}; it must be from 0 to 0.001 m")
-    return StructuralZeroClaim(arm=arm, locked=which, tolerance=float(tolerance))
+    return StructuralZeroClaim(arm=arm, locked=index, tolerance=float(tolerance))

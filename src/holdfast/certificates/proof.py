@@ -1,4 +1,4 @@
-"""What the prover found."""
+"""Results of the prover."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from holdfast.caching import cached_property
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ReachClaim, TolerantClaim
-from holdfast.files.output import made, replaced
+from holdfast.files.output import make_folder, replace_file
 from holdfast.result import Result
 
-SUFFIX = ".certificate"
+CERTIFICATE_SUFFIX = ".certificate"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Halved(Result):
-    """What the halving of a box found. It is not verified: :func:`check_certificate` does that.
+class BisectionResult(Result):
+    """Result of bisecting a box. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         proved, undecided: Exact parts of the box.
@@ -52,12 +52,12 @@ class Halved(Result):
         Raises:
             StoreError: The file cannot be written.
         """
-        return written(self.document, Path(file))
+        return write_document(self.document, Path(file))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Proof(Halved):
-    """What the prover found for a claim. It is not verified: :func:`check_certificate` does that.
+class Proof(BisectionResult):
+    """Result of the prover for a reach claim. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.
@@ -68,18 +68,18 @@ class Proof(Halved):
     claim: ReachClaim
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the claim and the result of the search as sentences."""
         return [
             verifier.qualify_claim(self.document["claim"], self.proved),
-            f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)}, "
-            f"undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
+            f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)}, "
+            f"undecided {verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
 
 
-class InParts(Result):
-    """What the searches for the parts of a claim found. It is not verified: :func:`check_certificate` does that."""
+class CompositeResult(Result):
+    """Results of the searches for the parts of a claim. They are not verified: :func:`check_certificate` does that."""
 
     __slots__ = ()
     parts: tuple[Any, ...]
@@ -91,22 +91,22 @@ class InParts(Result):
 
     @property
     def proved(self) -> Fraction:
-        """Exact share that is proved, of the part of which least is."""
+        """Exact proved fraction of the part with the smallest one."""
         return Fraction(min(part.proved for part in self.parts))
 
     @property
     def undecided(self) -> Fraction:
-        """The rest of it."""
+        """Exact fraction of that part that is not proved."""
         return 1 - self.proved
 
     @property
     def leaves(self) -> int:
-        """Cells that are proved."""
+        """Number of proved cells."""
         return sum(part.leaves for part in self.parts)
 
     @property
     def nodes(self) -> int:
-        """Cells that were looked at."""
+        """Number of examined cells."""
         return sum(part.nodes for part in self.parts)
 
     @property
@@ -116,13 +116,13 @@ class InParts(Result):
 
     @property
     def seconds(self) -> float:
-        """Measured."""
+        """Measured time, s."""
         return float(sum(part.seconds for part in self.parts))
 
 
 @dataclass(frozen=True, kw_only=True)
-class TolerantProof(InParts):
-    """What the prover found for a failure-tolerant box. It is not verified: :func:`check_certificate` does that.
+class TolerantProof(CompositeResult):
+    """Result of the prover for a failure-tolerant box. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.
@@ -134,32 +134,32 @@ class TolerantProof(InParts):
 
     @property
     def worst(self) -> Proof:
-        """The part of which most is undecided."""
+        """The part with the largest undecided fraction."""
         return max(self.parts, key=lambda part: part.undecided)
 
     @cached_property
     def tolerant(self) -> Fraction:
-        """At least this share of the targets is proved while healthy, and for every lock at every locked angle."""
-        count = len(self.claim.box)
-        unproved = {cell[:count] for part in self.parts for cell in documents.undecided(part.document)}
-        return 1 - verifier.covered(unproved, [verifier.MOST_STEPS])
+        """Lower bound of the fraction of targets that is proved while healthy, and for every lock at every locked angle."""
+        axis_count = len(self.claim.box)
+        unproved = {cell[:axis_count] for part in self.parts for cell in documents.find_undecided_cells(part.document)}
+        return 1 - verifier.compute_covered_volume(unproved, [verifier.MAX_COVER_STEPS])
 
     def named(self, part: Proof) -> str:
-        """``healthy``, or the joint that locks in a part."""
+        """Return ``healthy``, or the name of the joint that locks in a part."""
         return "healthy" if part.claim.locked < 0 else self.claim.arm.joint_names[part.claim.locked]
 
     def document(self, stem: str = "tolerant") -> dict[str, Any]:
-        """The certificate that names those of its parts, as its file holds it."""
+        """Return the certificate that lists its parts, as its file contains it."""
         parts = [part.document for part in self.parts]
-        return documents.bundle(self.claim, parts, self.parts.index(self.worst), self._names(stem))
+        return documents.build_bundle_document(self.claim, parts, self.parts.index(self.worst), self._part_files(stem))
 
-    def _names(self, stem: str) -> list[str]:
-        """Files of the parts; joints by their number, as their names may hold anything."""
-        locks = [part.claim.locked + 1 for part in self.parts]
-        return [f"{stem}-{f'lock-of-joint-{k}' if k else 'healthy'}{SUFFIX}" for k in locks]
+    def _part_files(self, stem: str) -> list[str]:
+        """Return the file names of the parts; they contain joint numbers because joint names may contain any character."""
+        joint_numbers = [part.claim.locked + 1 for part in self.parts]
+        return [f"{stem}-{f'lock-of-joint-{number}' if number else 'healthy'}{CERTIFICATE_SUFFIX}" for number in joint_numbers]
 
     def write(self, file: str | Path) -> Path:
-        """Write the certificate, and those of its parts beside it.
+        """Write the certificate, and those of its parts next to it.
 
         Args:
             file: The file; a folder, which is made if need be and gets ``tolerant.certificate``; or an archive of these
@@ -173,47 +173,49 @@ class TolerantProof(InParts):
         """
         path = Path(file)
         if path.suffix == ".zip":
-            return self._archived(path)
+            return self._write_archive(path)
         if path.is_dir() or not path.suffix:
-            path = made(path) / f"tolerant{SUFFIX}"
+            path = make_folder(path) / f"tolerant{CERTIFICATE_SUFFIX}"
         stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem).lstrip("-") or "tolerant"
-        for part, name in zip(self.parts, self._names(stem), strict=True):
+        for part, name in zip(self.parts, self._part_files(stem), strict=True):
             part.write(path.with_name(name))
-        return written(self.document(stem), path)
+        return write_document(self.document(stem), path)
 
-    def _archived(self, path: Path) -> Path:
-        """One file, the bundle first; the same parts make the same bytes."""
-        names, packed = ["tolerant" + SUFFIX, *self._names("tolerant")], BytesIO()
-        with ZipFile(packed, "w", ZIP_DEFLATED) as archive:
+    def _write_archive(self, path: Path) -> Path:
+        """Write one archive with the bundle first; equal parts give equal bytes."""
+        names, buffer = ["tolerant" + CERTIFICATE_SUFFIX, *self._part_files("tolerant")], BytesIO()
+        with ZipFile(buffer, "w", ZIP_DEFLATED) as archive:
             for name, document in zip(names, [self.document(), *(part.document for part in self.parts)], strict=True):
-                archive.writestr(ZipInfo(name), encoded(document), ZIP_DEFLATED, 9)
-        replaced(path, packed.getvalue(), "certificate")
+                archive.writestr(ZipInfo(name), encode_document(document), ZIP_DEFLATED, 9)
+        replace_file(path, buffer.getvalue(), "certificate")
         return path
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the claim and the result of the search as sentences."""
         worst = "the healthy arm" if self.worst.claim.locked < 0 else f"a lock of {self.named(self.worst)}"
-        most = "" if self.ok else f", at most, with {worst}"
+        qualifier = "" if self.ok else f", at most, with {worst}"
         return [
             verifier.qualify_claim(self.document()["claim"], self.tolerant),
-            f"Found by the prover, not yet verified: whatever locks, proved {verifier.per_cent(self.tolerant)} of the targets "
-            f"at least; undecided {verifier.per_cent(self.undecided, up=True)}{most}{early(self.finished)}.",
+            f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of "
+            f"the targets "
+            f"at least; undecided "
+            f"{verifier.format_percent(self.undecided, up=True)}{qualifier}{format_early_stop(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]
 
 
-def early(finished: bool) -> str:
-    """What is said of a search that ended early."""
+def format_early_stop(finished: bool) -> str:
+    """Return the note about a search that was stopped early, or an empty string."""
     return "" if finished else "; the search was stopped before the smallest cells were reached"
 
 
-def written(document: dict[str, Any], path: Path) -> Path:
-    """The file of a certificate."""
-    replaced(path, encoded(document), "certificate")
+def write_document(document: dict[str, Any], path: Path) -> Path:
+    """Write a certificate and return its path."""
+    replace_file(path, encode_document(document), "certificate")
     return path
 
 
-def encoded(document: dict[str, Any]) -> bytes:
-    """What the file of a certificate holds."""
+def encode_document(document: dict[str, Any]) -> bytes:
+    """Return the file content of a certificate."""
     return (json.dumps(document, sort_keys=True, indent=1) + "\n").encode()

@@ -1,4 +1,4 @@
-"""The search for proofs: one for each part of a claim."""
+"""Search for proofs, one for each part of a claim."""
 
 from __future__ import annotations
 
@@ -8,29 +8,29 @@ from typing import TypedDict, Unpack, overload
 
 import numpy as np
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.certificates import documents, structure
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
-from holdfast.certificates.crew import Effort, Stop
-from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, bounded
-from holdfast.certificates.joint_boxes.refutations import Refutation, refuted
+from holdfast.certificates.crew import SearchBudget, StopCheck
+from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, prove_manipulability_bound
+from holdfast.certificates.joint_boxes.refutations import Refutation, prove_out_of_reach
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
-from holdfast.certificates.target_boxes.jobs import Found, Job
+from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
 from holdfast.certificates.tool_paths import proof as motions
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.proof import PathProof
-from holdfast.certificates.tree import SearchState, Tell, undecided
-from holdfast.engine.memory import Memory
+from holdfast.certificates.tree import SearchState, StateCallback, compute_undecided
+from holdfast.engine.memory import SearchMemory
 from holdfast.errors import InputError
-from holdfast.notice import Progress, says
+from holdfast.notice import Progress, reports_progress
 
-_FINE = 10_000  # of which progress is told: ten thousandths of all parts
+_PROGRESS_STEPS = 10_000  # of which progress is told: ten thousandths of all parts
 
 
-class How(TypedDict, total=False):
-    """Arguments of :func:`certify`."""
+class CertifyOptions(TypedDict, total=False):
+    """Options of :func:`certify`."""
 
     halvings: int | None
     time_limit: float | None
@@ -38,24 +38,24 @@ class How(TypedDict, total=False):
     workers: int
     store: str | Path | None
     progress: Progress | None
-    state: Tell | None
-    stop: Stop
+    state: StateCallback | None
+    stop: StopCheck
 
 
 @overload
-def certify(claim: ReachClaim, **how: Unpack[How]) -> Proof: ...
+def certify(claim: ReachClaim, **how: Unpack[CertifyOptions]) -> Proof: ...
 @overload
-def certify(claim: TolerantClaim, **how: Unpack[How]) -> TolerantProof: ...
+def certify(claim: TolerantClaim, **how: Unpack[CertifyOptions]) -> TolerantProof: ...
 @overload
-def certify(claim: OutOfReachClaim, **how: Unpack[How]) -> Refutation: ...
+def certify(claim: OutOfReachClaim, **how: Unpack[CertifyOptions]) -> Refutation: ...
 @overload
-def certify(claim: BoundClaim, **how: Unpack[How]) -> ManipulabilityBound: ...
+def certify(claim: BoundClaim, **how: Unpack[CertifyOptions]) -> ManipulabilityBound: ...
 @overload
-def certify(claim: StructuralZeroClaim, **how: Unpack[How]) -> StructuralZero: ...
+def certify(claim: StructuralZeroClaim, **how: Unpack[CertifyOptions]) -> StructuralZero: ...
 @overload
-def certify(claim: PathClaim, **how: Unpack[How]) -> PathProof: ...
-@checked
-@says("searching for a proof")
+def certify(claim: PathClaim, **how: Unpack[CertifyOptions]) -> PathProof: ...
+@check_arguments
+@reports_progress("searching for a proof")
 def certify(
     claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
     *,
@@ -65,10 +65,11 @@ def certify(
     workers: int = 1,
     store: str | Path | None = None,
     progress: Progress | None = None,
-    state: Tell | None = None,
-    stop: Stop = lambda: False,
+    state: StateCallback | None = None,
+    stop: StopCheck = lambda: False,
 ) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero | PathProof:
-    """Prove as much of a claim as can be: cells of targets and locked angles are halved until one configuration does for each.
+    """Prove as much of a claim as possible by bisecting cells of targets and locked angles until one configuration proves each
+    cell.
 
     That nothing of a box is reached is proved by halving the box of configurations with that of the targets, until distances
     tell each of them apart; or refuted by a configuration that is found in it. A ceiling of relative manipulability is proved
@@ -110,48 +111,53 @@ def certify(
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
-    end = np.inf if time_limit is None else monotonic() + time_limit
+    deadline = np.inf if time_limit is None else monotonic() + time_limit
 
-    count = len(claim.parts) if isinstance(claim, TolerantClaim) else 1
+    part_count = len(claim.parts) if isinstance(claim, TolerantClaim) else 1
 
-    def tell(now: SearchState) -> None:
-        done = int(_FINE * count * (1 - now.open))
-        if progress is not None and done:
-            progress(done, _FINE * count)
+    def report_state(current: SearchState) -> None:
+        decided = int(_PROGRESS_STEPS * part_count * (1 - current.open))
+        if progress is not None and decided:
+            progress(decided, _PROGRESS_STEPS * part_count)
         if state is not None:
-            state(now)
+            state(current)
 
     if workers < 1:
         raise InputError(f"workers is {workers}; it must be 1 or more")
     if isinstance(claim, StructuralZeroClaim):
-        return structure.proved(claim)
+        return structure.prove_structural_zero(claim)
     if not isinstance(claim, ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | PathClaim):
         raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
-    asked = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
-    plan = {"kind": "certify", "claims": [documents.said(one) for one in asked], "halvings": halvings, "seed": seed}
-    memory = None if store is None else Memory(store, plan)
-    effort = Effort(end=end, stop=stop, tell=tell, workers=workers, memory=memory)
+    part_claims = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
+    plan = {
+        "kind": "certify",
+        "claims": [documents.format_claim(part_claim) for part_claim in part_claims],
+        "halvings": halvings,
+        "seed": seed,
+    }
+    memory = None if store is None else SearchMemory(store, plan)
+    budget = SearchBudget(deadline=deadline, should_stop=stop, report_state=report_state, workers=workers, memory=memory)
     if isinstance(claim, OutOfReachClaim):
-        return refuted(claim, halvings, seed, effort)
+        return prove_out_of_reach(claim, halvings, seed, budget)
     if isinstance(claim, PathClaim):
-        return motions.proved(claim, halvings, effort)
+        return motions.prove_path(claim, halvings, budget)
     if isinstance(claim, BoundClaim):
-        return bounded(claim, halvings, seed, effort)
+        return prove_manipulability_bound(claim, halvings, seed, budget)
     parts = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
-    found = effort.found([Job(part, halvings, seed, k) for k, part in enumerate(parts)])
-    proofs = tuple(_proof(*pair) for pair in zip(parts, found, strict=True))
+    results = budget.run_jobs([TargetBoxJob(part, halvings, seed, index) for index, part in enumerate(parts)])
+    proofs = tuple(_build_proof(*pair) for pair in zip(parts, results, strict=True))
     return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]
 
 
-def _proof(claim: ReachClaim, found: Found) -> Proof:
-    rest = undecided(found.tree)
+def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
+    remainder = compute_undecided(result.tree)
     return Proof(
         claim=claim,
-        proved=1 - rest,
-        undecided=rest,
-        leaves=len(found.centres),
-        nodes=found.nodes,
-        finished=found.finished,
-        seconds=found.seconds,
-        document=documents.reach(claim, found, rest),
+        proved=1 - remainder,
+        undecided=remainder,
+        leaves=len(result.centers),
+        nodes=result.nodes,
+        finished=result.finished,
+        seconds=result.seconds,
+        document=documents.build_reach_document(claim, result, remainder),
     )

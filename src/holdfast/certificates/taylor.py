@@ -1,4 +1,4 @@
-"""The Taylor form of a reach: which boxes of targets and locked angles one configuration proves.
+"""The Taylor form of a reach: the boxes of targets and locked angles that one configuration proves.
 
 Around a configuration the free joints follow the target and the locked joint along ``q = q_c + D (delta, s)``, and
 ``s -> s - g`` maps a box of corrections into itself where the bound ``e(S)`` of what is left of the error is at most S: by
@@ -14,22 +14,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.certificates.expansions import PARTS, Expansion
+from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
-UNIT = 2.0**-24  # rad: centres are written in multiples of it
-_STEPS = 40  # of tests, each of several rounds
-_LOST = 1e6  # m: the error where the arm is singular
-_NEVER = 1e6  # rad or m, for a limit that is not there
-_FAR = 5.0  # m: a slide without limits is not tried beyond
+CENTER_UNIT = 2.0**-24  # rad: centres are written in multiples of it
+_MAX_TEST_STEPS = 40  # of tests, each of several rounds
+_SINGULAR_ERROR = 1e6  # m: the error where the arm is singular
+_NO_LIMIT = 1e6  # rad or m, for a limit that is not there
+_MAX_SLIDE_M = 5.0  # m: a slide without limits is not tried beyond
 
 
 @dataclass(frozen=True, eq=False)
-class Chain:
-    """Joints about or along the z axes of their frames, as a certificate writes them.
+class CertificateChain:
+    """Joints about or along the z axes of their frames, in the form that certificates contain.
 
     Attributes:
         rotations: (n + 1, 3, 3) of each joint's frame in the one before, the tool's last.
@@ -44,38 +44,40 @@ class Chain:
     slides: Flags
 
     @classmethod
-    def of(cls, arm: Arm) -> Chain:
-        """An arm's, its frames turned so that every axis is z, its base in the first of them."""
-        frames, back = [], np.eye(4)
+    def from_arm(cls, arm: Arm) -> CertificateChain:
+        """Build the chain of an arm, with frames rotated so that every axis is z and the base included in the first frame."""
+        frames, from_axis = [], np.eye(4)
         for joint in arm.joints:
             to_axis = np.eye(4)
-            across = np.linalg.svd(joint.axis[None])[2][1]
-            to_axis[:3, :3] = np.column_stack([across, np.cross(joint.axis, across), joint.axis])
-            frames.append(back @ joint.origin @ to_axis)
-            back = to_axis.T
+            perpendicular = np.linalg.svd(joint.axis[None])[2][1]
+            to_axis[:3, :3] = np.column_stack([perpendicular, np.cross(joint.axis, perpendicular), joint.axis])
+            frames.append(from_axis @ joint.origin @ to_axis)
+            from_axis = to_axis.T
         frames[0] = arm.base @ frames[0]
-        frames.append(back @ arm.tool)
-        rotations, origins = np.array([f[:3, :3] for f in frames]), np.array([f[:3, 3] for f in frames])
+        frames.append(from_axis @ arm.tool)
+        rotations, origins = np.array([frame[:3, :3] for frame in frames]), np.array([frame[:3, 3] for frame in frames])
         links, slides = [], [*arm.prismatic, True]
-        for k in range(arm.n):
-            link = origins[k + 1] * [1, 1, slides[k]]
-            if not slides[k + 1]:
-                link = link + rotations[k + 1] @ [0, 0, origins[k + 2][2]]
+        for index in range(arm.n):
+            link = origins[index + 1] * [1, 1, slides[index]]
+            if not slides[index + 1]:
+                link = link + rotations[index + 1] @ [0, 0, origins[index + 2][2]]
             links.append(float(np.linalg.norm(link)))
         return cls(rotations, origins, np.array(links), arm.prismatic)
 
-    def nearest(self, k: int) -> tuple[float, float] | None:
-        """Where the axes of joint k and the next are nearest to each other: heights on them, m; None if they are parallel."""
-        turn, place = self.rotations[k + 1][:, 2], self.origins[k + 1]
-        across = turn[:2] @ turn[:2]
-        if across < 1e-12:
+    def find_closest_heights(self, k: int) -> tuple[float, float] | None:
+        """Return the heights, m, on the axes of joint k and the next joint at which these axes are closest; None if they are
+        parallel.
+        """
+        direction, origin = self.rotations[k + 1][:, 2], self.origins[k + 1]
+        squared_sine = direction[:2] @ direction[:2]
+        if squared_sine < 1e-12:
             return None
-        along = -(place[:2] @ turn[:2]) / across
-        return float(place[2] + along * turn[2]), float(along)
+        height = -(origin[:2] @ direction[:2]) / squared_sine
+        return float(origin[2] + height * direction[2]), float(height)
 
 
-class Reach:
-    """Configurations that put the tool somewhere, one joint locked or none.
+class ReachSolver:
+    """Solver for configurations that put the tool at a target, with one joint locked or none.
 
     Args:
         arm: The arm.
@@ -97,150 +99,175 @@ class Reach:
     ) -> None:
         self.arm, self.locked, self.limits = arm, locked, limits
         self.n = arm.n
-        at = np.arange(self.n) == locked
-        self.still = ~at & (limits[:, 0] == limits[:, 1])
-        self.free = ~at & ~self.still
+        locked_mask = np.arange(self.n) == locked
+        self.fixed = ~locked_mask & (limits[:, 0] == limits[:, 1])
+        self.free = ~locked_mask & ~self.fixed
         self.slides = arm.prismatic
         turning = {"pose": 3, "planar-pose": 1}.get(task, 0) if rotation is None else 0
-        self.expansion = Expansion(arm, task, turning, _lengths(arm, task), self.slides)
-        self.m, self.rotated = self.expansion.m, self.expansion.rotated
+        self.expansion = ToolExpansion(arm, task, turning, _link_lengths(arm, task), self.slides)
+        self.m, self.uses_rotation = self.expansion.m, self.expansion.uses_rotation
         self.axes, self.linear = self.expansion.axes, self.expansion.linear
         self._rotation = np.empty(0) if rotation is None else np.asarray(rotation).ravel()
-        self._free, self._at = self.free.astype(float), at.astype(float)
-        held = 0.0 if angle is None else float(np.abs(angle).max())
-        self._held = self.slides * at * held
-        self._limits = np.clip(limits.T, -_NEVER, _NEVER)
+        self._free, self._locked_mask = self.free.astype(float), locked_mask.astype(float)
+        slide_extent = 0.0 if angle is None else float(np.abs(angle).max())
+        self._slide_extent = self.slides * locked_mask * slide_extent
+        self._limits = np.clip(limits.T, -_NO_LIMIT, _NO_LIMIT)
 
     @property
-    def swing(self) -> float:
-        """By how many m the locked joint moves the tool at most, for each rad or m."""
+    def max_lock_displacement(self) -> float:
+        """Largest displacement of the tool, m, for each rad or m of the locked joint."""
         if self.slides[self.locked]:
             return 1.0
-        return float(self.expansion.lengths.sum() + np.abs(self.spans[self.slides]).max(axis=1).sum())
+        return float(self.expansion.lengths.sum() + np.abs(self.sampling_limits[self.slides]).max(axis=1).sum())
 
     @property
-    def spans(self) -> Array:
-        """(n, 2) rad and m, limits where there are any, and all that is worth a try where there are none."""
-        most = np.where(self.slides, _FAR, np.pi)[:, None]
-        return np.clip(self.limits, -most, most)
+    def sampling_limits(self) -> Array:
+        """(n, 2) rad and m, the limits, and default sampling ranges for joints without limits."""
+        range_limits = np.where(self.slides, _MAX_SLIDE_M, np.pi)[:, None]
+        return np.clip(self.limits, -range_limits, range_limits)
 
     @property
-    def redundant(self) -> bool:
-        """Whether joints may move while the tool does not."""
+    def is_redundant(self) -> bool:
+        """True if the joints can move while the tool stays in place."""
         return bool(self.free.sum() > self.m)
 
-    def placed(self, q: Array, at: Array) -> Array:
-        """Configurations (N, n) with the locked joint where targets and locked angles (N, A) say, others being still."""
-        q = np.where(self.still, self.limits[:, 0], q)
+    def set_fixed_joints(self, q: Array, coordinates: Array) -> Array:
+        """Return configurations (N, n) with the locked joint at the value in ``coordinates`` (N, A), targets and locked angles,
+        and fixed joints at their limits.
+        """
+        q = np.where(self.fixed, self.limits[:, 0], q)
         if self.locked >= 0:
-            q[:, self.locked] = at[:, -1]
+            q[:, self.locked] = coordinates[:, -1]
         return q
 
-    def given(self, targets: Array) -> Array:
-        """Targets (N, axes) as the kernels take them."""
+    def encode_targets(self, targets: Array) -> Array:
+        """Return targets (N, axes) in the form that the kernels take."""
         return np.concatenate([targets, np.tile(self._rotation, (len(targets), 1))], axis=1)
 
-    def missed(self, q: Array, targets: Array) -> Array:
-        """(N, 2) m from the tool at q (N, n) to targets (N, axes), and by how much it is turned away, rad."""
-        return self.expansion.missed.rows(q, self.given(targets))
+    def measure_pose_error(self, q: Array, targets: Array) -> Array:
+        """Return the position error, m, and the orientation error, rad, of the tool at q (N, n) for targets (N, axes), as (N,
+        2).
+        """
+        return self.expansion.distance_kernel.rows(q, self.encode_targets(targets))
 
-    def solved(self, q: Array, targets: Array, rounds: int = 8, error: Array | None = None) -> Array:
-        """Newton from q (N, n) towards targets (N, axes), or an error (N, m), on the free joints, kept within the limits."""
-        missed = np.zeros((len(q), self.m)) if error is None else error
-        fixed = np.tile(np.concatenate([self._free, *self._limits]), (len(q), 1))
-        given = np.concatenate([self.given(targets), missed, fixed], axis=1)
-        return self.expansion.newton.run(q, given, 1e-26, rounds).state
+    def solve_targets(self, q: Array, targets: Array, rounds: int = 8, error: Array | None = None) -> Array:
+        """Run Newton's method from q (N, n) towards targets (N, axes), or an error (N, m), on the free joints, within the
+        limits.
+        """
+        target_error = np.zeros((len(q), self.m)) if error is None else error
+        fixed_inputs = np.tile(np.concatenate([self._free, *self._limits]), (len(q), 1))
+        parameters = np.concatenate([self.encode_targets(targets), target_error, fixed_inputs], axis=1)
+        return self.expansion.newton_loop.run(q, parameters, 1e-26, rounds).state
 
-    def along(self, q: Array, moves: Array) -> Array:
-        """Of moves (N, n) at q (N, n), what keeps the tool where it is, to first order."""
-        return self.expansion.along.rows(q, moves, self._free)
+    def project_self_motion(self, q: Array, moves: Array) -> Array:
+        """Return the part of moves (N, n) at q (N, n) that keeps the tool in place, to first order."""
+        return self.expansion.self_motion_kernel.rows(q, moves, self._free)
 
 
-def _lengths(arm: Arm, task: str) -> Array:
-    """(n,) m, of what joints turn; in the plane heights count nothing."""
-    chain = Chain.of(arm)
+def _link_lengths(arm: Arm, task: str) -> Array:
+    """Return the (n,) lengths, m, that the joints rotate; heights do not count in the plane."""
+    chain = CertificateChain.from_arm(arm)
     if task != "planar-pose":
         return chain.lengths
     return np.asarray(np.linalg.norm(chain.origins[1:, :2], axis=1))
 
 
 @dataclass(frozen=True, eq=False)
-class Form:
-    """The Taylor forms at configurations, N of them.
+class TaylorForm:
+    """Taylor forms at N configurations.
 
     Attributes:
         reach: Whose.
         q: (N, n) centres, rad.
-        parts: (N, p), see :class:`holdfast.certificates.expansions.Expansion`; NaN where the arm is singular.
+        coefficients: (N, p), see :class:`holdfast.certificates.expansions.ToolExpansion`; NaN where the arm is singular.
     """
 
-    reach: Reach
+    reach: ReachSolver
     q: Array
-    parts: Array
+    coefficients: Array
 
     @classmethod
-    def at(cls, reach: Reach, q: Array, targets: Array) -> Form:
-        """Around q (N, n) for targets (N, axes) in the middle."""
-        return cls(reach, q, reach.expansion.form.rows(q, reach.given(targets), reach._free, reach._at, reach._held))
+    def expand_at(cls, reach: ReachSolver, q: Array, targets: Array) -> TaylorForm:
+        """Build the forms around q (N, n) for targets (N, axes) in the middle of their cells."""
+        return cls(
+            reach,
+            q,
+            reach.expansion.form_kernel.rows(
+                q, reach.encode_targets(targets), reach._free, reach._locked_mask, reach._slide_extent
+            ),
+        )
 
     @property
     def error(self) -> Array:
-        """(N, m) m, and of rotations the axial part, of the tool at the centres."""
-        return self.parts[:, : self.reach.m]
+        """(N, m) error of the tool at the centers: m, and the axial part of rotations."""
+        return self.coefficients[:, : self.reach.m]
 
-    def take(self, which: NDArray[np.intp] | Flags) -> Form:
-        """Of some rows."""
-        return Form(self.reach, self.q[which], self.parts[which])
+    def select(self, rows: NDArray[np.intp] | Flags) -> TaylorForm:
+        """Return the forms of some rows."""
+        return TaylorForm(self.reach, self.q[rows], self.coefficients[rows])
 
-    def sides(self, cells: Array, sections: Array) -> tuple[Array, Array, Array]:
-        """How far the error less s may be above and below 0 (N, m), and how far joints go (N, n), for half widths of both."""
-        above, below, far = self.reach.expansion.sides(self.parts, self._whole(cells), sections)
-        return above, below, far
+    def bound_error(self, cells: Array, sections: Array) -> tuple[Array, Array, Array]:
+        """Bound the error less s above and below 0 (N, m) and the joint travel (N, n), for half widths of cells and
+        sections.
+        """
+        upper_error, lower_error, joint_travel = self.reach.expansion.bound_kernel(
+            self.coefficients, self._add_lock_axis(cells), sections
+        )
+        return upper_error, lower_error, joint_travel
 
-    def _whole(self, cells: Array) -> Array:
-        """With 0 for the angle of the lock of a healthy arm."""
+    def _add_lock_axis(self, cells: Array) -> Array:
+        """Return the cells with a lock axis of width 0 added for a healthy arm."""
         return cells if cells.shape[1] > self.reach.axes else np.concatenate([cells, np.zeros((len(cells), 1))], axis=1)
 
-    def proved(self, cells: Array) -> Flags:
-        """Which of cells of half widths (N, c) are proved."""
-        return np.asarray(self._tested(cells, np.array([PARTS - 1.0, PARTS, 1])) == PARTS)
+    def prove_cells(self, cells: Array) -> Flags:
+        """Return a mask of the cells, of half widths (N, c), that the forms prove."""
+        return np.asarray(self._test_cells(cells, np.array([CELL_WIDTH_PARTS - 1.0, CELL_WIDTH_PARTS, 1])) == CELL_WIDTH_PARTS)
 
-    def scale(self, cells: Array, least: Array | None = None) -> Array:
-        """(N,) the largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
+    def find_provable_fraction(self, cells: Array, minimum: Array | None = None) -> Array:
+        """Return the (N,) largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
 
-        ``least`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
+        ``minimum`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
         """
-        if least is None:
-            return self._tested(cells, np.array([0, PARTS / 2, PARTS / 2])) / PARTS
-        passed = PARTS * least
-        more = np.where(passed + 1 < PARTS, 2 ** np.ceil(np.log2(np.maximum(PARTS - 1 - passed, 1))), 0)
-        first = np.column_stack([passed, passed + 1, more])
-        first[passed == 0] = 0, PARTS / 2, PARTS / 2  # no test passes of cells too small for its margins
-        return self._tested(cells, first) / PARTS
+        if minimum is None:
+            return self._test_cells(cells, np.array([0, CELL_WIDTH_PARTS / 2, CELL_WIDTH_PARTS / 2])) / CELL_WIDTH_PARTS
+        passed = CELL_WIDTH_PARTS * minimum
+        increment = np.where(
+            passed + 1 < CELL_WIDTH_PARTS, 2 ** np.ceil(np.log2(np.maximum(CELL_WIDTH_PARTS - 1 - passed, 1))), 0
+        )
+        initial_state = np.column_stack([passed, passed + 1, increment])
+        initial_state[passed == 0] = (
+            0,
+            CELL_WIDTH_PARTS / 2,
+            CELL_WIDTH_PARTS / 2,
+        )  # no test passes of cells too small for its margins
+        return self._test_cells(cells, initial_state) / CELL_WIDTH_PARTS
 
-    def _tested(self, cells: Array, begin: Array) -> Array:
-        """(N,) how many sixteenths of cells pass.
+    def _test_cells(self, cells: Array, initial_state: Array) -> Array:
+        """Return the (N,) number of sixteenths of the cells' widths that pass the test.
 
-        ``begin``: How many are known to, how many are tested first, and a power of 2, twice that by which others are more.
+        ``initial_state``: How many are known to, how many are tested first, and a power of 2, twice that by which others are
+        more.
         """
-        r, (low, high) = self.reach, self.reach._limits
-        room = np.where(r.free, np.minimum(self.q - low, high - self.q), _NEVER)
-        parameters = np.concatenate([self.parts, self._whole(cells), room], axis=1)
-        state = np.zeros((len(self.q), r.m + 4))
-        state[:, r.m : r.m + 3] = begin
-        found = r.expansion.tests.run(state, parameters, 0.5, _STEPS).state
-        return np.nan_to_num(found[:, r.m])
+        reach, (lower, upper) = self.reach, self.reach._limits
+        margins = np.where(reach.free, np.minimum(self.q - lower, upper - self.q), _NO_LIMIT)
+        parameters = np.concatenate([self.coefficients, self._add_lock_axis(cells), margins], axis=1)
+        state = np.zeros((len(self.q), reach.m + 4))
+        state[:, reach.m : reach.m + 3] = initial_state
+        final_state = reach.expansion.cell_test_loop.run(state, parameters, 0.5, _MAX_TEST_STEPS).state
+        return np.nan_to_num(final_state[:, reach.m])
 
-    def worst_axis(self, cells: Array, may: Flags) -> Index:
-        """(N,) the axis among those that may (N, c) whose halving leaves least error and least beyond the limits."""
-        reach, (low, high) = self.reach, self.reach.limits.T
-        price = np.full(cells.shape, np.inf)
-        for axis in np.flatnonzero(may.any(axis=0)):
-            narrow = cells.copy()
-            narrow[:, axis] /= 2
-            above, below, _ = self.sides(narrow, np.zeros((len(cells), reach.m)))
-            e = np.nan_to_num(np.maximum(above, below), nan=_LOST)
-            _, _, far = self.sides(narrow, np.maximum(e, 0))
-            beyond = np.maximum(np.maximum(low - (self.q - far), self.q + far - high), 0) * reach.free
-            price[:, axis] = np.where(may[:, axis], e.sum(axis=1) + beyond.sum(axis=1), np.inf)
-        return np.asarray(np.where(np.isfinite(price).any(axis=1), price.argmin(axis=1), 0), dtype=np.int64)
+    def choose_split_axis(self, cells: Array, allowed: Flags) -> Index:
+        """Return the (N,) axis, among the ``allowed`` ones (N, c), whose halving leaves the smallest error and limit excess."""
+        reach, (lower, upper) = self.reach, self.reach.limits.T
+        costs = np.full(cells.shape, np.inf)
+        for axis in np.flatnonzero(allowed.any(axis=0)):
+            halved_cells = cells.copy()
+            halved_cells[:, axis] /= 2
+            upper_error, lower_error, _ = self.bound_error(halved_cells, np.zeros((len(cells), reach.m)))
+            error = np.nan_to_num(np.maximum(upper_error, lower_error), nan=_SINGULAR_ERROR)
+            _, _, joint_travel = self.bound_error(halved_cells, np.maximum(error, 0))
+            limit_excess = (
+                np.maximum(np.maximum(lower - (self.q - joint_travel), self.q + joint_travel - upper), 0) * reach.free
+            )
+            costs[:, axis] = np.where(allowed[:, axis], error.sum(axis=1) + limit_excess.sum(axis=1), np.inf)
+        return np.asarray(np.where(np.isfinite(costs).any(axis=1), costs.argmin(axis=1), 0), dtype=np.int64)

@@ -1,4 +1,4 @@
-"""Boxes halved: the tree of a search, and cells of it."""
+"""Bisection tree of a search, and batches of its cells."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-PROVED, UNDECIDED, SPLIT = 0, 2, 16  # tokens of the tree
+PROVED_TOKEN, UNDECIDED_TOKEN, SPLIT_TOKEN = 0, 2, 16  # tokens of the tree
 
 
 @dataclass(frozen=True, kw_only=True)
 class SearchState:
-    """How far a search has come.
+    """Progress of a search.
 
     Attributes:
         proved, undecided: Shares of all parts of the claim together.
@@ -35,12 +35,12 @@ class SearchState:
     warning: str = ""
 
 
-Tell = Callable[[SearchState], None]
+StateCallback = Callable[[SearchState], None]
 
 
 @dataclass
-class Cells:
-    """Cells of the root: cell k of 2^depth along each axis, and what they inherit.
+class CellBatch:
+    """Cells of the root box: index k of 2^depth along each axis, and inherited data.
 
     Attributes:
         place, depth: (N, A).
@@ -56,96 +56,100 @@ class Cells:
     barren: Index
 
     @classmethod
-    def of(cls, several: Sequence[Cells]) -> Cells:
-        """All of them."""
-        return cls(*(np.concatenate([getattr(cells, one.name) for cells in several]) for one in fields(cls)))
+    def concatenate(cls, batches: Sequence[CellBatch]) -> CellBatch:
+        """Concatenate batches of cells."""
+        return cls(*(np.concatenate([getattr(cells, field.name) for cells in batches]) for field in fields(cls)))
 
-    def take(self, which: NDArray[np.intp]) -> Cells:
-        """Some of them."""
-        return Cells(self.place[which], self.depth[which], self.name[which], self.q[which], self.barren[which])
+    def select(self, rows: NDArray[np.intp]) -> CellBatch:
+        """Return the cells of some rows."""
+        return CellBatch(self.place[rows], self.depth[rows], self.name[rows], self.q[rows], self.barren[rows])
 
     @property
-    def share(self) -> float:
-        """Of the root that they are together."""
+    def root_fraction(self) -> float:
+        """Fraction of the root box that the cells cover together."""
         return float((0.5 ** self.depth.sum(axis=1)).sum())
 
 
-class Tree:
-    """A bisection tree that grows.
+class BisectionTree:
+    """A growing bisection tree.
 
     Attributes:
-        token: Of each node: proved, undecided, or 16 and the axis that is halved.
-        below: The lower child of each node that is split; the upper one is the next.
-        centre: (n,) of each proved node, in units of 2^-24 rad.
+        tokens: Of each node: proved, undecided, or 16 and the axis that is halved.
+        lower_children: The lower child of each node that is split; the upper one is the next.
+        centers: (n,) of each proved node, in units of 2^-24 rad.
     """
 
     def __init__(self) -> None:
-        self.token: list[int] = [UNDECIDED]
-        self.below: list[int] = [0]
-        self.centre: dict[int, Index] = {}
+        self.tokens: list[int] = [UNDECIDED_TOKEN]
+        self.lower_children: list[int] = [0]
+        self.centers: dict[int, Index] = {}
 
-    def prove(self, name: int, centre: Index) -> None:
-        """A configuration does for all of this node."""
-        self.token[name], self.centre[name] = PROVED, centre
+    def mark_proved(self, node: int, center: Index) -> None:
+        """Mark a node as proved by the configuration ``center``."""
+        self.tokens[node], self.centers[node] = PROVED_TOKEN, center
 
-    def split(self, name: int, axis: int) -> int:
-        """The lower child."""
-        self.token[name], self.below[name] = SPLIT + axis, len(self.token)
-        self.token += [UNDECIDED] * 2
-        self.below += [0] * 2
-        return self.below[name]
+    def split_node(self, node: int, axis: int) -> int:
+        """Split a node along an axis and return its lower child."""
+        self.tokens[node], self.lower_children[node] = SPLIT_TOKEN + axis, len(self.tokens)
+        self.tokens += [UNDECIDED_TOKEN] * 2
+        self.lower_children += [0] * 2
+        return self.lower_children[node]
 
-    def halved(self, cells: Cells, axis: Index) -> Cells:
-        """Both halves of each cell along its axis, one after the other."""
-        below = np.array([self.split(*pair) for pair in zip(cells.name.tolist(), axis.tolist(), strict=True)], dtype=np.int64)
+    def halve_cells(self, cells: CellBatch, axis: Index) -> CellBatch:
+        """Return both halves of each cell along its axis, one after the other."""
+        children = np.array(
+            [self.split_node(*pair) for pair in zip(cells.name.tolist(), axis.tolist(), strict=True)], dtype=np.int64
+        )
         place, depth = np.repeat(cells.place, 2, axis=0), np.repeat(cells.depth, 2, axis=0)
-        rows, twice = np.arange(2 * len(axis)), np.repeat(axis, 2)
-        place[rows, twice] = 2 * place[rows, twice] + rows % 2
-        depth[rows, twice] += 1
-        return Cells(place, depth, np.repeat(below, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2))
+        rows, axes = np.arange(2 * len(axis)), np.repeat(axis, 2)
+        place[rows, axes] = 2 * place[rows, axes] + rows % 2
+        depth[rows, axes] += 1
+        return CellBatch(
+            place, depth, np.repeat(children, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2)
+        )
 
-    def whole_again(self, cells: Cells) -> Cells:
-        """Of undecided cells, two halves of one are that one, which is undecided and not halved."""
-        token, below = np.array(self.token), np.array(self.below, dtype=np.int64)
-        halved, parent = np.flatnonzero(token >= SPLIT), np.full(len(token), -1)
-        parent[below[halved]] = parent[below[halved] + 1] = halved
+    def merge_siblings(self, cells: CellBatch) -> CellBatch:
+        """Merge sibling cells that are both undecided into their parent, which becomes an undecided leaf."""
+        tokens, children = np.array(self.tokens), np.array(self.lower_children, dtype=np.int64)
+        split_nodes, parents = np.flatnonzero(tokens >= SPLIT_TOKEN), np.full(len(tokens), -1)
+        parents[children[split_nodes]] = parents[children[split_nodes] + 1] = split_nodes
         while True:
-            above = parent[cells.name]
-            names, first, count = np.unique(above, return_index=True, return_counts=True)
-            pairs = (count == 2) & (names >= 0)
-            if not pairs.any():
+            cell_parents = parents[cells.name]
+            parent_ids, first_rows, counts = np.unique(cell_parents, return_index=True, return_counts=True)
+            is_pair = (counts == 2) & (parent_ids >= 0)
+            if not is_pair.any():
                 return cells
-            one = cells.take(first[pairs])
-            axis = token[names[pairs]] - SPLIT
-            one.place[np.arange(len(axis)), axis] //= 2
-            one.depth[np.arange(len(axis)), axis] -= 1
-            one.name = names[pairs]
-            for name in one.name.tolist():
-                self.token[name] = UNDECIDED
-            cells = Cells.of([one, cells.take(np.flatnonzero(~np.isin(above, one.name)))])
+            merged = cells.select(first_rows[is_pair])
+            axis = tokens[parent_ids[is_pair]] - SPLIT_TOKEN
+            merged.place[np.arange(len(axis)), axis] //= 2
+            merged.depth[np.arange(len(axis)), axis] -= 1
+            merged.name = parent_ids[is_pair]
+            for node in merged.name.tolist():
+                self.tokens[node] = UNDECIDED_TOKEN
+            cells = CellBatch.concatenate([merged, cells.select(np.flatnonzero(~np.isin(cell_parents, merged.name)))])
 
-    def in_order(self) -> tuple[bytes, list[Index]]:
-        """Tokens in pre-order, lower half first, and the centres of the proved leaves in this order."""
-        tokens, centres, waiting = bytearray(), [], [0]
+    def to_preorder(self) -> tuple[bytes, list[Index]]:
+        """Return the tokens in pre-order, lower half first, and the centers of the proved leaves in this order."""
+        tokens, centers, waiting = bytearray(), [], [0]
         while waiting:
-            name = waiting.pop()
-            tokens.append(self.token[name])
-            if self.token[name] >= SPLIT:
-                waiting += [self.below[name] + 1, self.below[name]]
-            elif self.token[name] == PROVED:
-                centres.append(self.centre[name])
-        return bytes(tokens), centres
+            node = waiting.pop()
+            tokens.append(self.tokens[node])
+            if self.tokens[node] >= SPLIT_TOKEN:
+                waiting += [self.lower_children[node] + 1, self.lower_children[node]]
+            elif self.tokens[node] == PROVED_TOKEN:
+                centers.append(self.centers[node])
+        return bytes(tokens), centers
 
 
-def undecided(tokens: bytes) -> Fraction:
-    """Exact share of a tree in pre-order that is undecided."""
+def compute_undecided(tokens: bytes) -> Fraction:
+    """Return the exact undecided fraction of a tree in pre-order."""
     counts, depth, waiting = dict[int, int](), 0, list[int]()
     for token in tokens:
-        if token >= SPLIT:
+        if token >= SPLIT_TOKEN:
             depth += 1
             waiting.append(depth)
             continue
-        if token == UNDECIDED:
+        if token == UNDECIDED_TOKEN:
             counts[depth] = counts.get(depth, 0) + 1
         depth = waiting.pop() if waiting else 0
     return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))

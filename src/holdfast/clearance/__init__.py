@@ -1,4 +1,4 @@
-"""How far an arm is from colliding with itself: capsules on its links and the distances between them."""
+"""Clearance of an arm from itself and its cell: capsules on its links and the distances between them."""
 
 from holdfast._lazy import offer
 

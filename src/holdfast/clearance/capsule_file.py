@@ -1,4 +1,4 @@
-"""Reading the YAML files of :mod:`holdfast.clearance.capsules`; apart from it, as what checks them takes long to import."""
+"""Reader of the YAML files of :mod:`holdfast.clearance.capsules`, separate because the validation is slow to import."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError
 
 from holdfast.errors import ArmError
-from holdfast.files.yaml import Number, Strict, Three, content, sentence
+from holdfast.files.yaml import Number, Strict, Three, describe_error, read_mapping
 
 Positive = Annotated[Number, Field(gt=0)]
 
 
-class Entry(Strict):
+class CapsuleEntry(Strict):
     """A capsule of a link."""
 
     start: Three = Field(alias="from")
@@ -21,34 +21,34 @@ class Entry(Strict):
     radius: Positive | None = None
 
 
-class File(Strict):
-    """A file's keys and values, links by name."""
+class CapsuleFile(Strict):
+    """Keys and values of a capsule file, links by name."""
 
     radius: Positive | None = None
-    links: dict[str, list[Entry]] | None = None
+    links: dict[str, list[CapsuleEntry]] | None = None
     ignore: list[Annotated[list[str], Field(min_length=2, max_length=2)]] = Field(default_factory=list)
     source: str = ""
 
 
-def read(path: Path) -> dict[str, Any]:
-    """The keys and values in a file, not checked yet.
+def read_capsule_file(path: Path) -> dict[str, Any]:
+    """Read the keys and values of a file without validation.
 
     Raises:
         InputError: It cannot be read or is not YAML.
     """
-    return content(path, "holdfast.clearance.capsules", "radius or links")
+    return read_mapping(path, "holdfast.clearance.capsules", "radius or links")
 
 
-def parse(data: dict[str, Any]) -> File:
-    """What a file's keys and values say.
+def parse_capsules(data: dict[str, Any]) -> CapsuleFile:
+    """Validate the keys and values of a capsule file.
 
     Raises:
         ArmError: A key is unknown, missing or wrong.
     """
     try:
-        model = File.model_validate(data)
+        model = CapsuleFile.model_validate(data)
     except ValidationError as error:
-        raise ArmError(sentence(error, File)) from error
+        raise ArmError(describe_error(error, CapsuleFile)) from error
     if model.radius is None and model.links is None:
         raise ArmError("it gives neither radius nor links, so there are no capsules; give one of them")
     return model

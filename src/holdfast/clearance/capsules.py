@@ -31,26 +31,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError, InputError
 
 if TYPE_CHECKING:
-    from holdfast.clearance.capsule_file import Entry
-    from holdfast.clearance.shape import Shape
+    from holdfast.clearance.capsule_file import CapsuleEntry
+    from holdfast.clearance.shape import CollisionModel
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]
 
-BASE = -1
+BASE_LINK = -1
 """The link that is still, in ``Capsule.link``."""
 
-COVER = "cover of the collision shapes of "
+COVER_PREFIX = "cover of the collision shapes of "
 """How ``source`` begins of capsules that were made to contain the shapes of a file."""
 
-_SHARE = 1 / 20  # default radius over the sum of the link lengths: an assumption
-_NUMBERED = re.compile(r" \(\d+\)$")
-_POINT = 1e-9  # m: a link shorter than this has no length
+_RADIUS_FRACTION = 1 / 20  # default radius over the sum of the link lengths: an assumption
+_NUMBER_SUFFIX = re.compile(r" \(\d+\)$")
+_POINT_LENGTH_M = 1e-9  # m: a link shorter than this has no length
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Capsule:
     radius: float
 
     def __post_init__(self) -> None:
-        if self.link < BASE:
+        if self.link < BASE_LINK:
             raise ArmError(f"a capsule sits on link {self.link}; give -1 for the base or the index of a joint from 0")
         for name in ("start", "end"):
             point = np.asarray(getattr(self, name), dtype=np.float64)
@@ -87,13 +87,13 @@ class Capsule:
 
     @property
     def length(self) -> float:
-        """Length of its axis, m; 0 for a sphere."""
+        """Length of the axis, m; 0 for a sphere."""
         return float(np.linalg.norm(np.subtract(self.end, self.start)))
 
 
 @dataclass(frozen=True)
 class Capsules:
-    """The shape of an arm, for collisions with itself.
+    """Collision model of an arm for collisions with itself.
 
     Attributes:
         parts: Any number per link.
@@ -108,20 +108,23 @@ class Capsules:
     ignore: tuple[tuple[int, int], ...] = ()
     apart: tuple[tuple[int, int], ...] = field(default=(), kw_only=True)
     source: str = field(default="", compare=False, kw_only=True)
-    shape: Shape | None = field(default=None, compare=False, repr=False, kw_only=True)
+    shape: CollisionModel | None = field(default=None, compare=False, repr=False, kw_only=True)
     held: int = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", tuple(self.parts))
-        if any(not 0 <= k < len(self.parts) for pair in self.apart for k in pair):
+        if any(not 0 <= index < len(self.parts) for pair in self.apart for index in pair):
             raise ArmError(f"apart names a capsule by number; there are 0 to {len(self.parts) - 1}")
-        apart, ignore = _ordered(self.apart), _ordered(self.ignore)
+        apart, ignore = _order_pairs(self.apart), _order_pairs(self.ignore)
         # Links of which no two capsules are checked are a pair of links, as files have it.
-        for pair in {_ordered([(self.parts[a].link, self.parts[b].link)])[0] for a, b in apart}:
-            one, other = ([k for k, part in enumerate(self.parts) if part.link == link] for link in pair)
-            every = _ordered(product(one, other))
-            if set(every) <= set(apart):
-                ignore, apart = _ordered([*ignore, pair]), tuple(x for x in apart if x not in every)
+        for pair in {_order_pairs([(self.parts[first].link, self.parts[second].link)])[0] for first, second in apart}:
+            first_parts, second_parts = ([index for index, part in enumerate(self.parts) if part.link == link] for link in pair)
+            all_pairs = _order_pairs(product(first_parts, second_parts))
+            if set(all_pairs) <= set(apart):
+                ignore, apart = (
+                    _order_pairs([*ignore, pair]),
+                    tuple(part_pair for part_pair in apart if part_pair not in all_pairs),
+                )
         object.__setattr__(self, "ignore", ignore)
         object.__setattr__(self, "apart", apart)
 
@@ -132,9 +135,9 @@ class Capsules:
         return len(self.parts)
 
     @classmethod
-    @checked
+    @check_arguments
     def along(cls, arm: Arm, radius: float | None = None) -> Capsules:
-        """One capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
+        """Make one capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
 
         The base reaches from its own frame to the first joint. A link of no length lies within the round end of its
         neighbour and has none, except on a prismatic joint, which takes it away from there: that gets a sphere. The rod on
@@ -150,117 +153,125 @@ class Capsules:
         """
         assumed = assumed_radius(arm)
         width = assumed if radius is None else radius
-        return cls(tuple(part for link in range(BASE, arm.n) for part in along_link(arm, link, width)))
+        return cls(tuple(part for link in range(BASE_LINK, arm.n) for part in capsule_along_link(arm, link, width)))
 
     @property
     def own(self) -> Capsules:
-        """Those of the arm itself, without what it holds."""
+        """Capsules of the arm itself, without those of held objects."""
         return replace(self, parts=self.parts[: len(self.parts) - self.held], held=0) if self.held else self
 
     def radius_along(self, arm: Arm) -> float | None:
-        """The radius, m, if the arm's own are the capsules of :meth:`along` and nothing is ignored; else None."""
+        """Return the radius, m, if the arm's own capsules are those of :meth:`along` and nothing is ignored; else None."""
         radius = self.parts[0].radius if self.parts else None
-        same = radius is not None and np.linalg.norm(_ends(arm)) >= _POINT and self.own == Capsules.along(arm, radius)
-        return radius if same else None
+        is_default = (
+            radius is not None
+            and np.linalg.norm(_link_ends(arm)) >= _POINT_LENGTH_M
+            and self.own == Capsules.along(arm, radius)
+        )
+        return radius if is_default else None
 
     @property
     def covers(self) -> bool:
-        """True if they were made to contain the collision shapes of a file; see :func:`holdfast.clearance.cover.cover_of`."""
-        return self.source.startswith(COVER)
+        """True if the capsules contain the collision shapes of a file; see :func:`holdfast.clearance.cover.make_cover`."""
+        return self.source.startswith(COVER_PREFIX)
 
     def assumed(self, arm: Arm) -> bool:
-        """True if the radius along the links is the one that :meth:`along` assumes."""
+        """Return True if the radius along the links is the one that :meth:`along` assumes."""
         radius = self.radius_along(arm)
         return radius is not None and radius == assumed_radius(arm)
 
     def describe(self, arm: Arm) -> str:
-        """What they are and where they come from, for people."""
-        own = len(self) - self.held
+        """Describe the capsules and their source."""
+        own_count = len(self) - self.held
         radius = self.radius_along(arm)
-        text = f"{own} capsule{'' if own == 1 else 's'}, as given"
+        text = f"{own_count} capsule{'' if own_count == 1 else 's'}, as given"
         if radius is not None:
             text = f"{'assumed' if self.assumed(arm) else 'given'} radius {radius:.3g} m along each link"
-        held = f"; {self.held} more about what is held" if self.held else ""
-        return (self.source or text) + held
+        held_phrase = f"; {self.held} more about what is held" if self.held else ""
+        return (self.source or text) + held_phrase
 
     @classmethod
-    @checked
+    @check_arguments
     def load(cls, path: str | Path, arm: Arm) -> Capsules:
-        """The capsules in a YAML file; see :mod:`holdfast.clearance.capsules`.
+        """Read the capsules in a YAML file; see :mod:`holdfast.clearance.capsules`.
 
         Raises:
             ArmError: The file cannot be read, or an entry is wrong or names no link of the arm; the sentence says where.
         """
-        from holdfast.clearance.capsule_file import read
+        from holdfast.clearance.capsule_file import read_capsule_file
 
         try:
-            return cls.from_dict(read(Path(path)), arm)
+            return cls.from_dict(read_capsule_file(Path(path)), arm)
         except (ArmError, InputError) as error:
             raise ArmError(f"capsule file '{Path(path)}': {error}") from error
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], arm: Arm) -> Capsules:
-        """The capsules that :meth:`to_dict` wrote, or those of a file's keys and values.
+        """Make the capsules that :meth:`to_dict` wrote, or those of a file's keys and values.
 
         Raises:
             ArmError: An entry is wrong or names no link of the arm; the sentence says where.
         """
-        from holdfast.clearance.capsule_file import parse
+        from holdfast.clearance.capsule_file import parse_capsules
 
-        told = parse(data)
-        named = {_link(arm, name, "links"): (name, entries) for name, entries in (told.links or {}).items()}
+        data_model = parse_capsules(data)
+        named = {_link_index(arm, name, "links"): (name, entries) for name, entries in (data_model.links or {}).items()}
         parts: list[Capsule] = []
-        for link in range(BASE, arm.n):
+        for link in range(BASE_LINK, arm.n):
             if link in named:
                 name, entries = named[link]
-                parts += [_part(link, e, told.radius, f"links.{name}[{k}]") for k, e in enumerate(entries)]
-            elif told.radius is not None:
-                parts += along_link(arm, link, told.radius)
-        labels = [cls(tuple(parts)).label(arm, k) for k in range(len(parts))]
+                parts += [
+                    _make_capsule(link, entry, data_model.radius, f"links.{name}[{index}]")
+                    for index, entry in enumerate(entries)
+                ]
+            elif data_model.radius is not None:
+                parts += capsule_along_link(arm, link, data_model.radius)
+        labels = [cls(tuple(parts)).label(arm, index) for index in range(len(parts))]
         links: list[tuple[int, int]] = []
         apart: list[tuple[int, int]] = []
-        for k, (a, b) in enumerate(told.ignore):
-            if any(_NUMBERED.search(name) and name in labels for name in (a, b)):
-                several = [
-                    [i for i, label in enumerate(labels) if name in (label, _NUMBERED.sub("", label))] for name in (a, b)
+        for index, (first, second) in enumerate(data_model.ignore):
+            if any(_NUMBER_SUFFIX.search(name) and name in labels for name in (first, second)):
+                matches = [
+                    [position for position, label in enumerate(labels) if name in (label, _NUMBER_SUFFIX.sub("", label))]
+                    for name in (first, second)
                 ]
-                if not all(several):
-                    raise ArmError(f"ignore[{k}]: '{a}' or '{b}' is no capsule here; they are {', '.join(labels)}")
-                apart += product(several[0], several[1])
+                if not all(matches):
+                    raise ArmError(f"ignore[{index}]: '{first}' or '{second}' is no capsule here; they are {', '.join(labels)}")
+                apart += product(matches[0], matches[1])
             else:
-                links.append((_link(arm, a, f"ignore[{k}]"), _link(arm, b, f"ignore[{k}]")))
-        return cls(tuple(parts), tuple(links), apart=tuple(apart), source=told.source)
+                links.append((_link_index(arm, first, f"ignore[{index}]"), _link_index(arm, second, f"ignore[{index}]")))
+        return cls(tuple(parts), tuple(links), apart=tuple(apart), source=data_model.source)
 
     def to_dict(self, arm: Arm) -> dict[str, Any]:
-        """Everything of the arm itself as JSON types, links by name: a file's keys and values."""
+        """Return the arm's own capsules as JSON types, links by name: a file's keys and values."""
         if self.held:
             return self.own.to_dict(arm)
         links: dict[str, list[dict[str, Any]]] = {}
         for part in self.parts:
             entry = {"from": list(part.start), "to": list(part.end), "radius": part.radius}
             links.setdefault(link_name(arm, part.link), []).append(entry)
-        told = {"source": self.source} if self.source else {}
-        ignore = [[link_name(arm, a), link_name(arm, b)] for a, b in self.ignore]
-        ignore += [[self.label(arm, a), self.label(arm, b)] for a, b in self.apart]
-        return {"links": links, "ignore": ignore, **told}
+        source_entry = {"source": self.source} if self.source else {}
+        ignore = [[link_name(arm, first), link_name(arm, second)] for first, second in self.ignore]
+        ignore += [[self.label(arm, first), self.label(arm, second)] for first, second in self.apart]
+        return {"links": links, "ignore": ignore, **source_entry}
 
     def label(self, arm: Arm, part: int) -> str:
-        """The link of a capsule, by position in ``parts``, with the number of the capsule where the link has several."""
-        links = [p.link for p in self.parts]
+        """Return the link of a capsule, by position in ``parts``, with the number of the capsule where the link has several."""
+        links = [capsule.link for capsule in self.parts]
         name = link_name(arm, links[part])
         return name if links.count(links[part]) == 1 else f"{name} ({links[: part + 1].count(links[part])})"
 
 
 def assumed_radius(arm: Arm) -> float:
-    """The radius, m, of :meth:`Capsules.along` where none is given.
+    """Return the radius, m, of :meth:`Capsules.along` where none is given.
 
     Raises:
         ArmError: The arm has no length.
     """
-    total = sum(float(np.linalg.norm(end)) for end in _ends(arm))
-    if total < _POINT:
+    total = sum(float(np.linalg.norm(end)) for end in _link_ends(arm))
+    if total < _POINT_LENGTH_M:
         raise ArmError(f"the links of '{arm.name}' have no length, so no capsule lies along them; give its capsules")
-    return _SHARE * total
+    return _RADIUS_FRACTION * total
 
 
 @dataclass(frozen=True)
@@ -279,46 +290,46 @@ class IgnoredPair:
 
 
 def link_name(arm: Arm, link: int) -> str:
-    """``base``, or the name of the joint that moves the link."""
-    return "base" if link == BASE else arm.joint_names[link]
+    """Return ``base``, or the name of the joint that moves the link."""
+    return "base" if link == BASE_LINK else arm.joint_names[link]
 
 
-def _link(arm: Arm, name: str, place: str) -> int:
+def _link_index(arm: Arm, name: str, key_path: str) -> int:
     if name == "base":
         if name in arm.joint_names:
-            raise ArmError(f"{place}: 'base' is the base here, but '{arm.name}' also has a joint 'base'; rename the joint")
-        return BASE
+            raise ArmError(f"{key_path}: 'base' is the base here, but '{arm.name}' also has a joint 'base'; rename the joint")
+        return BASE_LINK
     if name not in arm.joint_names:
-        raise ArmError(f"{place}: '{arm.name}' has no link '{name}'; its links are base, {', '.join(arm.joint_names)}")
+        raise ArmError(f"{key_path}: '{arm.name}' has no link '{name}'; its links are base, {', '.join(arm.joint_names)}")
     return arm.joint_names.index(name)
 
 
-def _part(link: int, entry: Entry, radius: float | None, place: str) -> Capsule:
-    own = radius if entry.radius is None else entry.radius
-    if own is None:
-        raise ArmError(f"{place}.radius: it is missing; give it here or for the whole file")
-    return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), radius=own)
+def _make_capsule(link: int, entry: CapsuleEntry, radius: float | None, key_path: str) -> Capsule:
+    own_radius = radius if entry.radius is None else entry.radius
+    if own_radius is None:
+        raise ArmError(f"{key_path}.radius: it is missing; give it here or for the whole file")
+    return Capsule(link, _to_point(entry.start), _to_point(entry.start if entry.to is None else entry.to), radius=own_radius)
 
 
-def _ordered(pairs: Iterable[tuple[int, int]]) -> tuple[tuple[int, int], ...]:
-    return tuple(sorted({(min(a, b), max(a, b)) for a, b in pairs}))
+def _order_pairs(pairs: Iterable[tuple[int, int]]) -> tuple[tuple[int, int], ...]:
+    return tuple(sorted({(min(first, second), max(first, second)) for first, second in pairs}))
 
 
-def _point(values: list[float] | Array) -> Point:
-    """Three plain numbers."""
-    x, y, z = (float(v) for v in values)
+def _to_point(values: list[float] | Array) -> Point:
+    """Convert to three plain numbers."""
+    x, y, z = (float(value) for value in values)
     return x, y, z
 
 
-def _ends(arm: Arm) -> list[Array]:
-    """Where each link ends, (3,) in its own frame: the base first."""
+def _link_ends(arm: Arm) -> list[Array]:
+    """Return the end of each link, (3,) in its own frame, the base first."""
     return [joint.origin[:3, 3] for joint in arm.joints] + [arm.tool[:3, 3]]
 
 
-def along_link(arm: Arm, link: int, radius: float) -> list[Capsule]:
-    """The capsule of :meth:`Capsules.along` for one link, if it has one."""
-    end = _ends(arm)[link + 1]
-    if np.linalg.norm(end) >= _POINT:
-        return [Capsule(link, (0.0, 0.0, 0.0), _point(end), radius=radius)]
-    slides = link != BASE and arm.joints[link].prismatic
-    return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius=radius)] if slides else []
+def capsule_along_link(arm: Arm, link: int, radius: float) -> list[Capsule]:
+    """Return the capsule of :meth:`Capsules.along` for one link, if it has one."""
+    end = _link_ends(arm)[link + 1]
+    if np.linalg.norm(end) >= _POINT_LENGTH_M:
+        return [Capsule(link, (0.0, 0.0, 0.0), _to_point(end), radius=radius)]
+    is_prismatic = link != BASE_LINK and arm.joints[link].prismatic
+    return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius=radius)] if is_prismatic else []

@@ -1,4 +1,4 @@
-"""What a cell is like before anything is computed in it: what touches whom, and how sharply its objects are seen."""
+"""Check of a cell before any computation: contacts with the arm, and the resolution of the object distances."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.cell.cell import Cell, as_cell
-from holdfast.cell.meshes import Gridded, Mesh, Points
+from holdfast.cell.meshes import GriddedSolid, Mesh, Points
 from holdfast.cell.solids import Solid
-from holdfast.clearance.chains import spheres_of
+from holdfast.clearance.chains import make_sphere_cover
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.obstacles import Obstacles, base_gaps
-from holdfast.probability.sobol_sequence import sobol
+from holdfast.clearance.obstacles import Obstacles, base_distances
+from holdfast.probability.sobol_sequence import sobol_points
 from holdfast.result import Result
-from holdfast.words import counted, percent
+from holdfast.words import format_count, format_percent
 
-SAMPLES = 512  # configurations
+CHECKED_CONFIGURATIONS = 512  # configurations
 
 
 @dataclass(frozen=True, kw_only=True)
 class CheckedObject:
-    """An object of a cell, as a check finds it.
+    """An object of a cell, as found by a check.
 
     Attributes:
         name: Its name.
@@ -50,7 +50,7 @@ class CheckedObject:
 
 @dataclass(frozen=True, kw_only=True)
 class CellCheck(Result):
-    """What a check of a cell finds.
+    """Result of the check of a cell.
 
     Attributes:
         cell: Its name.
@@ -80,33 +80,33 @@ class CellCheck(Result):
 
     @property
     def ok(self) -> bool:
-        """Nothing touches the base, and no pair touches always."""
+        """True if nothing touches the base, and no pair always touches."""
         return not self.base and not self.always
 
     def describe(self) -> list[str]:
-        """What touches, and what the bound is of."""
-        told = [f"cell '{self.cell}' has {counted(len(self.objects), 'object')}"]
+        """Describe the contacts and the cover that the bound uses."""
+        sentences = [f"cell '{self.cell}' has {format_count(len(self.objects), 'object')}"]
         if not self.arm:
-            return [*told, "give an arm to see what it touches"]
+            return [*sentences, "give an arm to see what it touches"]
         if self.base:
-            told.append(
+            sentences.append(
                 f"the base of '{self.arm}' touches {', '.join(self.base)}; if it is mounted there, put it into may_touch"
             )
         if self.always:
-            told.append(f"in all of {self.samples} configurations these touch: {', '.join(self.always)}; see may_touch")
-        told.append(
-            f"{percent(self.colliding)} of {self.samples} configurations within the limits touch an object, by the bound"
+            sentences.append(f"in all of {self.samples} configurations these touch: {', '.join(self.always)}; see may_touch")
+        sentences.append(
+            f"{format_percent(self.colliding)} of {self.samples} configurations within the limits touch an object, by the bound"
         )
-        told.append(
-            f"{counted(self.spheres, 'sphere')} cover the moving links of '{self.arm}' ({self.shape}) and reach up to "
+        sentences.append(
+            f"{format_count(self.spheres, 'sphere')} cover the moving links of '{self.arm}' ({self.shape}) and reach up to "
             f"{1000 * self.reach:.3g} mm beyond its capsules"
         )
-        return told
+        return sentences
 
 
-@checked
+@check_arguments
 def check_cell(cell: Cell | str | Path, arm: Arm | None = None, *, clearance: Clearance | None = None) -> CellCheck:
-    """What touches in a cell, and how sharply its objects are seen.
+    """Check a cell for contacts, and for the resolution of its object distances.
 
     Args:
         cell: The cell or its file.
@@ -116,53 +116,67 @@ def check_cell(cell: Cell | str | Path, arm: Arm | None = None, *, clearance: Cl
     Raises:
         InputError: The cell cannot be read, or ``may_touch`` names nothing of it or of the arm.
     """
-    found = as_cell(cell)
-    assert found is not None
+    loaded_cell = as_cell(cell)
+    assert loaded_cell is not None
     if arm is None:
-        seen = [_object(found, solid, float("nan")) for solid in found]
-        found.require_unchanged()
-        return CellCheck(cell=found.name, digest=found.digest, objects=tuple(seen))
-    given = Clearance(arm) if clearance is None else clearance
-    gaps = zip(found, base_gaps(arm, spheres_of(given.capsules), found), strict=True)
-    base = [x.name for x, gap in gaps if gap < found.margin_of(x) and (x.name, "base") not in found.may_touch]
-    open_ = replace(found, may_touch=[*found.may_touch, *((name, "base") for name in base)])
-    obstacles = Obstacles(arm, given.capsules, open_)
-    low, high = finite_limits(arm)
-    touches = obstacles.distances(low + (high - low) * sobol(SAMPLES, arm.n)) < 0
-    by_object = touches.reshape(SAMPLES, -1, len(found)).any(axis=1).mean(axis=0) if len(found) else np.zeros(0)
-    seen = [_object(found, solid, float(share)) for solid, share in zip(found, by_object, strict=True)]
-    found.require_unchanged()
-    balls, parts = obstacles.balls, np.array([part.radius for part in given.capsules])
-    moving = balls.link >= 0
+        checked_objects = [_check_object(loaded_cell, solid, float("nan")) for solid in loaded_cell]
+        loaded_cell.require_unchanged()
+        return CellCheck(cell=loaded_cell.name, digest=loaded_cell.digest, objects=tuple(checked_objects))
+    resolved_clearance = Clearance(arm) if clearance is None else clearance
+    gaps = zip(loaded_cell, base_distances(arm, make_sphere_cover(resolved_clearance.capsules), loaded_cell), strict=True)
+    base_contacts = [
+        checked_solid.name
+        for checked_solid, gap in gaps
+        if gap < loaded_cell.margin_of(checked_solid) and (checked_solid.name, "base") not in loaded_cell.may_touch
+    ]
+    open_cell = replace(loaded_cell, may_touch=[*loaded_cell.may_touch, *((name, "base") for name in base_contacts)])
+    obstacles = Obstacles(arm, resolved_clearance.capsules, open_cell)
+    lower, upper = finite_limits(arm)
+    touches = obstacles.pair_distances(lower + (upper - lower) * sobol_points(CHECKED_CONFIGURATIONS, arm.n)) < 0
+    by_object = (
+        touches.reshape(CHECKED_CONFIGURATIONS, -1, len(loaded_cell)).any(axis=1).mean(axis=0)
+        if len(loaded_cell)
+        else np.zeros(0)
+    )
+    checked_objects = [
+        _check_object(loaded_cell, solid, float(fraction)) for solid, fraction in zip(loaded_cell, by_object, strict=True)
+    ]
+    loaded_cell.require_unchanged()
+    spheres, capsule_radii = obstacles.spheres, np.array([part.radius for part in resolved_clearance.capsules])
+    moving = spheres.link >= 0
     return CellCheck(
-        cell=found.name,
-        digest=found.digest,
+        cell=loaded_cell.name,
+        digest=loaded_cell.digest,
         arm=arm.name,
-        objects=tuple(seen),
-        base=tuple(base),
-        always=tuple(name for name, each in zip(obstacles.names, np.asarray(touches.all(axis=0)), strict=True) if each),
+        objects=tuple(checked_objects),
+        base=tuple(base_contacts),
+        always=tuple(
+            name
+            for name, always_touches in zip(obstacles.names, np.asarray(touches.all(axis=0)), strict=True)
+            if always_touches
+        ),
         colliding=float(touches.any(axis=1).mean()),
-        samples=SAMPLES,
+        samples=CHECKED_CONFIGURATIONS,
         spheres=int(moving.sum()),
-        reach=float((balls.radius - parts[balls.part])[moving].max(initial=0.0)),
-        shape=given.capsules.describe(arm),
+        reach=float((spheres.radius - capsule_radii[spheres.part])[moving].max(initial=0.0)),
+        shape=resolved_clearance.capsules.describe(arm),
     )
 
 
-def _object(cell: Cell, solid: Solid, touching: float) -> CheckedObject:
+def _check_object(cell: Cell, solid: Solid, touching: float) -> CheckedObject:
     kind = {"HalfSpace": "half space", "Points": "point cloud"}.get(type(solid).__name__, type(solid).__name__.lower())
-    grid, parts = solid.field if isinstance(solid, Gridded) else None, 0
+    distance_field, part_count = solid.field if isinstance(solid, GriddedSolid) else None, 0
     if isinstance(solid, Mesh):
-        kind, parts = "mesh" if solid.solid == "exact" else "hull", len(solid.surface.faces)
+        kind, part_count = "mesh" if solid.solid == "exact" else "hull", len(solid.surface.faces)
     elif isinstance(solid, Points):
-        parts = len(solid.centres)
+        part_count = len(solid.centres)
     source = cell.sources.get(solid.name)
     return CheckedObject(
         name=solid.name,
         kind=kind,
-        parts=parts,
-        width=0.0 if grid is None else grid.grid.width,
-        excess=0.0 if grid is None else 2 * grid.excess,
+        parts=part_count,
+        width=0.0 if distance_field is None else distance_field.grid.width,
+        excess=0.0 if distance_field is None else 2 * distance_field.max_underestimate,
         margin=cell.margin_of(solid),
         touching=touching,
         file=() if source is None else (str(source.path), source.sha256),

@@ -1,4 +1,4 @@
-"""How fast distances on an arm can change: bounds from lengths alone, for proofs about whole motions."""
+"""Bounds of how fast distances on an arm can change, from lengths alone, for proofs about whole motions."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ Array = NDArray[np.float64]
 Pairs = NDArray[np.int64]
 
 
-def changes_between(arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], low: Array, high: Array) -> Array:
-    """(P, n) bounds of how much the distance of each pair of capsules changes per rad and m of each joint.
+def pair_lipschitz_bounds(arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], lower: Array, upper: Array) -> Array:
+    """Bound how much the distance of each pair of capsules changes per rad and m of each joint, (P, n).
 
     A joint between the two links of a pair turns one capsule about an axis that the other does not feel, so the distance
     changes by no more than the farthest point of either capsule from that axis, per rad; by 1 m per m along a slide. The
@@ -23,42 +23,53 @@ def changes_between(arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], 
         arm: The arm.
         capsules: Its shape.
         pairs: Positions in ``capsules.parts``, the capsule nearer to the base first.
-        low: (n,) lower corner of the box, finite, rad and m.
-        high: (n,) upper corner.
+        lower: (n,) lower corner of the box, finite, rad and m.
+        upper: (n,) upper corner.
     """
-    slide, step = _lengths(arm, low, high)
+    extensions, offsets = _joint_extents(arm, lower, upper)
     bounds = np.zeros((len(pairs), arm.n))
-    for row, (a, b) in zip(bounds, pairs, strict=True):
-        first, second = capsules.parts[a], capsules.parts[b]
-        far = [max(float(np.linalg.norm(x)) for x in (part.start, part.end)) for part in (first, second)]
-        for k in range(first.link + 1, second.link + 1):
+    for pair_bounds, (first_index, second_index) in zip(bounds, pairs, strict=True):
+        first, second = capsules.parts[first_index], capsules.parts[second_index]
+        end_distances = [
+            max(float(np.linalg.norm(end_point)) for end_point in (part.start, part.end)) for part in (first, second)
+        ]
+        for joint in range(first.link + 1, second.link + 1):
             # Outwards from axis k to the second capsule; inwards from it to the first.
-            outward = slide[k] + step[k + 1 : second.link + 1].sum() + slide[k + 1 : second.link + 1].sum() + far[1]
-            inward = step[first.link + 1 : k + 1].sum() + slide[first.link + 1 : k].sum() + far[0]
-            row[k] = 1.0 if arm.prismatic[k] else min(outward, inward)
+            outward = (
+                extensions[joint]
+                + offsets[joint + 1 : second.link + 1].sum()
+                + extensions[joint + 1 : second.link + 1].sum()
+                + end_distances[1]
+            )
+            inward = offsets[first.link + 1 : joint + 1].sum() + extensions[first.link + 1 : joint].sum() + end_distances[0]
+            pair_bounds[joint] = 1.0 if arm.prismatic[joint] else min(outward, inward)
     return bounds
 
 
-def changes_from_outside(arm: Arm, links: Pairs, far: Array, low: Array, high: Array) -> Array:
-    """(L, n) as :func:`changes_between`, of the distances between links and what does not move.
+def link_lipschitz_bounds(arm: Arm, links: Pairs, max_distances: Array, lower: Array, upper: Array) -> Array:
+    """Bound as :func:`pair_lipschitz_bounds` the distances between links and fixed objects, (L, n).
 
     Args:
         arm: The arm.
         links: (L,) by the joint that moves each, from 0.
-        far: (L,) farthest centre of the spheres of each link from its own frame, m.
-        low: (n,) lower corner of the box, finite, rad and m.
-        high: (n,) upper corner.
+        max_distances: (L,) farthest centre of the spheres of each link from its own frame, m.
+        lower: (n,) lower corner of the box, finite, rad and m.
+        upper: (n,) upper corner.
     """
-    slide, step = _lengths(arm, low, high)
+    extensions, offsets = _joint_extents(arm, lower, upper)
     bounds = np.zeros((len(links), arm.n))
-    for row, link, most in zip(bounds, links, far, strict=True):
-        for k in range(link + 1):
-            outward = slide[k] + step[k + 1 : link + 1].sum() + slide[k + 1 : link + 1].sum() + most
-            row[k] = 1.0 if arm.prismatic[k] else outward
+    for link_bounds, link, max_distance in zip(bounds, links, max_distances, strict=True):
+        for joint in range(link + 1):
+            outward = (
+                extensions[joint] + offsets[joint + 1 : link + 1].sum() + extensions[joint + 1 : link + 1].sum() + max_distance
+            )
+            link_bounds[joint] = 1.0 if arm.prismatic[joint] else outward
     return bounds
 
 
-def _lengths(arm: Arm, low: Array, high: Array) -> tuple[Array, Array]:
-    """(n,) how far each slide can be out, and how far each joint's frame is from that of the joint before, m."""
-    slide = np.where(arm.prismatic, np.maximum(np.abs(low), np.abs(high)), 0.0)
-    return slide, np.array([float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints])
+def _joint_extents(arm: Arm, lower: Array, upper: Array) -> tuple[Array, Array]:
+    """Return the largest extension (n,) of each prismatic joint, and the distance of each joint's frame from the previous one,
+    m.
+    """
+    extensions = np.where(arm.prismatic, np.maximum(np.abs(lower), np.abs(upper)), 0.0)
+    return extensions, np.array([float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints])

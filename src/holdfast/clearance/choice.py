@@ -1,4 +1,4 @@
-"""What ``clearance=`` and ``cell=`` mean together, for every function that takes them."""
+"""Resolution of the arguments ``clearance=`` and ``cell=`` for every function that takes them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.cell.cell import Cell, as_cell
 from holdfast.clearance.capsules import Capsules
@@ -14,17 +14,17 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
-    from holdfast.clearance.shape import Shape
+    from holdfast.clearance.shape import CollisionModel
 
 CellLike = Cell | str | Path
 """A cell, or the file that holds it."""
 
 
-@checked
+@check_arguments
 def chosen_clearance(
     arm: Arm, clearance: Clearance | bool | None = None, cell: CellLike | None = None, *, looks: bool = True
 ) -> Clearance | None:
-    """What an arm is to be kept clear of, or None for nothing.
+    """Return the clearance that an arm must respect, or None for none.
 
     Args:
         arm: The arm.
@@ -39,33 +39,34 @@ def chosen_clearance(
     """
     if isinstance(clearance, Clearance) and clearance.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the clearance belongs to '{clearance.arm.name}', not to '{arm.name}'; make it with the same arm")
-    around = as_cell(cell)
+    loaded_cell = as_cell(cell)
     if isinstance(clearance, Clearance):
-        if around is None or (clearance.cell is not None and around.digest == clearance.cell.digest):
+        if loaded_cell is None or (clearance.cell is not None and loaded_cell.digest == clearance.cell.digest):
             return clearance
         if clearance.cell is not None:
             raise InputError(
-                f"the clearance holds the cell '{clearance.cell.name}' and cell is '{around.name}'; give the cell in one place"
+                f"the clearance holds the cell '{clearance.cell.name}' and cell is '{loaded_cell.name}'; give the cell "
+                f"in one place"
             )
-        return clearance.with_cell(around)
+        return clearance.with_cell(loaded_cell)
     if clearance is None:
-        return Clearance.by_default(arm, around) if looks or around is not None else None
-    return Clearance(arm, cell=around, itself=clearance) if clearance or around is not None else None
+        return Clearance.by_default(arm, loaded_cell) if looks or loaded_cell is not None else None
+    return Clearance(arm, cell=loaded_cell, itself=clearance) if clearance or loaded_cell is not None else None
 
 
-def stored(clearance: Clearance, margin: float = 0.0) -> dict[str, Any]:
-    """A clearance, and the margin kept in m, as JSON data: ``clearance`` and, around the arm, ``cell``."""
+def encode_clearance(clearance: Clearance, margin: float = 0.0) -> dict[str, Any]:
+    """Return a clearance, and the margin in m, as JSON data: ``clearance`` and, around the arm, ``cell``."""
     data: dict[str, Any] = {"clearance": {"capsules": clearance.capsules.to_dict(clearance.arm), "margin": margin}}
     if not clearance.itself:
         data["clearance"]["itself"] = False
     if clearance.cell is not None:
-        around = clearance.cell
-        data["cell"] = {"name": around.name, "sha256": around.digest, "data": around.to_dict()}
+        cell = clearance.cell
+        data["cell"] = {"name": cell.name, "sha256": cell.digest, "data": cell.to_dict()}
     return data
 
 
-def from_stored(arm: Arm, data: dict[str, Any], shape: Shape | None = None) -> Clearance | None:
-    """What :func:`stored` made of a clearance; None if the data hold none.
+def decode_clearance(arm: Arm, data: dict[str, Any], shape: CollisionModel | None = None) -> Clearance | None:
+    """Make the clearance that :func:`encode_clearance` encoded; None if the data contain none.
 
     Args:
         arm: The arm.
@@ -75,13 +76,13 @@ def from_stored(arm: Arm, data: dict[str, Any], shape: Shape | None = None) -> C
     Raises:
         InputError: A file that the cell names is gone, or not as it was.
     """
-    apart, around = data.get("clearance"), data.get("cell")
-    if apart is None:
+    stored_clearance, stored_cell = data.get("clearance"), data.get("cell")
+    if stored_clearance is None:
         return None
-    cell = None if around is None else Cell.from_dict(around["data"])
-    if cell is not None and around is not None:
-        formerly = cell.digest_with(around["data"].get("arm", {}).get("shape", ""))
-        if around["sha256"] != formerly and around["sha256"] != cell.digest:
+    cell = None if stored_cell is None else Cell.from_dict(stored_cell["data"])
+    if cell is not None and stored_cell is not None:
+        former_digest = cell.digest_with(stored_cell["data"].get("arm", {}).get("shape", ""))
+        if stored_cell["sha256"] != former_digest and stored_cell["sha256"] != cell.digest:
             raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file that it names changed")
-    capsules = replace(Capsules.from_dict(apart["capsules"], arm), shape=shape)
-    return Clearance(arm, capsules, cell, itself=apart.get("itself", True))
+    capsules = replace(Capsules.from_dict(stored_clearance["capsules"], arm), shape=shape)
+    return Clearance(arm, capsules, cell, itself=stored_clearance.get("itself", True))

@@ -18,33 +18,33 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
-from holdfast.arms.builtin import DATA
+from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.cell import solids
 from holdfast.cell.cell import Cell
 from holdfast.cell.solids import Solid
-from holdfast.clearance.capsules import COVER, Capsule, Capsules, along_link, assumed_radius, link_name
-from holdfast.clearance.enclosing import capsule_about, directions, main_axes
-from holdfast.clearance.shape import Shape, corners, hull_of
+from holdfast.clearance.capsules import COVER_PREFIX, Capsule, Capsules, assumed_radius, capsule_along_link, link_name
+from holdfast.clearance.enclosing import enclosing_capsule, main_axes, sphere_directions
+from holdfast.clearance.shape import CollisionModel, corner_points, make_hull
 from holdfast.errors import ArmError, InputError
-from holdfast.kernels.recall import recalled_data
+from holdfast.kernels.recall import cached_json
 from holdfast.shapes.pieces import Kind, Piece
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 
-SPHERES_TO = 0.01  # m
-_DIRECTIONS = 600  # in which two bodies are compared
-_CUTS = 3  # one after the other: at most 8 parts of a body
-_WORTH = 0.85  # of what a body had: a cut that leaves more is not made
-_SAMPLES = 2000  # points of a surface
-_JOINED = 12  # bodies of one link, at most, that are tried in pairs
+MAX_MEAN_EXCESS_M = 0.01  # m
+_COMPARED_DIRECTIONS = 600  # in which two bodies are compared
+_MAX_CUTS = 3  # one after the other: at most 8 parts of a body
+_CUT_GAIN_FRACTION = 0.85  # of what a body had: a cut that leaves more is not made
+_SURFACE_POINTS = 2000  # points of a surface
+_MAX_MERGED_BODIES = 12  # bodies of one link, at most, that are tried in pairs
 
 
-@checked
-def cover_of(shape: Shape, arm: Arm, spheres_to: float = SPHERES_TO) -> Capsules:
-    """Capsules that contain every piece of a shape; where a piece could not be read, those assumed along that link besides.
+@check_arguments
+def make_cover(shape: CollisionModel, arm: Arm, spheres_to: float = MAX_MEAN_EXCESS_M) -> Capsules:
+    """Make capsules that contain every piece of a shape, and assumed capsules along links with a piece that could not be read.
 
     Args:
         shape: What collides of the arm.
@@ -60,46 +60,51 @@ def cover_of(shape: Shape, arm: Arm, spheres_to: float = SPHERES_TO) -> Capsules
     """
     if not (np.isfinite(spheres_to) and spheres_to > 0):
         raise InputError(f"spheres_to is {spheres_to:g} m; it must be finite and above 0")
-    ready = _ready() if spheres_to == SPHERES_TO else {}
-    rows, mean, most = ready.get(shape.digest) or fitted(shape, spheres_to)
-    made = [(Capsule(link, start, end, radius=radius), owners) for link, start, end, radius, owners in rows]
+    built_in = _load_built_in_covers() if spheres_to == MAX_MEAN_EXCESS_M else {}
+    rows, mean_excess, max_excess = built_in.get(shape.digest) or fit_capsules(shape, spheres_to)
+    capsules = [(Capsule(link, start, end, radius=radius), owners) for link, start, end, radius, owners in rows]
     for link in sorted({item.link for item in shape.missing}):
-        made += [(part, []) for part in along_link(arm, link, assumed_radius(arm))]
-    made.sort(key=lambda item: item[0].link)
-    apart = [
-        (a, b)
-        for (a, (one, of)), (b, (other, of_other)) in combinations(enumerate(made), 2)
-        if one.link != other.link and _unchecked(shape, of, of_other)
+        capsules += [(part, []) for part in capsule_along_link(arm, link, assumed_radius(arm))]
+    capsules.sort(key=lambda item: item[0].link)
+    unchecked_pairs = [
+        (first, second)
+        for (first, (first_capsule, first_owners)), (second, (second_capsule, second_owners)) in combinations(
+            enumerate(capsules), 2
+        )
+        if first_capsule.link != second_capsule.link and _is_unchecked(shape, first_owners, second_owners)
     ]
-    told = _told(shape, arm, len(rows), mean, most)
-    return Capsules(tuple(part for part, _ in made), apart=tuple(apart), source=told, shape=shape)
+    source = _describe_cover(shape, arm, len(rows), mean_excess, max_excess)
+    return Capsules(tuple(part for part, _ in capsules), apart=tuple(unchecked_pairs), source=source, shape=shape)
 
 
 @cache
-def _ready() -> dict[str, Any]:
-    """What :func:`fitted` gave for the shapes of built-in arms, by their digests: ``python -m tools.covers`` writes it."""
-    return dict(json.loads((DATA / "covers.json").read_text()))
+def _load_built_in_covers() -> dict[str, Any]:
+    """Return the results of :func:`fit_capsules` for built-in arms, by digest; ``python -m tools.covers`` writes them."""
+    return dict(json.loads((DATA_FOLDER / "covers.json").read_text()))
 
 
-def _unchecked(shape: Shape, owners: list[str], others: list[str]) -> bool:
-    """Whether no link that one capsule is about is to be checked against one that the other is about."""
-    pairs = [(min(a, b), max(a, b)) for a in owners for b in others]
+def _is_unchecked(shape: CollisionModel, owners: list[str], others: list[str]) -> bool:
+    """Return True if no link that one capsule covers is to be checked against one that the other covers."""
+    pairs = [(min(first, second), max(first, second)) for first in owners for second in others]
     return bool(pairs) and shape.unchecked.issuperset(pairs)
 
 
-def _told(shape: Shape, arm: Arm, count: int, mean: float, most: float) -> str:
+def _describe_cover(shape: CollisionModel, arm: Arm, count: int, mean_excess: float, max_excess: float) -> str:
     capsules = f"{count} capsule{'' if count == 1 else 's'}"
-    text = f"{COVER}{shape.source}: {capsules}, {1e3 * mean:.0f} mm beyond their hulls in the mean, {1e3 * most:.0f} mm at most"
+    text = (
+        f"{COVER_PREFIX}{shape.source}: {capsules}, {1e3 * mean_excess:.0f} mm beyond their hulls in the mean, "
+        f"{1e3 * max_excess:.0f} mm at most"
+    )
     if shape.missing:
         links = ", ".join(link_name(arm, link) for link in sorted({item.link for item in shape.missing}))
-        what = shape.missing[0].what
-        text += f"; {len(shape.missing)} not read, such as {what}: assumed capsules along {links} instead"
+        missing_name = shape.missing[0].what
+        text += f"; {len(shape.missing)} not read, such as {missing_name}: assumed capsules along {links} instead"
     return text
 
 
 @dataclass(frozen=True, eq=False)
-class _Body:
-    """Triangles of a body, and the capsule about them.
+class _CoveredBody:
+    """Triangles of a body, and the capsule around them.
 
     Attributes:
         points: (V, 3) m.
@@ -107,7 +112,7 @@ class _Body:
         owners: Links of the file that it is of.
         cuts: Unit normals (3,) and offsets, m, of the planes that cut it from a larger one.
         excess: How far the capsule reaches beyond, m in the mean.
-        most: And at most beyond the hull.
+        max_excess: And at most beyond the hull.
     """
 
     points: Array
@@ -116,156 +121,168 @@ class _Body:
     cuts: tuple[tuple[Array, float], ...]
     capsule: tuple[Array, Array, float]
     excess: float
-    most: float
+    max_excess: float
 
 
-@recalled_data
-def fitted(shape: Shape, spheres_to: float) -> Any:
-    """Link, start, end and radius of each capsule, and the links of the file that it is about; mean and largest excess, m."""
+@cached_json
+def fit_capsules(shape: CollisionModel, max_mean_excess: float) -> Any:
+    """Return link, start, end and radius of each capsule, and the file links that it covers; mean and largest excess, m."""
     rows: list[Any] = []
-    mean, most = [0.0], [0.0]
-    for link, those in groupby(shape.pieces, key=lambda p: p.link):
-        bodies: list[_Body] = []
-        for owner, owned in groupby(sorted(those, key=lambda p: p.owner), key=lambda p: p.owner):
+    mean_excesses, max_excesses = [0.0], [0.0]
+    for link, link_pieces in groupby(shape.pieces, key=lambda item: item.link):
+        bodies: list[_CoveredBody] = []
+        for owner, owned in groupby(sorted(link_pieces, key=lambda item: item.owner), key=lambda item: item.owner):
             pieces = list(owned)
-            rows += [_exact(piece) for piece in pieces if piece.kind in ("capsule", "sphere")]
-            bodies += _enough([_soup(p) for p in pieces if p.kind not in ("capsule", "sphere")], owner, spheres_to)
-        for body in _joined(bodies, spheres_to):
+            rows += [_exact_row(piece) for piece in pieces if piece.kind in ("capsule", "sphere")]
+            bodies += _cover_triangles(
+                [_piece_triangles(item) for item in pieces if item.kind not in ("capsule", "sphere")], owner, max_mean_excess
+            )
+        for body in _merge_bodies(bodies, max_mean_excess):
             start, end, radius = body.capsule
             rows.append([link, start.tolist(), end.tolist(), radius, list(body.owners)])
-            mean.append(body.excess)
-            most.append(body.most)
-    return rows, float(np.mean(mean[1:] or mean)), max(most)
+            mean_excesses.append(body.excess)
+            max_excesses.append(body.max_excess)
+    return rows, float(np.mean(mean_excesses[1:] or mean_excesses)), max(max_excesses)
 
 
-def _exact(piece: Piece) -> list[Any]:
+def _exact_row(piece: Piece) -> list[Any]:
     radius, *length = piece.size
-    ends = [(piece.pose[:3, 3] + piece.pose[:3, 2] * at / 2).tolist() for at in (-sum(length), sum(length))]
+    ends = [(piece.pose[:3, 3] + piece.pose[:3, 2] * offset / 2).tolist() for offset in (-sum(length), sum(length))]
     return [piece.link, *ends, radius, [piece.owner]]
 
 
-def _soup(piece: Piece) -> tuple[Array, Triangles]:
-    """Triangles of a piece in the frame of its link."""
+def _piece_triangles(piece: Piece) -> tuple[Array, Triangles]:
+    """Return the triangles of a piece in the frame of its link."""
     if piece.kind == "mesh":
-        return corners(piece), piece.faces
-    hull = hull_of(piece)
+        return corner_points(piece), piece.faces
+    hull = make_hull(piece)
     return hull.vertices, hull.faces
 
 
-def _enough(soups: list[tuple[Array, Triangles]], owner: str, target: float) -> list[_Body]:
-    """Bodies with good enough capsules that together contain all triangles: one about all if that will do."""
+def _cover_triangles(soups: list[tuple[Array, Triangles]], owner: str, target: float) -> list[_CoveredBody]:
+    """Return bodies with tight enough capsules that together contain all triangles, one for all if that is tight enough."""
     if not soups:
         return []
-    whole = _body(*_together(soups), (owner,))
-    if whole.excess <= target:
-        return [whole]
-    bodies = [whole] if len(soups) == 1 else [_body(*soup, (owner,)) for soup in soups]
-    return [part for body in bodies for part in _cut(body, target, _CUTS)]
+    merged = _make_body(*_merge_triangles(soups), (owner,))
+    if merged.excess <= target:
+        return [merged]
+    bodies = [merged] if len(soups) == 1 else [_make_body(*soup, (owner,)) for soup in soups]
+    return [part for body in bodies for part in _split_body(body, target, _MAX_CUTS)]
 
 
-def _together(soups: list[tuple[Array, Triangles]]) -> tuple[Array, Triangles]:
+def _merge_triangles(soups: list[tuple[Array, Triangles]]) -> tuple[Array, Triangles]:
     offsets = np.cumsum([0, *(len(points) for points, _ in soups)])
     faces = [faces + offset for (_, faces), offset in zip(soups, offsets, strict=False)]
     return np.concatenate([points for points, _ in soups]), np.concatenate(faces)
 
 
-def _joined(bodies: list[_Body], target: float) -> list[_Body]:
-    """Fewer bodies of one link: two become one as long as its capsule is good enough, the best first."""
-    there = dict(enumerate(bodies))
-    made: dict[tuple[int, int], _Body] = {}
-    while 1 < len(there) <= _JOINED:
-        for pair in combinations(there, 2):
-            if pair not in made:
+def _merge_bodies(bodies: list[_CoveredBody], target: float) -> list[_CoveredBody]:
+    """Merge bodies of one link in pairs, the best first, as long as the merged capsule is tight enough."""
+    remaining = dict(enumerate(bodies))
+    merged: dict[tuple[int, int], _CoveredBody] = {}
+    while 1 < len(remaining) <= _MAX_MERGED_BODIES:
+        for pair in combinations(remaining, 2):
+            if pair not in merged:
                 # Where the cut between them is gone, its plane must not hide that their hull is hollow: none is kept.
-                both = [there[k] for k in pair]
-                owners = sorted({owner for body in both for owner in body.owners})
-                made[pair] = _body(*_together([(body.points, body.faces) for body in both]), tuple(owners))
-        pair = min(combinations(there, 2), key=lambda pair: made[pair].excess)
-        if made[pair].excess > target:
+                merged_pair = [remaining[key] for key in pair]
+                owners = sorted({owner for body in merged_pair for owner in body.owners})
+                merged[pair] = _make_body(*_merge_triangles([(body.points, body.faces) for body in merged_pair]), tuple(owners))
+        pair = min(combinations(remaining, 2), key=lambda pair: merged[pair].excess)
+        if merged[pair].excess > target:
             break
-        there = {k: body for k, body in there.items() if k not in pair} | {max(there) + 1: made[pair]}
-    return list(there.values())
+        remaining = {key: body for key, body in remaining.items() if key not in pair} | {max(remaining) + 1: merged[pair]}
+    return list(remaining.values())
 
 
-def _cut(body: _Body, target: float, times: int) -> list[_Body]:
-    """The body, or its parts in two halves as long as that helps."""
-    if body.excess <= target or not times:
+def _split_body(body: _CoveredBody, target: float, splits_left: int) -> list[_CoveredBody]:
+    """Split the body in halves recursively while that tightens the capsules."""
+    if body.excess <= target or not splits_left:
         return [body]
-    found: list[tuple[float, list[_Body]]] = []
+    splits: list[tuple[float, list[_CoveredBody]]] = []
     for normal in main_axes(body.points):
         heights = body.points @ normal
         offset = float(heights.max() + heights.min()) / 2
-        sides = [_clipped(body, sign * normal, sign * offset) for sign in (1, -1)]
-        halves = [_body(*side, body.owners, (*body.cuts, (normal, offset))) for side in sides if len(side[1])]
-        found.append((float(np.mean([half.excess for half in halves])), halves))
-    least, halves = min(found, key=lambda item: item[0])
-    if least > _WORTH * body.excess:
+        sides = [_clip_triangles(body, sign * normal, sign * offset) for sign in (1, -1)]
+        halves = [_make_body(*side, body.owners, (*body.cuts, (normal, offset))) for side in sides if len(side[1])]
+        splits.append((float(np.mean([half.excess for half in halves])), halves))
+    smallest, halves = min(splits, key=lambda item: item[0])
+    if smallest > _CUT_GAIN_FRACTION * body.excess:
         return [body]
-    return [part for half in halves for part in _cut(half, target, times - 1)]
+    return [part for half in halves for part in _split_body(half, target, splits_left - 1)]
 
 
-def _clipped(body: _Body, normal: Array, offset: float) -> tuple[Array, Triangles]:
-    """The triangles on the side to which the normal does not point, cut at the plane."""
-    points, corners_out = [], 0
+def _clip_triangles(body: _CoveredBody, normal: Array, offset: float) -> tuple[Array, Triangles]:
+    """Return the triangles on the side opposite to the normal, cut at the plane."""
+    points, corner_count = [], 0
     faces: list[list[int]] = []
-    above = body.points @ normal - offset
+    heights = body.points @ normal - offset
     for triangle in body.faces:
-        ring = []
-        for k in range(3):
-            a, b = triangle[k], triangle[(k + 1) % 3]
-            if above[a] <= 0:
-                ring.append(body.points[a])
-            if (above[a] <= 0) != (above[b] <= 0):
-                ring.append(body.points[a] + above[a] / (above[a] - above[b]) * (body.points[b] - body.points[a]))
-        if len(ring) >= 3:
-            faces += [[corners_out, corners_out + k, corners_out + k + 1] for k in range(1, len(ring) - 1)]
-            corners_out += len(ring)
-            points += ring
+        polygon = []
+        for index in range(3):
+            first, second = triangle[index], triangle[(index + 1) % 3]
+            if heights[first] <= 0:
+                polygon.append(body.points[first])
+            if (heights[first] <= 0) != (heights[second] <= 0):
+                polygon.append(
+                    body.points[first]
+                    + heights[first] / (heights[first] - heights[second]) * (body.points[second] - body.points[first])
+                )
+        if len(polygon) >= 3:
+            faces += [[corner_count, corner_count + index, corner_count + index + 1] for index in range(1, len(polygon) - 1)]
+            corner_count += len(polygon)
+            points += polygon
     return np.array(points).reshape(-1, 3), np.array(faces, dtype=np.int64).reshape(-1, 3)
 
 
-def _body(points: Array, faces: Triangles, owners: tuple[str, ...], cuts: tuple[tuple[Array, float], ...] = ()) -> _Body:
-    start, end, radius = capsule_about(points)
-    towards = directions(_DIRECTIONS)
-    reach = np.maximum(towards @ start, towards @ end) + radius - (towards @ points.T).max(axis=1)
-    excess = float(reach.mean()) + _hollow(points, faces, cuts)
-    return _Body(points, faces, owners, cuts, (start, end, radius), excess, float(reach.max()))
+def _make_body(
+    points: Array, faces: Triangles, owners: tuple[str, ...], cuts: tuple[tuple[Array, float], ...] = ()
+) -> _CoveredBody:
+    start, end, radius = enclosing_capsule(points)
+    sampled_directions = sphere_directions(_COMPARED_DIRECTIONS)
+    excesses = (
+        np.maximum(sampled_directions @ start, sampled_directions @ end) + radius - (sampled_directions @ points.T).max(axis=1)
+    )
+    excess = float(excesses.mean()) + _hollow_distance(points, faces, cuts)
+    return _CoveredBody(points, faces, owners, cuts, (start, end, radius), excess, float(excesses.max()))
 
 
-def _hollow(points: Array, faces: Triangles, cuts: tuple[tuple[Array, float], ...]) -> float:
-    """Mean distance, m, of the surface of the hull from the triangles; what lies in a plane of a cut does not count."""
+def _hollow_distance(points: Array, faces: Triangles, cuts: tuple[tuple[Array, float], ...]) -> float:
+    """Return the mean distance, m, of the hull's surface from the triangles; the planes of cuts do not count."""
     from scipy import spatial  # takes long to import, and is needed once for each shape
 
     try:
         hull = spatial.ConvexHull(points)
     except (spatial.QhullError, ValueError):  # flat
         return 0.0
-    there = _spread(points, hull.simplices.astype(np.int64))
+    hull_points = _spread_points(points, hull.simplices.astype(np.int64))
     for normal, offset in cuts:
-        there = there[np.abs(there @ normal - offset) > 1e-6]
-    if not len(there):
+        hull_points = hull_points[np.abs(hull_points @ normal - offset) > 1e-6]
+    if not len(hull_points):
         return 0.0
-    have = np.concatenate([_spread(points, faces), points])
+    body_points = np.concatenate([_spread_points(points, faces), points])
     # Points of one surface are about this far from each other, so from those of the other as well.
-    grain = np.sqrt(hull.area / _SAMPLES)
-    return float(np.maximum(spatial.cKDTree(have).query(there)[0] - grain, 0).mean())
+    point_spacing = np.sqrt(hull.area / _SURFACE_POINTS)
+    return float(np.maximum(spatial.cKDTree(body_points).query(hull_points)[0] - point_spacing, 0).mean())
 
 
-def _spread(points: Array, faces: Triangles) -> Array:
-    """(_SAMPLES, 3) points on triangles, evenly by area; the same each time."""
-    a, b, c = (points[faces[:, k]] for k in range(3))
-    area = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
-    k = np.arange(_SAMPLES)
-    at = np.minimum(np.searchsorted(area, (k + 0.5) / _SAMPLES * area[-1]), len(faces) - 1)
+def _spread_points(points: Array, faces: Triangles) -> Array:
+    """Spread (_SAMPLES, 3) points over triangles evenly by area; the points are the same each time."""
+    a, b, c = (points[faces[:, index]] for index in range(3))
+    cumulative_area = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
+    index = np.arange(_SURFACE_POINTS)
+    triangle = np.minimum(
+        np.searchsorted(cumulative_area, (index + 0.5) / _SURFACE_POINTS * cumulative_area[-1]), len(faces) - 1
+    )
     # The R2 sequence (Roberts 2018).
-    u, v = (0.5 + k * 0.7548776662466927) % 1, (0.5 + k * 0.5698402909980532) % 1
+    u, v = (0.5 + index * 0.7548776662466927) % 1, (0.5 + index * 0.5698402909980532) % 1
     u, v = np.where(u + v > 1, 1 - u, u)[:, None], np.where(u + v > 1, 1 - v, v)[:, None]
-    return np.asarray(a[at] + u * (b - a)[at] + v * (c - a)[at])
+    return np.asarray(a[triangle] + u * (b - a)[triangle] + v * (c - a)[triangle])
 
 
-@checked
-def shape_of(arm: Arm, cell: Cell | None = None) -> Capsules:
-    """The shape of an arm where none is given: the cover of its file's collision shapes, else :meth:`holdfast.Capsules.along`.
+@check_arguments
+def choose_capsules(arm: Arm, cell: Cell | None = None) -> Capsules:
+    """Choose the capsules of an arm where none are given: the cover of its collision shapes, else
+    :meth:`holdfast.Capsules.along`.
 
     Args:
         arm: The arm.
@@ -276,76 +293,78 @@ def shape_of(arm: Arm, cell: Cell | None = None) -> Capsules:
         InputError: The cell asks for the shape of the arm's file, which gives none that can be read.
         ArmError: The cell names a capsule file that is wrong or a joint that the arm's file lacks.
     """
-    wanted = "" if cell is None else cell.shape
-    if wanted == "assumed":
+    requested = "" if cell is None else cell.shape
+    if requested == "assumed":
         return Capsules.along(arm)
-    if wanted not in ("", "meshes"):
-        return Capsules.load(wanted, arm)
-    why = ""
+    if requested not in ("", "meshes"):
+        return Capsules.load(requested, arm)
+    reason = ""
     try:
-        shape = Shape.of(arm, hold={} if cell is None else cell.hold)
+        shape = CollisionModel.from_arm(arm, hold={} if cell is None else cell.hold)
         if len(shape):
             target = None if cell is None else cell.spheres_to
-            return cover_of(shape, arm, SPHERES_TO if target is None else target)
-        why = f"{shape.missing[0].what} was not read" if shape.missing else ""
+            return make_cover(shape, arm, MAX_MEAN_EXCESS_M if target is None else target)
+        reason = f"{shape.missing[0].what} was not read" if shape.missing else ""
     except ArmError as error:
-        if wanted or (cell is not None and cell.hold):
+        if requested or (cell is not None and cell.hold):
             raise
-        why = str(error)
-    if wanted:
+        reason = str(error)
+    if requested:
         raise InputError(
-            f"the cell asks for the meshes of '{arm.name}', and {why or 'no file gives it collision shapes'}; "
+            f"the cell asks for the meshes of '{arm.name}', and {reason or 'no file gives it collision shapes'}; "
             "give their folder by --meshes (meshes= in Python), or say shape: assumed"
         )
     assumed = Capsules.along(arm)
-    return replace(assumed, source=f"{assumed.describe(arm)} ({why})") if why else assumed
+    return replace(assumed, source=f"{assumed.describe(arm)} ({reason})") if reason else assumed
 
 
-def shape_in(arm: Arm, cell: Cell | None, capsules: Capsules | None = None) -> Capsules:
-    """What is looked at of an arm and of what it holds in a cell: given capsules, else those of :func:`shape_of`."""
-    own = shape_of(arm, cell) if capsules is None else capsules
-    return own.own if cell is None else holding(own, arm, cell.held, cell.spheres_to)
+def capsules_in_cell(arm: Arm, cell: Cell | None, capsules: Capsules | None = None) -> Capsules:
+    """Return the capsules of an arm and of held objects in a cell: given capsules, else those of :func:`choose_capsules`."""
+    arm_capsules = choose_capsules(arm, cell) if capsules is None else capsules
+    return arm_capsules.own if cell is None else with_held_objects(arm_capsules, arm, cell.held, cell.spheres_to)
 
 
-def holding(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: float | None = None) -> Capsules:
-    """The capsules of an arm, and those about what it holds instead of what they held before.
+def with_held_objects(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: float | None = None) -> Capsules:
+    """Return the capsules of an arm with those of the given held objects in place of previous held objects.
 
     Args:
         capsules: The arm's.
         arm: The arm.
         held: Boxes, cylinders, capsules and spheres with their poses in the tool's frame; they move with the last link.
-        spheres_to: As :func:`cover_of` has it.
+        spheres_to: As :func:`make_cover` has it.
     """
-    own = capsules.own
+    arm_capsules = capsules.own
     if not held:
-        return own
-    nothing = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
+        return arm_capsules
+    empty_mesh = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
     pieces = tuple(
         Piece(
             link=arm.n - 1,
             owner="held",
             kind=cast(Kind, type(solid).__name__.lower()),
             name=solid.name,
-            size=_size(solid),
+            size=_piece_size(solid),
             pose=arm.tool @ solid.pose,
-            vertices=nothing[0],
-            faces=nothing[1],
+            vertices=empty_mesh[0],
+            faces=empty_mesh[1],
         )
         for solid in held
     )
-    rows, _, _ = fitted(Shape(pieces=pieces, missing=(), source="held"), SPHERES_TO if spheres_to is None else spheres_to)
+    rows, _, _ = fit_capsules(
+        CollisionModel(pieces=pieces, missing=(), source="held"), MAX_MEAN_EXCESS_M if spheres_to is None else spheres_to
+    )
     parts = [Capsule(link, start, end, radius=radius) for link, start, end, radius, _ in rows]
-    return replace(own, parts=(*own.parts, *parts), held=len(parts))
+    return replace(arm_capsules, parts=(*arm_capsules.parts, *parts), held=len(parts))
 
 
-def _size(solid: Solid) -> tuple[float, ...]:
-    """As pieces have it.
+def _piece_size(solid: Solid) -> tuple[float, ...]:
+    """Return the size of a held object as pieces have it.
 
     Raises:
         InputError: The solid is none that can be held.
     """
     if isinstance(solid, solids.Box):
-        return tuple(float(x) for x in solid.size)
+        return tuple(float(edge) for edge in solid.size)
     if isinstance(solid, solids.Cylinder | solids.Capsule):
         return (solid.radius, solid.length)
     if isinstance(solid, solids.Sphere):

@@ -16,41 +16,41 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
-from holdfast.cell.meshes import Gridded
-from holdfast.cell.solids import Primitive, Solid
-from holdfast.clearance.capsules import BASE, Capsules, link_name
-from holdfast.clearance.chains import Balls, spheres_of
-from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.object_kernels import NOWHERE, FormulaObjects, outward_kernel
+from holdfast.cell.meshes import GriddedSolid
+from holdfast.cell.solids import PrimitiveSolid, Solid
+from holdfast.clearance.capsules import BASE_LINK, Capsules, link_name
+from holdfast.clearance.chains import SphereCover, make_sphere_cover
+from holdfast.clearance.changes import link_lipschitz_bounds
+from holdfast.clearance.object_kernels import FAR_AWAY_M, FormulaObjects, outward_kernel
 from holdfast.clearance.objects.end_links import EndLinks
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
-from holdfast.kernels.kernel import Single
+from holdfast.kernels.kernel import SingleRowKernel
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Gap:
-    """Where an arm comes nearest to an object.
+class NearestGap:
+    """The smallest margin between an arm and an object.
 
     Attributes:
         pair: Position in ``pairs`` of the obstacles.
         distance: m, of the cover of the arm: at most the true one.
-        room: m, the distance less what must be kept.
+        margin: m, the distance less what must be kept.
         on_arm, on_object: (3,) the two points in the world, m; the first on the sphere that covers the link there.
     """
 
     pair: int
     distance: float
-    room: float
+    margin: float
     on_arm: Array
     on_object: Array
 
 
 class Obstacles:
-    """The objects of a cell as an arm meets them.
+    """The objects of a cell, against the spheres of an arm.
 
     Args:
         arm: The arm.
@@ -59,12 +59,12 @@ class Obstacles:
 
     Attributes:
         arm, capsules, cell: As given.
-        balls: The spheres that cover the capsules.
+        spheres: The spheres that cover the capsules.
         links: (L,) the links that have spheres and move, ascending.
         pairs: (L K, 2) link and object of each pair: all objects of the first link, then of the next.
         margins: (L K,) what each pair keeps at least, m.
         names: Of the pairs, ``panda_joint4 & table``.
-        apart: (n + 1, K) whether a link, the base first, and an object may touch.
+        may_touch: (n + 1, K) whether a link, the base first, and an object may touch.
 
     Raises:
         InputError: The base touches an object, or ``may_touch`` names no object or link.
@@ -72,8 +72,8 @@ class Obstacles:
 
     def __init__(self, arm: Arm, capsules: Capsules, cell: Cell) -> None:
         self.arm, self.capsules, self.cell = arm, capsules, cell
-        self.balls: Balls = spheres_of(capsules)
-        self.links: Indices = np.unique(self.balls.link[self.balls.link > BASE])
+        self.spheres: SphereCover = make_sphere_cover(capsules)
+        self.links: Indices = np.unique(self.spheres.link[self.spheres.link > BASE_LINK])
         count = len(cell)
         self.pairs: Indices = np.stack(
             [np.repeat(self.links, count), np.tile(np.arange(count, dtype=np.int64), len(self.links))], axis=1
@@ -81,169 +81,190 @@ class Obstacles:
         self._own_margins: Array = np.array([cell.margin_of(solid) for solid in cell])
         self.margins: Array = np.tile(self._own_margins, len(self.links))
         names = [solid.name for solid in cell]
-        self.names = [f"{link_name(arm, int(link))} & {names[k]}" for link, k in self.pairs]
-        self._plain: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Primitive)], dtype=np.int64)
-        self._grids: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Gridded)], dtype=np.int64)
-        strange = next((x for x in cell if not isinstance(x, (Primitive, Gridded))), None)
-        if strange is not None:
+        self.names = [f"{link_name(arm, int(link))} & {names[index]}" for link, index in self.pairs]
+        self._formula_indices: Indices = np.array(
+            [index for index, solid_object in enumerate(cell) if isinstance(solid_object, PrimitiveSolid)], dtype=np.int64
+        )
+        self._grid_indices: Indices = np.array(
+            [index for index, solid_object in enumerate(cell) if isinstance(solid_object, GriddedSolid)], dtype=np.int64
+        )
+        unsupported = next(
+            (solid_object for solid_object in cell if not isinstance(solid_object, (PrimitiveSolid, GriddedSolid))), None
+        )
+        if unsupported is not None:
             raise InputError(
-                f"object '{strange.name}' is a {type(strange).__name__}, and no distance from one is known; "
+                f"object '{unsupported.name}' is a {type(unsupported).__name__}, and no distance from one is known; "
                 f"make it one of the solids of holdfast.cell"
             )
-        self.apart = self._switched_off()
+        self.may_touch = self._allowed_contacts()
         self._check_base()
 
     # ---- what is looked at ---------------------------------------------------------------------------------------
 
-    def _switched_off(self) -> NDArray[np.bool_]:
-        """(n + 1, K) pairs of a link, the base first, and an object that may touch."""
+    def _allowed_contacts(self) -> NDArray[np.bool_]:
+        """Return (n + 1, K) True for pairs of a link, the base first, and an object that may touch."""
         names = [solid.name for solid in self.cell]
         links = ["base", *self.arm.joint_names]
-        off = np.zeros((len(links), len(names)), dtype=np.bool_)
-        for thing, link in self.cell.may_touch:
-            if thing not in names:
-                raise InputError(f"may_touch: cell '{self.cell.name}' has no object '{thing}'; it has {', '.join(names)}")
+        allowed = np.zeros((len(links), len(names)), dtype=np.bool_)
+        for object_name, link in self.cell.may_touch:
+            if object_name not in names:
+                raise InputError(f"may_touch: cell '{self.cell.name}' has no object '{object_name}'; it has {', '.join(names)}")
             if link not in links:
                 raise InputError(f"may_touch: '{self.arm.name}' has no link '{link}'; its links are {', '.join(links)}")
-            off[links.index(link), names.index(thing)] = True
-        return off
+            allowed[links.index(link), names.index(object_name)] = True
+        return allowed
 
     def _check_base(self) -> None:
-        """The base does not move, so what it touches it touches always.
+        """Check the contacts of the base, which does not move, so that any contact is permanent.
 
         Raises:
             InputError: It touches an object that it may not touch.
         """
-        from holdfast.clearance.exact.bodies import box_about  # takes long to import
+        from holdfast.clearance.exact.bodies import bounding_primitive  # takes long to import
 
-        for k, solid in enumerate(self.cell):
+        for index, solid in enumerate(self.cell):
             margin = self.cell.margin_of(solid)
             # A box about it is asked first: for what is far away no grid need be made.
-            if self.apart[0, k] or base_gaps(self.arm, self.balls, [box_about(solid)])[0] >= margin:
+            if self.may_touch[0, index] or base_distances(self.arm, self.spheres, [bounding_primitive(solid)])[0] >= margin:
                 continue
-            (gap,) = base_gaps(self.arm, self.balls, [solid])
+            (gap,) = base_distances(self.arm, self.spheres, [solid])
             if gap < margin:
-                near = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
+                place_phrase = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
                 raise InputError(
-                    f"the base of '{self.arm.name}' is {near} object '{solid.name}' of the cell, always; "
+                    f"the base of '{self.arm.name}' is {place_phrase} object '{solid.name}' of the cell, always; "
                     f"if it is mounted there, add may_touch: [[{solid.name}, base]]"
                 )
 
-    def added(self, links: Indices, objects: Indices) -> Array:
-        """(L, F) what is added to the distances of links from objects, m: what may touch is far away."""
-        return np.where(self.apart[np.ix_(links + 1, objects)], NOWHERE, 0.0)
+    def distance_offsets(self, links: Indices, objects: Indices) -> Array:
+        """Return (L, F) offsets of the distances of links from objects, m: pairs that may touch are far away."""
+        return np.where(self.may_touch[np.ix_(links + 1, objects)], FAR_AWAY_M, 0.0)
 
     @cached_property
-    def _formulas(self) -> FormulaObjects:
-        objects = [x for x in self.cell if isinstance(x, Primitive)]
+    def _formula_objects(self) -> FormulaObjects:
+        objects = [solid for solid in self.cell if isinstance(solid, PrimitiveSolid)]
         return FormulaObjects(
-            self.arm, self.balls, objects, self.added(self.links, self._plain), self._own_margins[self._plain]
+            self.arm,
+            self.spheres,
+            objects,
+            self.distance_offsets(self.links, self._formula_indices),
+            self._own_margins[self._formula_indices],
         )
 
     @cached_property
-    def _gridded(self) -> GriddedObjects | None:
-        objects = [x for x in self.cell if isinstance(x, Gridded)]
+    def _gridded_objects(self) -> GriddedObjects | None:
+        objects = [solid for solid in self.cell if isinstance(solid, GriddedSolid)]
         return (
-            GriddedObjects(self.arm, self.balls, objects, self.added(self.links, self._grids))
+            GriddedObjects(self.arm, self.spheres, objects, self.distance_offsets(self.links, self._grid_indices))
             if objects and len(self.links)
             else None
         )
 
     @cached_property
     def _end_links(self) -> EndLinks:
-        added = self.added(np.arange(self.arm.n), self._plain)
-        return EndLinks(self.arm, self.balls, self._formulas.objects, added, self._own_margins[self._plain])
+        offsets = self.distance_offsets(np.arange(self.arm.n), self._formula_indices)
+        return EndLinks(
+            self.arm, self.spheres, self._formula_objects.objects, offsets, self._own_margins[self._formula_indices]
+        )
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
-    def nearest(self, q: Array) -> tuple[Array, Indices, Array]:
-        """What is nearest once every pair has what it must keep: (N,) distance beyond that margin, m; pair; gradient (N, n).
+    def find_nearest(self, q: Array) -> tuple[Array, Indices, Array]:
+        """Return the smallest distance (N,) above the margin of its pair, m, the pair, and the gradient (N, n).
 
         Args:
             q: (N, n) rad and m; a row that is not finite gets NaN and pair -1.
         """
         count = len(self.cell)
-        room, pair, slope = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
-        if len(self._plain) and len(self.links):
-            room, link, thing, slope = self._formulas.nearest(q)
-            pair = np.where(np.isnan(room), np.nan, link * count + self._plain[thing])
-        if self._gridded is not None:
-            other, link, thing, theirs = self._gridded.nearest(q, self._own_margins[self._grids])
-            closer = ~(room <= other)
-            room, slope = np.where(closer, other, room), np.where(closer[:, None], theirs, slope)
-            pair = np.where(closer, np.where(np.isnan(other), np.nan, link * count + self._grids[thing]), pair)
-        return room, np.where(np.isnan(pair), -1, pair).astype(np.int64), slope
+        margin, pair, gradient = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
+        if len(self._formula_indices) and len(self.links):
+            margin, link, object_index, gradient = self._formula_objects.find_nearest(q)
+            pair = np.where(np.isnan(margin), np.nan, link * count + self._formula_indices[object_index])
+        if self._gridded_objects is not None:
+            grid_margin, link, object_index, grid_gradient = self._gridded_objects.find_nearest(
+                q, self._own_margins[self._grid_indices]
+            )
+            closer = ~(margin <= grid_margin)
+            margin, gradient = np.where(closer, grid_margin, margin), np.where(closer[:, None], grid_gradient, gradient)
+            pair = np.where(
+                closer, np.where(np.isnan(grid_margin), np.nan, link * count + self._grid_indices[object_index]), pair
+            )
+        return margin, np.where(np.isnan(pair), -1, pair).astype(np.int64), gradient
 
-    def single_blocks(self) -> list[Single]:
-        """What is nearest at one configuration at a time, by block of objects; none with objects that have grids."""
-        formulas = len(self._plain) and len(self.links) and self._gridded is None
-        return self._formulas.single_blocks() if formulas else []
+    def single_blocks(self) -> list[SingleRowKernel]:
+        """Return the kernels for one configuration at a time, by block of objects; none with objects that have grids."""
+        formulas = len(self._formula_indices) and len(self.links) and self._gridded_objects is None
+        return self._formula_objects.single_blocks() if formulas else []
 
-    def room(self, q: Array) -> Array:
-        """(N,) the least distance beyond what each pair keeps, m."""
-        room = self._formulas.room(q)
-        if self._gridded is not None:
-            room = np.minimum(room, self._gridded.least(q, self._own_margins[self._grids]))
-        return room
+    def smallest_margin(self, q: Array) -> Array:
+        """Return the least distance above the margin of its pair, (N,) m."""
+        margin = self._formula_objects.smallest_margin(q)
+        if self._gridded_objects is not None:
+            margin = np.minimum(margin, self._gridded_objects.smallest_margin(q, self._own_margins[self._grid_indices]))
+        return margin
 
-    def least(self, q: Array) -> Array:
-        """(N,) the least distance, m."""
-        least = self._formulas.least(q)
-        return least if self._gridded is None else np.minimum(least, self._gridded.least(q, np.zeros(len(self._grids))))
+    def smallest_distance(self, q: Array) -> Array:
+        """Return the least distance (N,), m."""
+        smallest = self._formula_objects.smallest_distance(q)
+        return (
+            smallest
+            if self._gridded_objects is None
+            else np.minimum(smallest, self._gridded_objects.smallest_margin(q, np.zeros(len(self._grid_indices))))
+        )
 
-    def distances(self, q: Array) -> Array:
-        """(N, L K) lower bound of the distance of every pair, m; about 1e9 m where a pair may touch."""
-        out = np.empty((len(q), len(self.links), len(self.cell)))
-        if len(self._plain) and len(self.links):
-            out[:, :, self._plain] = self._formulas.distances(q)
-        if self._gridded is not None:
-            out[:, :, self._grids] = self._gridded.distances(q)
-        return out.reshape(len(q), len(self.pairs))
+    def pair_distances(self, q: Array) -> Array:
+        """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m where a pair may touch."""
+        distances = np.empty((len(q), len(self.links), len(self.cell)))
+        if len(self._formula_indices) and len(self.links):
+            distances[:, :, self._formula_indices] = self._formula_objects.link_distances(q)
+        if self._gridded_objects is not None:
+            distances[:, :, self._grid_indices] = self._gridded_objects.link_distances(q)
+        return distances.reshape(len(q), len(self.pairs))
 
-    def never_clear(self, poses: Array, margin: float) -> NDArray[np.bool_]:
-        """(N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 keeps a margin, m, beyond its own.
+    def never_collision_free(self, poses: Array, margin: float) -> NDArray[np.bool_]:
+        """Return (N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 respects a margin, m, beyond
+        its own.
 
         Proved by the places that the last two links can have, for objects with a formula; False proves nothing.
         """
-        return self._end_links.too_close(poses, margin)
+        return self._end_links.are_too_close(poses, margin)
 
-    def gap(self, q: Array) -> Gap:
-        """What is nearest at one configuration (n,), once every pair has what it must keep."""
-        room, pair, _ = (x[0] for x in self.nearest(q[None]))
-        link, k = self.pairs[pair]
-        solid, some = self.cell.objects[k], self.balls.link == link
+    def find_nearest_gap(self, q: Array) -> NearestGap:
+        """Return the pair with the smallest margin at one configuration (n,)."""
+        margin, pair, _ = (value[0] for value in self.find_nearest(q[None]))
+        link, object_index = self.pairs[pair]
+        solid, on_link = self.cell.objects[object_index], self.spheres.link == link
         pose = self.arm.frames(q)[link + 1]
-        centres = self.balls.centre[some] @ pose[:3, :3].T + pose[:3, 3]
-        away = solid.signed_distance(centres)
-        ball = int((away - self.balls.radius[some]).argmin())
-        point = centres[ball]
-        if isinstance(solid, Primitive):
-            rise = outward_kernel()(point, solid.numbers())
+        centers = self.spheres.center[on_link] @ pose[:3, :3].T + pose[:3, 3]
+        distances = solid.signed_distance(centers)
+        nearest_sphere = int((distances - self.spheres.radius[on_link]).argmin())
+        center = centers[nearest_sphere]
+        if isinstance(solid, PrimitiveSolid):
+            gradient = outward_kernel()(center, solid.numbers())
         else:
-            rise = solid.distance_and_gradient(point)[1]
-        outward = rise / max(float(np.linalg.norm(rise)), 1e-300)
-        return Gap(
+            gradient = solid.distance_and_gradient(center)[1]
+        outward = gradient / max(float(np.linalg.norm(gradient)), 1e-300)
+        return NearestGap(
             pair=int(pair),
-            distance=float(room + self.margins[pair]),
-            room=float(room),
-            on_arm=point - self.balls.radius[some][ball] * outward,
-            on_object=point - away[ball] * outward,
+            distance=float(margin + self.margins[pair]),
+            margin=float(margin),
+            on_arm=center - self.spheres.radius[on_link][nearest_sphere] * outward,
+            on_object=center - distances[nearest_sphere] * outward,
         )
 
-    def changes(self, low: Array, high: Array) -> Array:
-        """(L K, n) bounds of how much the distance of each pair changes per rad and m of each joint within a box.
+    def lipschitz_bounds(self, low: Array, high: Array) -> Array:
+        """Bound how much the distance of each pair changes per rad and m of each joint in a box, (L K, n).
 
         Args:
             low: (n,) lower corner of the box, finite, rad and m.
             high: (n,) upper corner.
         """
-        reach = np.linalg.norm(self.balls.centre, axis=1)
-        far = np.array([reach[self.balls.link == link].max() for link in self.links])
-        return np.repeat(changes_from_outside(self.arm, self.links, far, low, high), len(self.cell), axis=0)
+        center_distances = np.linalg.norm(self.spheres.center, axis=1)
+        max_distances = np.array([center_distances[self.spheres.link == link].max() for link in self.links])
+        return np.repeat(link_lipschitz_bounds(self.arm, self.links, max_distances, low, high), len(self.cell), axis=0)
 
 
-def base_gaps(arm: Arm, balls: Balls, objects: Iterable[Solid]) -> list[float]:
-    """A lower bound of the distance of the base from each object, m; infinite if no sphere covers the base."""
-    still = balls.link == BASE
-    centre = balls.centre[still] @ arm.base[:3, :3].T + arm.base[:3, 3]
-    return [float((solid.signed_distance(centre) - balls.radius[still]).min(initial=np.inf)) for solid in objects]
+def base_distances(arm: Arm, spheres: SphereCover, objects: Iterable[Solid]) -> list[float]:
+    """Return a lower bound of the distance of the base from each object, m; infinite if no sphere covers the base."""
+    on_base = spheres.link == BASE_LINK
+    center = spheres.center[on_base] @ arm.base[:3, :3].T + arm.base[:3, 3]
+    return [float((solid.signed_distance(center) - spheres.radius[on_base]).min(initial=np.inf)) for solid in objects]

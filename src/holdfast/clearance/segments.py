@@ -1,4 +1,4 @@
-"""Distance between two line segments as straight-line code that survives parallel, touching and pointlike segments."""
+"""Distance between two line segments as straight-line code that is valid for parallel, touching and pointlike segments."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import casadi as ca
 
 from holdfast.kernels.program import SX
 
-_PARALLEL = 1e-15  # of sin^2 of the angle: the rounding of the determinant; below it any first foot serves
-_TOUCHING = 1e-24  # m^2: keeps the root of the squared distance differentiable where the axes cross
+_PARALLEL_TOLERANCE = 1e-15  # of sin^2 of the angle: the rounding of the determinant; below it any first foot serves
+_MIN_SQUARE_DISTANCE = 1e-24  # m^2: keeps the root of the squared distance differentiable where the axes cross
 
 
 @dataclass(frozen=True)
-class Segment:
+class LineSegment:
     """The points ``start + s span``, s from 0 to 1.
 
     Attributes:
@@ -26,13 +26,13 @@ class Segment:
     span: SX
     square: float
 
-    def at(self, s: SX) -> SX:
-        """The point (3,) at s."""
+    def point_at(self, s: SX) -> SX:
+        """Return the point (3,) at s."""
         return self.start + s * self.span
 
 
-def feet(a: Segment, b: Segment) -> tuple[SX, SX]:
-    """Where the two segments come closest: s on a, t on b, each from 0 to 1.
+def closest_parameters(a: LineSegment, b: LineSegment) -> tuple[SX, SX]:
+    """Return the parameters of the closest points: s on a, t on b, each from 0 to 1.
 
     The closest points of the two lines, s clipped, then t for that s clipped, then s for that t clipped: the minimum of a
     convex function over a square. Where the segments are parallel, so that the lines have no unique closest points, the
@@ -40,35 +40,37 @@ def feet(a: Segment, b: Segment) -> tuple[SX, SX]:
 
     Source: Ericson 2005, Real-Time Collision Detection, section 5.1.9.
     """
-    apart = a.start - b.start
-    along_a, along_b, cross = ca.dot(a.span, apart), ca.dot(b.span, apart), ca.dot(a.span, b.span)
+    start_offset = a.start - b.start
+    along_a, along_b, span_product = ca.dot(a.span, start_offset), ca.dot(b.span, start_offset), ca.dot(a.span, b.span)
     if a.square == 0 or b.square == 0:
-        s = ca.SX(0) if a.square == 0 else _clipped(-along_a / a.square)
-        return s, ca.SX(0) if b.square == 0 else _clipped(along_b / b.square)
-    determinant = a.square * b.square - cross * cross
-    limit = _PARALLEL * a.square * b.square
-    s = _clipped((cross * along_b - b.square * along_a) / ca.if_else(determinant > limit, determinant, limit))
-    t = _clipped((cross * s + along_b) / b.square)
-    return _clipped((cross * t - along_a) / a.square), t
+        s = ca.SX(0) if a.square == 0 else _clip_to_unit(-along_a / a.square)
+        return s, ca.SX(0) if b.square == 0 else _clip_to_unit(along_b / b.square)
+    determinant = a.square * b.square - span_product * span_product
+    limit = _PARALLEL_TOLERANCE * a.square * b.square
+    s = _clip_to_unit((span_product * along_b - b.square * along_a) / ca.if_else(determinant > limit, determinant, limit))
+    t = _clip_to_unit((span_product * s + along_b) / b.square)
+    return _clip_to_unit((span_product * t - along_a) / a.square), t
 
 
-def distance(a: Segment, b: Segment, s: SX, t: SX) -> SX:
-    """Distance of the points at s on a and t on b, at least 1e-12 m; with the :func:`feet`, that of the segments."""
-    r = b.at(t) - a.at(s)
-    square = ca.dot(r, r)
-    return ca.sqrt(ca.if_else(square > _TOUCHING, square, _TOUCHING))
+def point_distance(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
+    """Return the distance of the points at s on a and t on b, at least 1e-12 m; with :func:`closest_parameters`, that of the
+    segments.
+    """
+    difference = b.point_at(t) - a.point_at(s)
+    square = ca.dot(difference, difference)
+    return ca.sqrt(ca.if_else(square > _MIN_SQUARE_DISTANCE, square, _MIN_SQUARE_DISTANCE))
 
 
-def wrench(a: Segment, b: Segment, s: SX, t: SX) -> SX:
-    """A unit force that pushes b away from a along the line through their closest points: moment about 0, force, (6,).
+def separating_wrench(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
+    """Return a unit force that pushes b away from a along the line through their closest points: moment about 0, force, (6,).
 
     The feet minimise the distance, so its derivative is that with the feet held still (envelope theorem): what the force
     does on the way of its point. Where the axes cross there is no direction, and the force fades to 0 within 1e-12 m.
     """
-    point = b.at(t)
-    force = (point - a.at(s)) / distance(a, b, s, t)
+    point = b.point_at(t)
+    force = (point - a.point_at(s)) / point_distance(a, b, s, t)
     return ca.vertcat(ca.cross(point, force), force)
 
 
-def _clipped(x: SX) -> SX:
+def _clip_to_unit(x: SX) -> SX:
     return ca.if_else(x < 0, 0.0, ca.if_else(x > 1, 1.0, x))

@@ -1,4 +1,4 @@
-"""The shape of an arm as its file gives it: what collides of each link, as primitives, meshes and convex hulls."""
+"""The collision shapes of an arm from its file, as primitives, meshes and convex hulls of each link."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError
@@ -20,12 +20,12 @@ from holdfast.shapes.reading import read_pieces, unchecked_pairs
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 
-_SIDES = 32  # of the prism that stands for a cylinder
-_CONVEX = 1e-3  # of its hull's volume: what a mesh may lack of it and still count as convex
+_CYLINDER_SIDES = 32  # of the prism that stands for a cylinder
+_CONVEX_TOLERANCE = 1e-3  # of its hull's volume: what a mesh may lack of it and still count as convex
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Hull:
+class PieceHull:
     """A convex body that contains one piece of a link.
 
     Attributes:
@@ -34,7 +34,7 @@ class Hull:
         name: Of the piece: of its mesh in the file, or its kind.
         vertices: (V, 3) m, in the frame that moves with the joint; all of them corners.
         faces: (F, 3) indices, counterclockwise seen from outside.
-        fills: Part of its volume that the piece lacks; 0 unless the piece is a mesh.
+        volume_error: Part of its volume that the piece lacks; 0 unless the piece is a mesh.
     """
 
     link: int
@@ -42,17 +42,17 @@ class Hull:
     name: str
     vertices: Array
     faces: Triangles
-    fills: float
+    volume_error: float
 
     @property
-    def convex(self) -> bool:
-        """Whether the hull is the piece itself, to 0.1 % of its volume; a mesh that is not convex lies within."""
-        return self.fills <= _CONVEX
+    def is_convex(self) -> bool:
+        """True if the hull is the piece itself, to 0.1 % of its volume; a mesh that is not convex lies inside its hull."""
+        return self.volume_error <= _CONVEX_TOLERANCE
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Shape:
-    """What collides of an arm.
+class CollisionModel:
+    """The collision shapes of an arm.
 
     Attributes:
         pieces: As the file has them, the base's first.
@@ -67,9 +67,9 @@ class Shape:
     source: str
 
     @classmethod
-    @checked
-    def of(cls, arm: Arm, meshes: str | Path | None = None, *, hold: Mapping[str, float] | None = None) -> Shape:
-        """The collision shapes of the arm's file; none if it is from no file, or from one without them.
+    @check_arguments
+    def from_arm(cls, arm: Arm, meshes: str | Path | None = None, *, hold: Mapping[str, float] | None = None) -> CollisionModel:
+        """Read the collision shapes of the arm's file; none if it is from no file, or from one without them.
 
         Bodies that hang on the chain belong to the link they hang on, their own joints held.
 
@@ -83,94 +83,102 @@ class Shape:
         """
         pieces, missing = read_pieces(arm, "collision", hold=hold, meshes=meshes)
         source = "" if arm.chain is None else Path(arm.chain.file).name
-        ordered = tuple(sorted(pieces, key=lambda p: p.link))
+        ordered = tuple(sorted(pieces, key=lambda piece: piece.link))
         return cls(pieces=ordered, missing=tuple(missing), unchecked=unchecked_pairs(arm), source=source)
 
     def __len__(self) -> int:
         return len(self.pieces)
 
     @cached_property
-    def hulls(self) -> tuple[Hull, ...]:
-        """A convex hull around every piece, in order; round ones have a polyhedron about them.
+    def hulls(self) -> tuple[PieceHull, ...]:
+        """Convex hull around every piece, in order; round pieces have a polyhedron around them.
 
         Raises:
             ArmError: A mesh is flat.
         """
-        return tuple(hull_of(piece) for piece in self.pieces)
+        return tuple(make_hull(piece) for piece in self.pieces)
 
     @cached_property
     def digest(self) -> str:
         """SHA-256 of every piece, the corners of meshes included."""
-        h = hashlib.sha256()
-        for p in self.pieces:
-            h.update(repr((p.link, p.owner, p.kind, p.size)).encode())
-            for numbers in (p.pose, p.vertices, p.faces):
-                h.update(np.ascontiguousarray(numbers).tobytes())
+        hasher = hashlib.sha256()
+        for piece in self.pieces:
+            hasher.update(repr((piece.link, piece.owner, piece.kind, piece.size)).encode())
+            for numbers in (piece.pose, piece.vertices, piece.faces):
+                hasher.update(np.ascontiguousarray(numbers).tobytes())
         for shape in self.missing:
-            h.update(repr((shape.link, shape.what)).encode())
-        return h.hexdigest()
+            hasher.update(repr((shape.link, shape.what)).encode())
+        return hasher.hexdigest()
 
 
-def hull_of(piece: Piece) -> Hull:
-    """The convex hull of a piece, or of a polyhedron about it.
+def make_hull(piece: Piece) -> PieceHull:
+    """Make the convex hull of a piece, or of a polyhedron around it.
 
     Raises:
         ArmError: It is flat.
     """
     from scipy import spatial  # takes long to import, and is needed once for each shape
 
-    vertices, faces = corners(piece), piece.faces
+    vertices, faces = corner_points(piece), piece.faces
     try:
-        found = spatial.ConvexHull(vertices)
+        qhull = spatial.ConvexHull(vertices)
     except (spatial.QhullError, ValueError) as error:
         raise ArmError(f"'{piece.name}' of link '{piece.owner}' is flat or has no volume; it cannot collide") from error
     order = np.full(len(vertices), -1)
-    order[found.vertices] = np.arange(len(found.vertices))
-    simplices = found.simplices.astype(np.int64)
-    a, b, c = (vertices[simplices[:, k]] for k in range(3))
-    inward = (np.cross(b - a, c - a) * found.equations[:, :3]).sum(axis=1) < 0
+    order[qhull.vertices] = np.arange(len(qhull.vertices))
+    simplices = qhull.simplices.astype(np.int64)
+    first, second, third = (vertices[simplices[:, corner]] for corner in range(3))
+    inward = (np.cross(second - first, third - first) * qhull.equations[:, :3]).sum(axis=1) < 0
     triangles = np.where(inward[:, None], simplices[:, ::-1], simplices)
-    fills = abs(_volume(vertices, faces) / found.volume - 1) if piece.kind == "mesh" else 0.0
-    return Hull(
+    volume_error = abs(_mesh_volume(vertices, faces) / qhull.volume - 1) if piece.kind == "mesh" else 0.0
+    return PieceHull(
         link=piece.link,
         owner=piece.owner,
         name=piece.name,
-        vertices=vertices[found.vertices],
+        vertices=vertices[qhull.vertices],
         faces=order[triangles].astype(np.int64),
-        fills=float(fills),
+        volume_error=float(volume_error),
     )
 
 
-def corners(piece: Piece, inside: bool = False) -> Array:
-    """(V, 3) points in the frame of the link whose hull contains the piece; with ``inside``, is contained in it.
+def corner_points(piece: Piece, inside: bool = False) -> Array:
+    """Return points (V, 3) in the frame of the link whose hull contains the piece; with ``inside``, is contained in it.
 
     The hull is the piece itself for a box and a convex mesh.
     """
-    points = piece.vertices if piece.kind == "mesh" else _corners(piece, inside)
+    points = piece.vertices if piece.kind == "mesh" else _primitive_corners(piece, inside)
     return np.asarray(points @ piece.pose[:3, :3].T + piece.pose[:3, 3])
 
 
-def _corners(piece: Piece, inside: bool) -> Array:
+def _primitive_corners(piece: Piece, inside: bool) -> Array:
     if piece.kind == "box":
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
         return np.asarray(signs * np.array(piece.size) / 2)
-    turns = 2 * np.pi * np.arange(_SIDES) / _SIDES
+    angles = 2 * np.pi * np.arange(_CYLINDER_SIDES) / _CYLINDER_SIDES
     if piece.kind == "cylinder":
         radius, length = piece.size
-        wide = radius if inside else radius / np.cos(np.pi / _SIDES)
-        ring = np.column_stack([wide * np.cos(turns), wide * np.sin(turns), np.full(_SIDES, length / 2)])
+        ring_radius = radius if inside else radius / np.cos(np.pi / _CYLINDER_SIDES)
+        ring = np.column_stack(
+            [ring_radius * np.cos(angles), ring_radius * np.sin(angles), np.full(_CYLINDER_SIDES, length / 2)]
+        )
         return np.concatenate([ring, ring * [1, 1, -1]])
     # The inscribed sphere of this polyhedron of a unit ball has radius cos(pi / _SIDES)^2.
-    rows = np.pi * (np.arange(_SIDES // 2) + 0.5) / (_SIDES // 2)
-    out = np.array([[np.sin(v) * np.cos(u), np.sin(v) * np.sin(u), np.cos(v)] for v in rows for u in turns])
-    out = out if inside else out * ((1 + 1e-9) / np.cos(np.pi / _SIDES) ** 2)
+    polar_angles = np.pi * (np.arange(_CYLINDER_SIDES // 2) + 0.5) / (_CYLINDER_SIDES // 2)
+    sphere_points = np.array(
+        [
+            [np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)]
+            for polar in polar_angles
+            for azimuth in angles
+        ]
+    )
+    sphere_points = sphere_points if inside else sphere_points * ((1 + 1e-9) / np.cos(np.pi / _CYLINDER_SIDES) ** 2)
     if piece.kind == "capsule":
         radius, length = piece.size
-        return np.concatenate([out * radius + np.array([0, 0, z]) for z in (-length / 2, length / 2)])
-    return np.asarray(out * np.array(piece.size))
+        return np.concatenate([sphere_points * radius + np.array([0, 0, z]) for z in (-length / 2, length / 2)])
+    return np.asarray(sphere_points * np.array(piece.size))
 
 
-def _volume(vertices: Array, faces: Triangles) -> float:
-    """Of a closed mesh (Gauss); the sign is that of its orientation, and a mirrored one counts the same."""
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    return abs(float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6))
+def _mesh_volume(vertices: Array, faces: Triangles) -> float:
+    """Compute the volume of a closed mesh (Gauss); its orientation does not matter, and a mirrored mesh counts the same."""
+    first, second, third = (vertices[faces[:, corner]] for corner in range(3))
+    return abs(float(np.einsum("ij,ij->i", first, np.cross(second, third)).sum() / 6))

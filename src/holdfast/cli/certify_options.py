@@ -1,4 +1,4 @@
-"""Options of the commands of ``holdfast certify``, and how they become arguments of a claim."""
+"""Options of the commands of ``holdfast certify``, and their conversion to the arguments of a claim."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     Ranges = dict[str | int, tuple[float, float]]
 
-REJECTED, REFUTED = 1, 4  # exit codes
+REJECTED_EXIT_CODE, REFUTED_EXIT_CODE = 1, 4  # exit codes
 
 LockOption = Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."]
 LimitOption = Annotated[list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again."]
@@ -31,8 +31,8 @@ CertificateOption = Annotated[Path, "Certificate to write."]
 
 
 @dataclass(frozen=True)
-class Targets:
-    """A box of them."""
+class TargetBoxOptions:
+    """Options for a box of targets."""
 
     box: Annotated[str, "Centre of the targets, m: x, y, z; x, y in a plane."]
     size: Annotated[str, "Edges of the box, m: one number, or one for each axis."]
@@ -43,15 +43,15 @@ class Targets:
     rotation_size: Annotated[str | None, "Edges of a box around --rotation, degrees: one number or three. Default: 0."] = None
     pointing: Annotated[bool, "Of --rotation only where the tool's z axis points counts, not its turn about it."] = False
 
-    def read(self) -> dict[str, Any]:
-        """As a claim takes them."""
+    def claim_arguments(self) -> dict[str, Any]:
+        """Return the targets as arguments of a claim."""
         return {
             "centre": read_numbers("--box", self.box, "two or three numbers, m,"),
             "size": read_numbers("--size", self.size, "one number, or one for each axis, m,"),
-            **self._turned(),
+            **self._rotation_arguments(),
         }
 
-    def _turned(self) -> dict[str, Any]:
+    def _rotation_arguments(self) -> dict[str, Any]:
         from holdfast.arm.urdf import rpy_rotation
 
         if self.rotation is None:
@@ -66,42 +66,42 @@ class Targets:
             raise InputError(
                 "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
             )
-        turn, task = np.pi / 180, {"task": "pointing"} if self.pointing else {}
+        radians_per_degree, task = np.pi / 180, {"task": "pointing"} if self.pointing else {}
         if angles.size == 3 and not edges.any():
-            return {"rotation": rpy_rotation((turn * angles).tolist()), **task}
-        ends = turn * np.column_stack([angles - edges / 2, angles + edges / 2])
-        return {"rpy": ends if angles.size == 3 else ends[0], **task}
+            return {"rotation": rpy_rotation((radians_per_degree * angles).tolist()), **task}
+        intervals = radians_per_degree * np.column_stack([angles - edges / 2, angles + edges / 2])
+        return {"rpy": intervals if angles.size == 3 else intervals[0], **task}
 
 
 @dataclass(frozen=True)
-class Configurations:
-    """A box of them: some angles around a middle, or within limits."""
+class ConfigurationBoxOptions:
+    """Options for a box of configurations: intervals around a center, or within limits."""
 
     around: Annotated[str | None, "Middle of the box: a value of each joint, rad. Default: limits."] = None
     within: Annotated[str | None, "Half widths of it, rad: one number, or one for each joint."] = None
     limit: LimitOption = None
 
-    def read(self, arm: Arm, degrees: bool) -> Ranges:
-        """As a claim takes it."""
+    def read_ranges(self, arm: Arm, degrees: bool) -> Ranges:
+        """Return the range of each joint, as an argument of a claim."""
         box: Ranges = {}
         if (self.around is None) != (self.within is None):
             raise InputError("--around and --within go together: the middle of the box and its half widths")
         if self.around is not None and self.within is not None:
-            middle = read_numbers("--around", self.around, f"{arm.n} numbers,")
-            half = read_numbers("--within", self.within, f"one number, or {arm.n},")
-            if len(middle) != arm.n or len(half) not in (1, arm.n):
+            center = read_numbers("--around", self.around, f"{arm.n} numbers,")
+            half_widths = read_numbers("--within", self.within, f"one number, or {arm.n},")
+            if len(center) != arm.n or len(half_widths) not in (1, arm.n):
                 raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
-            if (half < 0).any():
+            if (half_widths < 0).any():
                 raise InputError("--within must not be negative: it is half widths")
-            pairs = zip(arm.joint_names, middle, [*half] * (arm.n // len(half)), strict=True)
-            texts = [f"{name}={x - h}..{x + h}" for name, x, h in pairs]
-            box = intervals(arm, "--around", texts, degrees)
-        return box | intervals(arm, "--limit", self.limit, degrees)
+            pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
+            texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
+            box = read_intervals(arm, "--around", texts, degrees)
+        return box | read_intervals(arm, "--limit", self.limit, degrees)
 
 
 @dataclass(frozen=True)
-class Search:
-    """How long it may take, and where it is remembered."""
+class SearchOptions:
+    """Options for the resources of the search, and the folder from which it resumes."""
 
     time_limit: Annotated[float | None, "Time limit of search and check together, s; half of it is kept for the check."] = None
     workers: Annotated[int, "Processes; the certificate is the same."] = 1
@@ -112,8 +112,8 @@ class Search:
 
 
 @dataclass(frozen=True)
-class Written:
-    """Where it is written, and what is shown."""
+class CertificateOutput:
+    """Options for the output files of a certificate and its display."""
 
     out: CertificateOption
     plot: PlotOption = None
@@ -121,17 +121,17 @@ class Written:
     json_: JsonOption = False
 
 
-def intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
-    """``JOINT=LOW..HIGH`` as numbers, rad."""
+def read_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
+    """Read ``JOINT=LOW..HIGH`` as numbers, rad."""
     ends: tuple[list[str], list[str]] = [], []
     for text in texts or []:
         joint, _, span = text.rpartition("=")
-        low, dots, high = span.partition("..")
-        if not (dots and low and high):
+        lower, separator, upper = span.partition("..")
+        if not (separator and lower and upper):
             raise InputError(
                 f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
             )
-        for end, value in zip(ends, (low, high), strict=True):
+        for end, value in zip(ends, (lower, upper), strict=True):
             end.append(f"{joint}={value}")
-    lows, highs = (read_by_joint(arm, end, option, degrees) for end in ends)
-    return {name: (lows[name], highs[name]) for name in lows}
+    lower_ends, upper_ends = (read_by_joint(arm, end, option, degrees) for end in ends)
+    return {name: (lower_ends[name], upper_ends[name]) for name in lower_ends}

@@ -1,4 +1,4 @@
-"""What the commands of ``holdfast certify`` do with a claim."""
+"""Search, check, and output of the commands of ``holdfast certify``."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import REFUTED, REJECTED, Search, Written
-from holdfast.cli.larger.study import stopping
-from holdfast.cli.options import NOT_MET
-from holdfast.cli.progress import progress_bar
+from holdfast.cli.certify_options import REFUTED_EXIT_CODE, REJECTED_EXIT_CODE, CertificateOutput, SearchOptions
+from holdfast.cli.larger.study import stop_on_signal
+from holdfast.cli.options import NOT_MET_EXIT_CODE
+from holdfast.cli.progress import ProgressBar
 from holdfast.errors import InputError
 from holdfast.present.printing import print_json
-from holdfast.present.results import drawn, printed, said
+from holdfast.present.results import current_command, print_result, write_outputs
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.reach import WorkingRanges
 
 
-def _need_place(out: Path, folder: bool) -> None:
-    """Refuse before the search what could not be written after it, or would replace another file."""
+def _check_output_path(out: Path, folder: bool) -> None:
+    """Raise before the search if the output path cannot be written or would replace another file."""
     if out.is_dir() and not folder:
         raise InputError(f"--out '{out}' is a folder; give the name of a file")
     if out.is_file() and out.suffix not in ("", ".certificate", ".zip"):
@@ -35,80 +35,96 @@ def _need_place(out: Path, folder: bool) -> None:
         raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")
 
 
-def _need_place_and_flint(search: Search, written: Written, folder: bool) -> None:
-    """Refuse before any search what could not be written or checked after it."""
-    from holdfast.certificates.checks import need_flint
+def _check_output_and_flint(search: SearchOptions, output: CertificateOutput, folder: bool) -> None:
+    """Raise before any search if its certificate could not be written or checked."""
+    from holdfast.certificates.checks import require_flint
 
-    _need_place(written.out, folder)
+    _check_output_path(output.out, folder)
     if search.check:
-        need_flint()
+        require_flint()
 
 
-def prove_with_found_ranges(arm: Arm, asked: dict[str, Any], search: Search, written: Written, **how: Any) -> None:
-    """Find working ranges for a failure-tolerant box, print them with the command that gives them, and prove the claim."""
-    _need_place_and_flint(search, written, folder=True)
-    found = hf.find_working_ranges(arm, **asked, seed=how["seed"])
-    if not (found.ok and written.json_):
-        printed(found, written.json_)
-    if not found.ok:
-        raise typer.Exit(NOT_MET)
-    if not written.json_:
-        typer.echo(f"The same claim without the search: {_command_with(found.options)}\n")
-    proved(found.claim, search, written, ranges=found, **how)
+def prove_with_found_ranges(
+    arm: Arm, claim_arguments: dict[str, Any], search: SearchOptions, output: CertificateOutput, **certify_options: Any
+) -> None:
+    """Find working ranges for a failure-tolerant box, print them with the command that sets them, and prove the claim."""
+    _check_output_and_flint(search, output, folder=True)
+    working_ranges = hf.find_working_ranges(arm, **claim_arguments, seed=certify_options["seed"])
+    if not (working_ranges.ok and output.json_):
+        print_result(working_ranges, output.json_)
+    if not working_ranges.ok:
+        raise typer.Exit(NOT_MET_EXIT_CODE)
+    if not output.json_:
+        typer.echo(f"The same claim without the search: {_command_with_ranges(working_ranges.options)}\n")
+    prove_claim(working_ranges.claim, search, output, ranges=working_ranges, **certify_options)
 
 
-def _command_with(ranges: Sequence[str]) -> str:
-    """The command that runs, with these ranges in degrees in place of those that it was given."""
-    kept, words = list[str](), iter(sys.argv[1:])
+def _command_with_ranges(ranges: Sequence[str]) -> str:
+    """Return the present command with these ranges, in degrees, in place of its own."""
+    retained, words = list[str](), iter(sys.argv[1:])
     for word in words:
         option, equals, _ = word.partition("=")
         if option in ("--range", "--ranges"):
             if not equals:
                 next(words, None)
         elif option not in ("--find-ranges", "--degrees"):
-            kept.append(word)
-    return f"holdfast {shlex.join([*kept, '--degrees', *(word for text in ranges for word in ('--range', text))])}"
+            retained.append(word)
+    return f"holdfast {shlex.join([*retained, '--degrees', *(word for interval in ranges for word in ('--range', interval))])}"
 
 
-def proved(claim: Any, search: Search, written: Written, ranges: WorkingRanges | None = None, **how: Any) -> None:
-    """Search, write, check, draw, print; ranges that were found for the claim are on the page and in the JSON."""
+def prove_claim(
+    claim: Any, search: SearchOptions, output: CertificateOutput, ranges: WorkingRanges | None = None, **certify_options: Any
+) -> None:
+    """Prove a claim, write and check the certificate, draw it and print the result; ranges found for the claim are on the page
+    and in the JSON.
+    """
     from holdfast.certificates import PathProof, TolerantClaim
     from holdfast.certificates.checks import CheckStopped
-    from holdfast.present.certificates.console import state
+    from holdfast.present.certificates.console import format_state
 
-    _need_place_and_flint(search, written, isinstance(claim, TolerantClaim))
+    _check_output_and_flint(search, output, isinstance(claim, TolerantClaim))
     # Of a limited time half is kept for the check, which gets what the search leaves as well.
-    begin, limit = monotonic() - (ranges.seconds if ranges else 0.0), search.time_limit
-    if limit is not None:
-        limit = max(limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if search.check else 1)
-    bar = progress_bar(written.json_, "ten-thousandths")
-    with stopping("") as stop, bar as progress:
-        how |= {"time_limit": limit, "workers": search.workers, "store": search.store}
-        proof = hf.certify(claim, **how, progress=progress, state=lambda now: bar.says(state(now)), stop=stop)
-    file = proof.write(written.out)
-    found = None
+    start_time, search_limit = monotonic() - (ranges.seconds if ranges else 0.0), search.time_limit
+    if search_limit is not None:
+        search_limit = max(search_limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if search.check else 1)
+    bar = ProgressBar(output.json_, "ten-thousandths")
+    with stop_on_signal("") as stop, bar as progress:
+        certify_options |= {"time_limit": search_limit, "workers": search.workers, "store": search.store}
+        proof = hf.certify(
+            claim,
+            **certify_options,
+            progress=progress,
+            state=lambda progress_state: bar.set_text(format_state(progress_state)),
+            stop=stop,
+        )
+    file = proof.write(output.out)
+    verdict = None
     if search.check and not stop():
-        left = None if search.time_limit is None else max(0.0, search.time_limit - (monotonic() - begin))
+        remaining_time = None if search.time_limit is None else max(0.0, search.time_limit - (monotonic() - start_time))
         try:
-            found = hf.check_certificate(file, time_limit=left)
+            verdict = hf.check_certificate(file, time_limit=remaining_time)
         except CheckStopped:
             typer.echo(
                 f"The time limit of {search.time_limit:g} s ended the check, so {file} is not verified; "
                 f"'holdfast certificate check {file}' verifies it.",
                 err=True,
             )
-    told = {"ranges": ranges} if ranges else {}
-    page = [] if written.report is None else [proof.report(written.report, command=said(), check=found, file=file, **told)]
-    files = [file, *drawn(proof, written.plot), *page]
-    if written.json_ and ranges:
-        print_json((found or proof).to_dict() | {"found_ranges": ranges.to_dict()})
+    report_options = {"ranges": ranges} if ranges else {}
+    report_files = (
+        []
+        if output.report is None
+        else [proof.report(output.report, command=current_command(), check=verdict, file=file, **report_options)]
+    )
+    files = [file, *write_outputs(proof, output.plot), *report_files]
+    if output.json_ and ranges:
+        print_json((verdict or proof).to_dict() | {"found_ranges": ranges.to_dict()})
     else:
-        printed(found or proof, written.json_, files)
+        print_result(verdict or proof, output.json_, files)
     if stop():
         raise KeyboardInterrupt
-    if found is not None and found.rejected:
-        raise typer.Exit(REJECTED)
+    if verdict is not None and verdict.rejected:
+        raise typer.Exit(REJECTED_EXIT_CODE)
     if isinstance(proof, hf.certificates.Refutation | hf.certificates.ManipulabilityBound | PathProof) and proof.refuted:
-        raise typer.Exit(REFUTED)
-    if not proof.ok or (search.check and found is None):
-        raise typer.Exit(NOT_MET)
+        raise typer.Exit(REFUTED_EXIT_CODE)
+    if not proof.ok or (search.check and verdict is None):
+        raise typer.Exit(NOT_MET_EXIT_CODE)

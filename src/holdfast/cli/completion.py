@@ -1,4 +1,4 @@
-"""What a shell is offered when it asks how a word goes on: arms, tasks, and what the registry holds."""
+"""Shell completion for the names of arms, tasks, and registry entries."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ from typing import Any
 from typer import core
 
 
-def asked(arguments: list[str]) -> str | None:
-    """The command on the line; a shell that asks gives the line in its environment."""
+def find_command_name(arguments: list[str]) -> str | None:
+    """Return the command on the line; during completion the shell passes the line in the environment."""
     line = os.environ.get("COMP_WORDS", os.environ.get("_TYPER_COMPLETE_ARGS"))
     if "_HOLDFAST_COMPLETE" not in os.environ or line is None:
         return next(iter(arguments), None)
-    words = line.split()
-    return words[1] if len(words) > 2 or (len(words) == 2 and line[-1:].isspace()) else None
+    typed_words = line.split()
+    return typed_words[1] if len(typed_words) > 2 or (len(typed_words) == 2 and line[-1:].isspace()) else None
 
 
-def offer(parameters: list[Any]) -> None:
-    """Have each parameter offer the names that it takes; files and folders are left to the shell."""
-    for each in parameters:
-        what = (each.metavar or "").strip("[].") if each.param_type_name == "argument" else each.opts[0]
-        if what in _NAMES:
-            each.shell_complete = partial(_completed, _NAMES[what].split())
+def offer_names(parameters: list[Any]) -> None:
+    """Attach name completion to each parameter; files and folders are left to the shell."""
+    for parameter in parameters:
+        option = (parameter.metavar or "").strip("[].") if parameter.param_type_name == "argument" else parameter.opts[0]
+        if option in _NAME_KINDS:
+            parameter.shell_complete = partial(_complete_word, _NAME_KINDS[option].split())
 
 
-def _completed(kinds: list[str], context: Any, word: str) -> list[Any]:
+def _complete_word(kinds: list[str], context: Any, word: str) -> list[Any]:
     item: Any = core.CompletionItem  # type: ignore[attr-defined]
-    return [item(name) for kind in kinds for name in _names(kind) if name.startswith(word)]
+    return [item(name) for kind in kinds for name in _list_names(kind) if name.startswith(word)]
 
 
-_NAMES = {
+_NAME_KINDS = {
     "ARM": "arms",
     "PROTOCOL": "protocols",
     "--arm": "arms",
@@ -47,15 +47,15 @@ _NAMES = {
 }
 
 
-def _names(kind: str) -> list[str]:
+def _list_names(kind: str) -> list[str]:
     from holdfast import arms, grammar, registry
 
-    known: dict[str, Any] = {
+    listings: dict[str, Any] = {
         "arms": arms.names,
         "protocols": lambda: ["goel2003", "goel2003-smooth"],
-        "tasks": lambda: grammar.TASKS,
-        "indices": lambda: registry.INDICES,
-        "susceptibilities": lambda: registry.SUSCEPTIBILITIES,
-        "laws": lambda: registry.LAWS,
+        "tasks": lambda: grammar.TASK_SIZES,
+        "indices": lambda: registry.INDEX_REGISTRY,
+        "susceptibilities": lambda: registry.SUSCEPTIBILITY_REGISTRY,
+        "laws": lambda: registry.LAW_REGISTRY,
     }
-    return list(known[kind]())
+    return list(listings[kind]())

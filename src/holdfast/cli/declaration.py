@@ -1,4 +1,4 @@
-"""What a command declares, as typer takes it.
+"""Conversion of the parameters of a command to typer options.
 
 A parameter whose type is ``Annotated[int, "What it is for."]`` is the option of its name; a second text is what the help shows
 as its default. One whose type is a dataclass is a group: the command takes the options that are its fields, at the same place,
@@ -20,42 +20,45 @@ from holdfast.grammar import is_number
 
 
 def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The command with each option on its own, declared by ``typer.Option``."""
+    """Return the command with separate options, each declared by ``typer.Option``."""
     if hasattr(command, "__signature__"):  # it is that already
         return command
     options, groups = list[Parameter](), dict[str, tuple[Any, list[str]]]()
-    for each in signature(command, eval_str=True).parameters.values():
-        group = each.annotation
+    for parameter in signature(command, eval_str=True).parameters.values():
+        group = parameter.annotation
         if not is_dataclass(group):
-            options.append(_option(each.name, group, each.default))
+            options.append(_declare_option(parameter.name, group, parameter.default))
             continue
         hints, names = get_type_hints(group, include_extras=True), [field.name for field in fields(group)]
-        groups[each.name] = group, names
-        given = group if each.default is Parameter.empty else each.default
-        options += [_option(name, hints[name], getattr(given, name, Parameter.empty)) for name in names]
+        groups[parameter.name] = group, names
+        group_default = group if parameter.default is Parameter.empty else parameter.default
+        options += [_declare_option(name, hints[name], getattr(group_default, name, Parameter.empty)) for name in names]
 
     @wraps(command)
-    def whole(**given: Any) -> Any:
+    def call_with_groups(**values: Any) -> Any:
         for name, (group, names) in groups.items():
-            given[name] = group(**{each: given.pop(each) for each in names})
-        return command(**given)
+            values[name] = group(**{field_name: values.pop(field_name) for field_name in names})
+        return command(**values)
 
-    whole.__annotations__ = {each.name: each.annotation for each in options}
-    whole.__signature__ = Signature(options)  # type: ignore[attr-defined]
-    return whole
+    call_with_groups.__annotations__ = {parameter.name: parameter.annotation for parameter in options}
+    call_with_groups.__signature__ = Signature(options)  # type: ignore[attr-defined]
+    return call_with_groups
 
 
-def _option(name: str, kind: Any, default: Any) -> Parameter:
-    if get_origin(kind) is Annotated and isinstance(kind.__metadata__[0], str):
-        about, *shown = kind.__metadata__
-        whole: dict[str, Any] = {}
-        if kind.__origin__ in (int, int | None):
-            whole = {"parser": read_whole_number, "metavar": "INTEGER"}
+def _declare_option(name: str, annotation: Any, default: Any) -> Parameter:
+    if get_origin(annotation) is Annotated and isinstance(annotation.__metadata__[0], str):
+        help_text, *default_text = annotation.__metadata__
+        number_settings: dict[str, Any] = {}
+        if annotation.__origin__ in (int, int | None):
+            number_settings = {"parser": read_whole_number, "metavar": "INTEGER"}
         option = typer.Option(
-            f"--{name.strip('_').replace('_', '-')}", help=about, show_default=shown[0] if shown else True, **whole
+            f"--{name.strip('_').replace('_', '-')}",
+            help=help_text,
+            show_default=default_text[0] if default_text else True,
+            **number_settings,
         )
-        kind = Annotated[kind.__origin__, option]
-    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind)
+        annotation = Annotated[annotation.__origin__, option]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
 def read_whole_number(text: str | int) -> int:

@@ -1,4 +1,4 @@
-"""Options that go together: a command has one parameter for all of them, and they are declared and read in one place."""
+"""Groups of options that several commands share, each declared and read in one place."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.arms.spec import each_arm, read_hold
+from holdfast.arms.spec import match_arm_options, read_hold
 from holdfast.cli.options import JsonOption, OutOption, PlotOption
 from holdfast.cli.values import read_numbers
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import print_result, write_outputs
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -27,8 +27,8 @@ _PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 
 
 @dataclass(frozen=True)
-class Chain:
-    """What of a file the arm is."""
+class ArmSourceOptions:
+    """Options that select the kinematic chain of an arm file."""
 
     base: Annotated[str | None, "URDF, MJCF: base link or body. Default: the root."] = None
     tip: Annotated[str | None, "URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger."] = None
@@ -38,16 +38,16 @@ class Chain:
         "again.",
     ] = None
 
-    def arm(self, spec: str) -> Arm:
-        """The arm that ``spec`` and these options name."""
+    def resolve_arm(self, spec: str) -> Arm:
+        """Return the arm that ``spec`` and these options describe."""
         from holdfast import arms
 
         return arms.resolve(spec, self.base, self.tip, hold=read_hold(",".join(self.hold)) if self.hold else None)
 
 
 @dataclass(frozen=True)
-class Chains:
-    """The same of several arms, and what each is called."""
+class ArmSourcesOptions:
+    """Options that select the kinematic chains of several arms, and their names."""
 
     base: Annotated[list[str] | None, f"URDF, MJCF: base link or body, {_PER_ARM} Default: the root."] = None
     tip: Annotated[list[str] | None, f"URDF, MJCF: tip link, body or site, {_PER_ARM} Default: the only end."] = None
@@ -57,30 +57,36 @@ class Chains:
     ] = None
     name: Annotated[list[str] | None, "What an arm is called, once for each in order ('-' for its own)."] = None
 
-    def arms(self, specs: Sequence[str]) -> list[ArmSpec]:
-        """The arms that ``specs`` and these options name; see :func:`holdfast.arms.spec.each_arm` for the errors."""
-        return each_arm(specs, self.base, self.tip, self.hold, self.name)
+    def resolve_arms(self, specs: Sequence[str]) -> list[ArmSpec]:
+        """Return the arms that ``specs`` and these options describe; see :func:`holdfast.arms.spec.match_arm_options` for the
+        errors.
+        """
+        return match_arm_options(specs, self.base, self.tip, self.hold, self.name)
 
 
 @dataclass(frozen=True)
-class Output:
-    """How a result is shown."""
+class OutputOptions:
+    """Options for the display of a result."""
 
     plot: PlotOption = None
     out: OutOption = None
     json_: JsonOption = False
 
-    def printed(self, result: Result, files: Sequence[Path] = ()) -> None:
-        """Print it and where it is: in ``files``, and in the picture and the folder that are asked for."""
-        printed(result, self.json_, [*files, *drawn(result, self.plot, self.out)])
+    def print_result(self, result: Result, files: Sequence[Path] = ()) -> None:
+        """Print the result and the paths of ``files``, the requested picture, and the requested folder."""
+        print_result(result, self.json_, [*files, *write_outputs(result, self.plot, self.out)])
 
 
-_MOUNTS = {"floor": np.eye(3), "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]), "ceiling": np.diag([1.0, -1, -1])}
+_MOUNT_ROTATIONS = {
+    "floor": np.eye(3),
+    "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
+    "ceiling": np.diag([1.0, -1, -1]),
+}
 
 
 @dataclass(frozen=True)
-class Placement:
-    """How an arm is mounted, and what it carries."""
+class MountingOptions:
+    """Options for the mounting, the gravity, and the payload of an arm."""
 
     mount: Annotated[str, "floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x)."] = "floor"
     gravity: Annotated[str | None, "Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's."] = None
@@ -88,27 +94,27 @@ class Placement:
         str | None, "A point mass at the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0)."
     ] = None
 
-    def of(self, arm: Arm) -> Arm:
-        """The arm placed so.
+    def mount_arm(self, arm: Arm) -> Arm:
+        """Return the arm with this mounting, gravity, and payload.
 
         Raises:
             InputError: A mount that is not known, or numbers that are too many or too few.
         """
         from holdfast.arm.machine import Link
 
-        if self.mount not in _MOUNTS:
-            raise InputError(f"--mount '{self.mount}' is not known; use one of {', '.join(_MOUNTS)}")
-        turn = np.eye(4)
-        turn[:3, :3] = _MOUNTS[self.mount]
-        arm = arm.with_base(turn @ arm.base)
+        if self.mount not in _MOUNT_ROTATIONS:
+            raise InputError(f"--mount '{self.mount}' is not known; use one of {', '.join(_MOUNT_ROTATIONS)}")
+        mount_pose = np.eye(4)
+        mount_pose[:3, :3] = _MOUNT_ROTATIONS[self.mount]
+        arm = arm.with_base(mount_pose @ arm.base)
         if self.gravity is not None:
             arm = replace(arm, gravity=read_numbers("--gravity", self.gravity, "3 numbers"))
         if self.payload is not None:
             numbers = read_numbers("--payload", self.payload, "1 or 4 numbers")
             if numbers.size not in (1, 4):
                 raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
-            place = numbers[1:] if numbers.size == 4 else np.zeros(3)
-            arm = arm.with_payload(Link(float(numbers[0]), place, np.zeros((3, 3)), name="payload"))
+            center_of_mass = numbers[1:] if numbers.size == 4 else np.zeros(3)
+            arm = arm.with_payload(Link(float(numbers[0]), center_of_mass, np.zeros((3, 3)), name="payload"))
         return arm
 
 
@@ -119,8 +125,8 @@ CellOption = Annotated[Path | None, "Cell file (YAML): objects around the arm, w
 
 
 @dataclass(frozen=True)
-class Apart:
-    """What an arm is kept clear of. With ``--no-clearance`` the cell alone counts."""
+class ClearanceOptions:
+    """Options for the clearance of an arm. With ``--no-clearance`` the cell alone counts."""
 
     clearance: Annotated[
         bool | None,
@@ -136,16 +142,17 @@ class Apart:
     margin: Annotated[float | None, "Smallest clearance kept, m; from objects beyond the cell's own. Default: 0."] = None
     cell: CellOption = None
 
-    def check(self) -> None:
-        """Refuse options that contradict each other, before any work is done.
+    def check_consistency(self) -> None:
+        """Raise for contradictory options, before any work is done.
 
         Raises:
             InputError: Which ones, or an invalid radius or margin.
         """
-        given = [f"--{name}" for name in ("capsules", "radius", "margin") if getattr(self, name) is not None]
-        if self.clearance is False and given and self.cell is None:
+        given_options = [f"--{name}" for name in ("capsules", "radius", "margin") if getattr(self, name) is not None]
+        if self.clearance is False and given_options and self.cell is None:
             raise InputError(
-                f"{given[0]} asks for a clearance of the arm from itself and --no-clearance asks for none; give one of them"
+                f"{given_options[0]} asks for a clearance of the arm from itself and --no-clearance asks for none; give "
+                f"one of them"
             )
         if self.capsules is not None and self.radius is not None:
             raise InputError("give one of --capsules and --radius; a capsule file may hold a radius")
@@ -154,8 +161,9 @@ class Apart:
         if self.margin is not None and not math.isfinite(self.margin):
             raise InputError(f"--margin is {self.margin:g}; it must be a finite number of metres")
 
-    def read(self, arm: Arm, chooses: bool = True) -> Clearance | None:
-        """What the arm is kept clear of, or None for nothing; ``chooses``: by a choice of configurations.
+    def build_clearance(self, arm: Arm, chooses_configurations: bool = True) -> Clearance | None:
+        """Build the clearance to enforce, or return None for none; ``chooses_configurations``: the command chooses among
+        configurations.
 
         Raises:
             InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
@@ -166,47 +174,49 @@ class Apart:
         from holdfast.clearance.clearance import Clearance
         from holdfast.shapes.reading import with_meshes
 
-        if self.margin is not None and not chooses:
+        if self.margin is not None and not chooses_configurations:
             raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
         arm = arm if self.meshes is None else with_meshes(arm, self.meshes)
         if self.capsules is not None or self.radius is not None:
             shape = Capsules.along(arm, self.radius) if self.capsules is None else Capsules.load(self.capsules, arm)
             return chosen_clearance(arm, Clearance(arm, shape, itself=self.clearance is not False), self.cell)
-        found = chosen_clearance(arm, self.clearance, self.cell, looks=chooses)
-        if self.margin is not None and found is None:
+        default_clearance = chosen_clearance(arm, self.clearance, self.cell, looks=chooses_configurations)
+        if self.margin is not None and default_clearance is None:
             raise InputError(
                 f"--margin has no effect: the links of '{arm.name}' lie beside each other, so its clearance is not checked "
                 f"unless you ask for it; add --clearance or --capsules"
             )
-        return found
+        return default_clearance
 
-    def read_if_asked(self, arm: Arm) -> Clearance | None:
-        """The same, but nothing unless an option other than --meshes asks for it."""
-        asked = self.clearance or any(x is not None for x in (self.capsules, self.radius, self.margin, self.cell))
-        return self.read(arm) if asked else None
+    def build_if_requested(self, arm: Arm) -> Clearance | None:
+        """Build the clearance only if an option other than --meshes requests it, else return None."""
+        is_requested = self.clearance or any(
+            option is not None for option in (self.capsules, self.radius, self.margin, self.cell)
+        )
+        return self.build_clearance(arm) if is_requested else None
 
 
 @dataclass(frozen=True)
-class Touched:
-    """What an arm may touch, where a command says what it does touch."""
+class ContactOptions:
+    """Options for objects that the arm may touch, where a command reports the contacts."""
 
     cell: Annotated[Path | None, "Cell file (YAML): objects around the arm; what it touches is said."] = None
     capsules: CapsulesOption = None
     radius: RadiusOption = None
     meshes: MeshesOption = None
 
-    def read(self, arm: Arm) -> Clearance | None:
-        """The arm's shape and the cell; None without a cell.
+    def build_contact_clearance(self, arm: Arm) -> Clearance | None:
+        """Build the clearance from the arm's shape and the cell; return None without a cell.
 
         Raises:
             InputError: A shape with nothing to touch, or a cell that cannot be read or does not fit the arm.
             ArmError: A capsule file or radius that does not fit the arm.
         """
-        apart = Apart(capsules=self.capsules, radius=self.radius, meshes=self.meshes, cell=self.cell)
-        apart.check()
+        clearance_options = ClearanceOptions(capsules=self.capsules, radius=self.radius, meshes=self.meshes, cell=self.cell)
+        clearance_options.check_consistency()
         if self.cell is None:
             for name in ("capsules", "radius", "meshes"):
                 if getattr(self, name) is not None:
                     raise InputError(f"--{name} is the shape of the arm that may touch a cell, and there is none; add --cell")
             return None
-        return replace(apart, clearance=False).read(arm, chooses=False)
+        return replace(clearance_options, clearance=False).build_clearance(arm, chooses_configurations=False)

@@ -1,4 +1,4 @@
-"""Options that name a control law, what it should do and what has locked, for several commands."""
+"""Options for a control law, its target, and the locked joints, shared by several commands."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 from holdfast.cli.options import TARGET_HELP
 from holdfast.cli.values import read_target, read_task
 from holdfast.grammar import is_count
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
-    from holdfast.cli.groups import Chain
+    from holdfast.cli.groups import ArmSourceOptions
     from holdfast.control.law import Law
 
 TargetOption = Annotated[str, TARGET_HELP]
 TargetsOption = Annotated[str, f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200)."]
-LAW_HELP = f"{LAWS.usage}."
+LAW_HELP = f"{LAW_REGISTRY.usage}."
 LawOption = Annotated[str, LAW_HELP]
 LawsOption = Annotated[
     list[str] | None, f"A law to compare: {LAW_HELP} May be given again.", "pseudoinverse and failure-tolerant"
@@ -29,31 +29,31 @@ TimeLimitOption = Annotated[float | None, "Time limit, s or cycles.", "3000/gain
 LockDegreesOption = Annotated[bool, "--lock is in degrees (prismatic joints stay in m)."]
 
 
-def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
-    """The law that --law names; ``option`` is what an error calls it."""
-    law: Law = LAWS.make(label, arm, option=option, task=task, **more)
+def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **settings: Any) -> Law:
+    """Create the law that --law names; errors refer to ``option``."""
+    law: Law = LAW_REGISTRY.make(label, arm, option=option, task=task, **settings)
     return law
 
 
-def read_laws(labels: list[str] | None, arm: Arm, task: str | None, spec: str, **more: Any) -> list[Law]:
-    """The laws to compare, for the arm that ``spec`` names."""
-    chosen = read_task(task, spec, arm)
-    return [read_law(label, arm, chosen, **more) for label in labels or ["pseudoinverse", "failure-tolerant"]]
+def read_laws(labels: list[str] | None, arm: Arm, task: str | None, spec: str, **settings: Any) -> list[Law]:
+    """Create the laws to compare, for the arm that ``spec`` names."""
+    common_task = read_task(task, spec, arm)
+    return [read_law(label, arm, common_task, **settings) for label in labels or ["pseudoinverse", "failure-tolerant"]]
 
 
-def law_of(label: str, arm: str, task: str | None, chain: Chain, **more: Any) -> Law:
-    """The law that --law, ARM, --task and the options of the chain name."""
-    model = chain.arm(arm)
-    return read_law(label, model, read_task(task, arm, model), **more)
+def read_law_for_arm(label: str, arm: str, task: str | None, chain: ArmSourceOptions, **settings: Any) -> Law:
+    """Create the law that --law, ARM, --task and the options of the kinematic chain describe."""
+    model = chain.resolve_arm(arm)
+    return read_law(label, model, read_task(task, arm, model), **settings)
 
 
-def read_places(text: str) -> str | int:
-    """A lattice as it is written, or a number of random places."""
+def read_positions(text: str) -> str | int:
+    """Read the text of a lattice, or a number of random positions."""
     text = text.removeprefix("random:")
     return int(text) if is_count(text) else text
 
 
 def read_targets(law: Law, text: str) -> Any:
-    """--target as the library takes it where it may be one or many."""
-    many = text.startswith(("grid", "random:"))
-    return read_places(text) if many else read_target(law.arm, law.task, text)
+    """Read ``--target`` as an argument of the library where it may be one target or many."""
+    is_set = text.startswith(("grid", "random:"))
+    return read_positions(text) if is_set else read_target(law.arm, law.task, text)

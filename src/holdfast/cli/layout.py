@@ -1,4 +1,4 @@
-"""How the help of a command is laid out: paragraphs, examples to copy, and options in panels by what they are about."""
+"""Layout of the help of a command: paragraphs, examples to copy, and options in thematic panels."""
 
 from __future__ import annotations
 
@@ -8,92 +8,94 @@ from typing import Any
 
 from typer.core import TyperCommand, TyperGroup
 
-from holdfast.cli.completion import offer
+from holdfast.cli.completion import offer_names
 
-_FEW = 8  # options that stay in one panel
-_PANELS = {
+_MIN_OPTIONS_FOR_PANELS = 8  # options that stay in one panel
+_PANEL_OPTIONS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance cell",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
     "climbs fresh designs chunk rotation spacing metric",
     "Output": "out json csv parquet plot at-least",
 }
-_PANEL = {f"--{name}": panel for panel, names in _PANELS.items() for name in names.split()}
-_TYPES = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBER", "path": "PATH", "Path": "PATH"}
+_PANEL_BY_OPTION = {f"--{name}": choose_panel for choose_panel, names in _PANEL_OPTIONS.items() for name in names.split()}
+_TYPE_LABELS = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBER", "path": "PATH", "Path": "PATH"}
 
 
-class LaidOut(TyperCommand):
-    """A command with its options in panels, that lays out its help when it is asked for; and tells a shell what it takes."""
+class PanelCommand(TyperCommand):
+    """Command with its options in panels; it lays out its help on request, and supports shell completion."""
 
     def __init__(self, name: str | None, **settings: Any) -> None:
         super().__init__(name, **settings)
-        panels = {id(each): panel(each, self) for each in self.params}
-        self.params.sort(key=lambda each: [None, *_PANELS].index(panels[id(each)]))
+        panels = {id(option): choose_panel(option, self) for option in self.params}
+        self.params.sort(key=lambda option: [None, *_PANEL_OPTIONS].index(panels[id(option)]))
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write it."""
-        _lay_out(self, ctx)
+        """Write the help."""
+        _lay_out_help(self, ctx)
         super().format_help(ctx, formatter)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """As typer does."""
+        """Parse the arguments like typer, after attaching name completion if a shell requests it."""
         if ctx.resilient_parsing:  # a shell asks
-            offer(list(self.params))
+            offer_names(list(self.params))
         return super().parse_args(ctx, args)
 
 
-class LaidOutGroup(TyperGroup):
-    """A group of commands that does so."""
+class PanelGroup(TyperGroup):
+    """Group of commands that lays out its help on request."""
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write it."""
-        _lay_out(self, ctx)
+        """Write the help."""
+        _lay_out_help(self, ctx)
         super().format_help(ctx, formatter)
 
 
-def panel(option: Any, command: Any) -> str | None:
-    """The panel of an option: by what it is about, where a command has many."""
-    many = sum(each.param_type_name == "option" for each in command.params) >= _FEW  # and --help
-    return _PANEL.get(option.opts[0]) if many else None
+def choose_panel(option: Any, command: Any) -> str | None:
+    """Choose the panel of an option by its topic, for commands with many options."""
+    has_panels = (
+        sum(parameter.param_type_name == "option" for parameter in command.params) >= _MIN_OPTIONS_FOR_PANELS
+    )  # and --help
+    return _PANEL_BY_OPTION.get(option.opts[0]) if has_panels else None
 
 
-def kind(option: Any) -> str:
-    """What an option takes, in capitals; nothing where it takes nothing."""
-    return str(option.metavar or _TYPES.get(option.bare_type(), "TEXT"))
+def type_label(option: Any) -> str:
+    """Return the type of an option's value in capitals, or an empty text for a flag."""
+    return str(option.metavar or _TYPE_LABELS.get(option.bare_type(), "TEXT"))
 
 
-def _lay_out(command: Any, ctx: Any) -> None:
+def _lay_out_help(command: Any, ctx: Any) -> None:
     parameters = command.get_params(ctx)
-    options = [each for each in parameters if each.param_type_name == "option"]
-    for each in parameters:
-        each.help = _literal(each.help or "")
-        each.display_type_rich = lambda ctx: ""
-    for each in options:
-        each.display_type_rich = lambda ctx, shown=kind(each): shown
-        each.rich_help_panel = panel(each, command)
-    command.help = _literal(_flowing(command.help or ""))
+    options = [parameter for parameter in parameters if parameter.param_type_name == "option"]
+    for parameter in parameters:
+        parameter.help = _escape_brackets(parameter.help or "")
+        parameter.display_type_rich = lambda ctx: ""
+    for parameter in options:
+        parameter.display_type_rich = lambda ctx, label=type_label(parameter): label
+        parameter.rich_help_panel = choose_panel(parameter, command)
+    command.help = _escape_brackets(_reflow_help(command.help or ""))
 
 
-def _flowing(text: str) -> str:
-    """Paragraphs without the line ends of the source, and examples as a shell takes them."""
-    paragraphs = [" ".join(each.split()) for each in text.split("\n\n")]
-    examples = [each.removeprefix("Example: ") for each in paragraphs if each.startswith("Example: ")]
-    said = [each for each in paragraphs if not each.startswith("Example: ")]
+def _reflow_help(text: str) -> str:
+    """Join the lines of each paragraph, and format the examples for a shell."""
+    paragraphs = [" ".join(paragraph.split()) for paragraph in text.split("\n\n")]
+    examples = [paragraph.removeprefix("Example: ") for paragraph in paragraphs if paragraph.startswith("Example: ")]
+    blocks = [paragraph for paragraph in paragraphs if not paragraph.startswith("Example: ")]
     if examples:
-        said.append("\n".join([f"Example{'s' * (len(examples) > 1)}:", *map(_command, examples)]))
-    return "\n\n".join(said)
+        blocks.append("\n".join([f"Example{'s' * (len(examples) > 1)}:", *map(_wrap_command, examples)]))
+    return "\n\n".join(blocks)
 
 
-def _command(text: str) -> str:
-    """A command on lines that the window holds."""
-    lines, most = [""], get_terminal_size().columns - 6
+def _wrap_command(text: str) -> str:
+    """Wrap a command to the width of the terminal."""
+    lines, max_letters = [""], get_terminal_size().columns - 6
     for word in re.findall(r"(?:\"[^\"]*\"|\S)+", text):
-        if len(lines[-1]) + len(word) > most:
+        if len(lines[-1]) + len(word) > max_letters:
             lines[-1] += "\\"
             lines.append("    ")
         lines[-1] += f"{word} "
     return "\n".join(map(str.rstrip, lines))
 
 
-def _literal(text: str) -> str:
-    """``holdfast[parquet]`` with its brackets, which rich would take for a style."""
+def _escape_brackets(text: str) -> str:
+    """Escape brackets as in ``holdfast[parquet]``, which rich would take for a style."""
     return re.sub(r"(?<!\\)\[(?=[a-zA-Z/@#])", r"\\[", text)

@@ -1,13 +1,14 @@
-"""Options that name an index, or what a configuration is chosen by."""
+"""Options that name an index or an objective."""
 
 from __future__ import annotations
 
 from typing import Annotated
 
-from holdfast.registry import INDICES, OWN_INDEX, SUSCEPTIBILITIES
+from holdfast.registry import INDEX_REGISTRY, OWN_INDEX, SUSCEPTIBILITY_REGISTRY
 
-IndexOption = Annotated[str, f"{INDICES.usage}; {OWN_INDEX}."]
-OBJECTIVES = (
-    f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, torque:joint2 for "
-    f"one joint alone), or an index: {', '.join(e.usage for e in INDICES.values())}, {OWN_INDEX}"
+IndexOption = Annotated[str, f"{INDEX_REGISTRY.usage}; {OWN_INDEX}."]
+OBJECTIVES_HELP = (
+    f"{', '.join(SUSCEPTIBILITY_REGISTRY)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, "
+    f"torque:joint2 for "
+    f"one joint alone), or an index: {', '.join(e.usage for e in INDEX_REGISTRY.values())}, {OWN_INDEX}"
 )

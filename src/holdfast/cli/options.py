@@ -7,14 +7,14 @@ from typing import Annotated
 
 import typer
 
-from holdfast.grammar import FAILURES_HELP, TASKS
+from holdfast.grammar import FAILURES_HELP, TASK_SIZES
 
-NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
+NOT_MET_EXIT_CODE = 3  # exit code: it worked, and the answer is that not everything asked for is met
 
 ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).")]
 FailureOption = Annotated[Path | None, "What is locked, has lost range or is slow (YAML file), for --lock."]
 JsonOption = Annotated[bool, "Print JSON for machines."]
-TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
+TASK_HELP = f"{', '.join(TASK_SIZES)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
 TaskOption = Annotated[str | None, TASK_HELP]
 TARGET_HELP = (
     "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z,roll,pitch,yaw (m and degrees, "
@@ -27,7 +27,7 @@ StartDegreesOption = Annotated[bool, "--start is in degrees (prismatic joints st
 PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
 PathTaskOption = Annotated[
     str | None,
-    f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
+    f"{', '.join(TASK_SIZES)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
     "moves in a plane), else pose.",
 ]
 KeepOption = Annotated[

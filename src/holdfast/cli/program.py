@@ -1,4 +1,4 @@
-"""The program: its commands, and what it does when something is wrong."""
+"""Program with its commands, and its error handling."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from typing import Annotated, Any
 import typer
 from typer.exceptions import TyperException
 
-from holdfast.cli.completion import asked
+from holdfast.cli.completion import find_command_name
 from holdfast.cli.declaration import as_typer
-from holdfast.cli.interrupt import STOPPED
-from holdfast.cli.layout import LaidOut, LaidOutGroup
+from holdfast.cli.interrupt import STOPPED_EXIT_CODE
+from holdfast.cli.layout import PanelCommand, PanelGroup
 from holdfast.errors import ArmError, HoldfastError
 
-PANELS = {  # of the help, in its order, by the folder
+PANEL_TITLES = {  # of the help, in its order, by the folder
     "start": "Start here",
     "before": "Prepare for a failure",
     "unnoticed": "Undetected failures: simulate and diagnose",
     "known": "Known failures: recover",
     "larger": "Studies, experiments, export",
 }
-COMMANDS = {  # the module of each, in the order of the help; what it defines is `command`, or stands after the colon
+COMMAND_MODULES = {  # the module of each, in the order of the help; what it defines is `command`, or stands after the colon
     "assess": "start.assess",
     "studio": "start.studio",
     "describe": "start.arms:describe",
@@ -72,18 +72,18 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
 }
 
 
-class _InOrder(LaidOutGroup):
-    """Its commands in the order of the table; typer would show groups of commands last."""
+class _OrderedGroup(PanelGroup):
+    """Group that lists its commands in the order of the table; typer would list groups of commands last."""
 
     def list_commands(self, ctx: Any) -> list[str]:
-        return [name for name in COMMANDS if name in self.commands]
+        return [name for name in COMMAND_MODULES if name in self.commands]
 
 
-def assembled(command: str | None = None) -> typer.Typer:
-    """The program with all commands, or with ``command`` alone: others would only cost time."""
+def build_app(command: str | None = None) -> typer.Typer:
+    """Build the program with all commands, or with ``command`` alone to save the time of the others."""
     app = typer.Typer(
         name="holdfast",
-        cls=_InOrder,
+        cls=_OrderedGroup,
         help="Assess, prepare for, simulate, diagnose and recover from joint failures of redundant arms.\n\n"
         "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
         "Joints are given by name, or by number from 1.",
@@ -91,41 +91,41 @@ def assembled(command: str | None = None) -> typer.Typer:
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    app.callback()(_root)
-    for name in [command] if command in COMMANDS else COMMANDS:
-        module, _, function = COMMANDS[name].partition(":")
-        panel = PANELS[module.partition(".")[0]]
-        made = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
-        if isinstance(made, typer.Typer):
-            for each in made.registered_commands:
-                each.cls, each.callback = LaidOut, as_typer(each.callback)  # type: ignore[arg-type]
-            app.add_typer(made, name=name, cls=LaidOutGroup, rich_help_panel=panel)
+    app.callback()(_handle_root_options)
+    for name in [command] if command in COMMAND_MODULES else COMMAND_MODULES:
+        module, _, function = COMMAND_MODULES[name].partition(":")
+        panel = PANEL_TITLES[module.partition(".")[0]]
+        declared = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
+        if isinstance(declared, typer.Typer):
+            for subcommand in declared.registered_commands:
+                subcommand.cls, subcommand.callback = PanelCommand, as_typer(subcommand.callback)  # type: ignore[arg-type]
+            app.add_typer(declared, name=name, cls=PanelGroup, rich_help_panel=panel)
         else:
-            app.command(name, rich_help_panel=panel, cls=LaidOut)(as_typer(made))
+            app.command(name, rich_help_panel=panel, cls=PanelCommand)(as_typer(declared))
     return app
 
 
-def _version(value: bool) -> None:
-    if value:
+def _print_version(requested: bool) -> None:
+    if requested:
         from holdfast import __version__
 
         typer.echo(f"holdfast {__version__}")
         raise typer.Exit
 
 
-def _root(
+def _handle_root_options(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version and exit.")
     ] = False,
 ) -> None:
     del version
 
 
-class _Output(FileIO):
-    """The standard output, which drops what nobody reads: a command whose reader has ended still ends with its own code."""
+class _PipeSafeOutput(FileIO):
+    """Standard output that drops text after its reader has ended, so that the command still ends with its own exit code."""
 
     def write(self, content: Any, /) -> int:
-        """Write to the output, or to nothing once its reader has ended."""
+        """Write to the output, or discard the content once its reader has ended."""
         try:
             return super().write(content)
         except BrokenPipeError:
@@ -134,69 +134,69 @@ class _Output(FileIO):
 
 
 def main() -> None:
-    """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
+    """Run the program: exit code 0 on success, 2 and one sentence on stderr after an error, 130 after Ctrl-C."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # where an encoding has few characters, as that of files on Windows
             stream.reconfigure(errors="backslashreplace")
     if isinstance(sys.stdout, TextIOWrapper) and sys.stdout is sys.__stdout__:
-        output, sys.stdout = (
+        original_output, sys.stdout = (
             sys.stdout,
             TextIOWrapper(
-                BufferedWriter(_Output(1, "w", closefd=False)),
+                BufferedWriter(_PipeSafeOutput(1, "w", closefd=False)),
                 sys.stdout.encoding,
                 "backslashreplace",
                 line_buffering=sys.stdout.line_buffering,
             ),
         )
-        output.flush()
+        original_output.flush()
     try:
-        code = assembled(asked(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
+        exit_code = build_app(find_command_name(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
     except HoldfastError as error:
-        _fail(f"{error}{_with_tip(error)}")
+        _exit_with_error(f"{error}{_suggest_tip(error)}")
     except TyperException as error:  # an unknown command or option, a missing argument
         context = getattr(error, "ctx", None)
         hint = f" (see '{context.command_path} --help')" if context is not None else ""
         message = getattr(error, "format_message", error.__str__)().rstrip(".")
         if not message:  # no arguments: the help was shown
             sys.exit(2)
-        _fail(message + hint)
+        _exit_with_error(message + hint)
     except (KeyboardInterrupt, typer.Abort):
-        _stopped()
+        _exit_stopped()
     except ValueError as error:
         if type(error).__name__ != "LinAlgError":  # known by name, so that numpy is not imported for every command
             raise
-        from holdfast.arguments import broken_down
+        from holdfast.arguments import factorisation_message
 
-        _fail(broken_down(error))
+        _exit_with_error(factorisation_message(error))
     except MemoryError as error:
-        _fail(f"there is not enough memory ({error}); ask for less at once")
+        _exit_with_error(f"there is not enough memory ({error}); ask for less at once")
     except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
         sys.exit(0)
     except OSError as error:
         # What is left in the buffer would be written again at the end, and Python 3.13 exits with 120 when that fails.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        _fail(f"cannot write the output: {error.strerror or error}")
-    if code == STOPPED:  # typer's answer to Ctrl-C
-        _stopped()
-    sys.exit(code if isinstance(code, int) else 0)
+        _exit_with_error(f"cannot write the output: {error.strerror or error}")
+    if exit_code == STOPPED_EXIT_CODE:  # typer's answer to Ctrl-C
+        _exit_stopped()
+    sys.exit(exit_code if isinstance(exit_code, int) else 0)
 
 
-def _stopped() -> None:
+def _exit_stopped() -> None:
     typer.echo("holdfast: stopped", err=True)
-    sys.exit(STOPPED)
+    sys.exit(STOPPED_EXIT_CODE)
 
 
-def _with_tip(error: HoldfastError) -> str:
-    """The same command with a tip, where one is missing and the command names one file of an arm."""
-    words = sys.argv[1:]
-    files = [k for k, word in enumerate(words) if word.lower().endswith((".urdf", ".xml", ".mjcf"))]
+def _suggest_tip(error: HoldfastError) -> str:
+    """Return the same command with a tip added, if one is missing and the command names one file of an arm."""
+    arguments = sys.argv[1:]
+    files = [position for position, word in enumerate(arguments) if word.lower().endswith((".urdf", ".xml", ".mjcf"))]
     if not isinstance(error, ArmError) or error.tip is None or len(files) != 1:
         return ""
-    words[files[0] + 1 : files[0] + 1] = ["--tip", error.tip]
-    return f", for example: holdfast {shlex.join(words)}"
+    arguments[files[0] + 1 : files[0] + 1] = ["--tip", error.tip]
+    return f", for example: holdfast {shlex.join(arguments)}"
 
 
-def _fail(message: str) -> None:
+def _exit_with_error(message: str) -> None:
     text = f"holdfast: {message}"
     if sys.stderr.isatty():  # a terminal would cut the last word of a line in two
         text = fill(text, get_terminal_size().columns, break_long_words=False, break_on_hyphens=False)

@@ -1,4 +1,4 @@
-"""What a command that takes a while is doing, on the terminal."""
+"""Progress of long commands on the terminal."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from contextlib import contextmanager
 from typing import Any
 
 
-class progress_bar:
-    """A bar on stderr while a person looks, nothing otherwise."""
+class ProgressBar:
+    """Progress bar on stderr if it is a terminal, and no output otherwise."""
 
     def __init__(self, quiet: bool, label: str) -> None:
         self._label = label
         self._quiet = quiet or not sys.stderr.isatty()
         self._bar: Any = None
-        self.says: Callable[[str], None] = lambda text: None  # in place of the label
+        self.set_text: Callable[[str], None] = lambda text: None  # in place of the label
 
     def __enter__(self) -> Any:
         if self._quiet:
@@ -27,9 +27,9 @@ class progress_bar:
             *Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True
         )
         self._bar.start()
-        job = self._bar.add_task(self._label, total=None)
-        self.says = lambda text: self._bar.update(job, description=text)
-        return lambda done, total: self._bar.update(job, completed=done, total=total)
+        task = self._bar.add_task(self._label, total=None)
+        self.set_text = lambda text: self._bar.update(task, description=text)
+        return lambda done, total: self._bar.update(task, completed=done, total=total)
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:
@@ -37,13 +37,16 @@ class progress_bar:
 
 
 @contextmanager
-def working(text: str) -> Iterator[Callable[[str], None]]:
-    """What is being done, while it is; a function that says what comes next."""
+def show_status(text: str) -> Iterator[Callable[[str], None]]:
+    """Show the current activity during the block, which gets a function that changes the text."""
     from rich.console import Console
     from rich.markup import escape
 
     from holdfast import notice
 
     screen = Console(stderr=True)
-    with notice.working(text, notice.told if screen.is_terminal else None), screen.status(escape(text)) as status:
-        yield lambda now: status.update(escape(now))
+    with (
+        notice.report_work(text, notice.ignore_progress if screen.is_terminal else None),
+        screen.status(escape(text)) as status,
+    ):
+        yield lambda next_text: status.update(escape(next_text))

@@ -1,4 +1,4 @@
-"""How the text of an option becomes a value."""
+"""Conversion of the text of an option to a value."""
 
 from __future__ import annotations
 
@@ -29,31 +29,31 @@ if TYPE_CHECKING:
 
 
 def read_by_joint(
-    arm: Arm, texts: list[str] | None, option: str, degrees: bool = False, alone: bool = False
+    arm: Arm, texts: list[str] | None, option: str, degrees: bool = False, optional_value: bool = False
 ) -> dict[str | int, Any]:
-    """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1.
+    """Read the ``joint=number`` pairs of a repeatable option, by joint name; joints are given by name or number from 1.
 
-    With ``degrees`` the numbers of revolute joints are in degrees; with ``alone`` a joint may be given without a number and
-    gets None.
+    With ``degrees`` the numbers of revolute joints are in degrees; with ``optional_value`` a joint may be given without a
+    number and gets None.
     """
-    found: dict[str | int, Any] = {}
+    values: dict[str | int, Any] = {}
     for text in texts or []:
         joint, equals, value = text.rpartition("=")
-        if (equals or not alone) and not (equals and is_number(value)):
+        if (equals or not optional_value) and not (equals and is_number(value)):
             raise InputError(f"{option} '{text}' is not joint=number; write for example {option} {arm.joint_names[0]}=0.3")
-        k = read_joint(arm, joint if equals else text)
-        name = arm.joint_names[k]
-        if name in found:
+        index = read_joint(arm, joint if equals else text)
+        name = arm.joint_names[index]
+        if name in values:
             raise InputError(f"{option} gives joint '{name}' twice; give each joint once")
-        turned = np.pi / 180 if degrees and not arm.prismatic[k] else 1.0
-        found[name] = turned * float(value) if equals else None
-    return found
+        factor = np.pi / 180 if degrees and not arm.prismatic[index] else 1.0
+        values[name] = factor * float(value) if equals else None
+    return values
 
 
 def read_locks(
-    arm: Arm, texts: list[str] | None, degrees: bool, alone: bool = False, failure: Path | None = None
+    arm: Arm, texts: list[str] | None, degrees: bool, optional_value: bool = False, failure: Path | None = None
 ) -> dict[str | int, Any] | Degraded:
-    """--lock of a command that has --degrees, see :func:`read_by_joint`, or what --failure names."""
+    """Read ``--lock`` of a command that has --degrees, see :func:`read_by_joint`, or the file of --failure."""
     if failure is not None:
         from holdfast.failures import Degraded
 
@@ -62,85 +62,87 @@ def read_locks(
         return Degraded.load(failure, arm)
     if not texts:
         raise InputError(f"give --lock, the joint that is locked, for example --lock {arm.joint_names[0]}, or --failure")
-    found = read_by_joint(arm, texts, "--lock", degrees, alone)
-    given = {name: value for name, value in found.items() if value is not None}
-    check_unit_of_joints([arm.joints[arm.joint_index(name)] for name in given], list(given.values()), "--lock", degrees)
-    return found
+    locked_values = read_by_joint(arm, texts, "--lock", degrees, optional_value)
+    known_values = {name: value for name, value in locked_values.items() if value is not None}
+    check_joint_units(
+        [arm.joints[arm.joint_index(name)] for name in known_values], list(known_values.values()), "--lock", degrees
+    )
+    return locked_values
 
 
-def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
-    """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
-    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
+def read_numbers(option: str, text: str, expected: str) -> NDArray[np.float64]:
+    """Read numbers separated by commas or spaces; in an error ``expected`` describes the option's value."""
+    parts = [part for part in re.split(r"[,\s]+", text.strip()) if part]
     try:
-        return np.array([float(x) for x in parts])
+        return np.array([float(part) for part in parts])
     except ValueError as error:
-        wrong = next(x for x in parts if not is_number(x))
-        raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
+        invalid = next(part for part in parts if not is_number(part))
+        raise InputError(f"{option}: '{invalid}' is not a number; give {expected} separated by commas or spaces") from error
 
 
-def check_unit_of_joints(joints: Sequence[Joint], values: Sequence[float], option: str, degrees: bool = False) -> None:
-    """Refuse values of joints, rad and m, so far beyond the limits that they must be degrees, or millimetres.
+def check_joint_units(joints: Sequence[Joint], values: Sequence[float], option: str, degrees: bool = False) -> None:
+    """Raise for joint values, rad and m, so far beyond the limits that they must be degrees or millimetres.
 
     Raises:
         InputError: A joint is more than a turn, or ten times its range, beyond its limits.
     """
     unit = "degrees" if degrees else "radians, or degrees with --degrees"
     for joint, value in zip(joints, values, strict=True):
-        factor, shown = joint.shown if degrees else (1.0, joint.unit)
+        factor, unit_name = joint.shown if degrees else (1.0, joint.unit)
         bounded = np.isfinite(joint.upper - joint.lower)
-        room = 10 * (joint.upper - joint.lower) if joint.prismatic else 2 * np.pi
-        low, high = (joint.lower, joint.upper) if bounded else (-2 * np.pi, 2 * np.pi)
-        if (bounded or not joint.prismatic) and not low - room <= value <= high + room:
-            limits = f"its limits, {factor * low:.4g} to {factor * high:.4g} {shown}" if bounded else "a turn"
+        tolerance = 10 * (joint.upper - joint.lower) if joint.prismatic else 2 * np.pi
+        lower, upper = (joint.lower, joint.upper) if bounded else (-2 * np.pi, 2 * np.pi)
+        if (bounded or not joint.prismatic) and not lower - tolerance <= value <= upper + tolerance:
+            limits = f"its limits, {factor * lower:.4g} to {factor * upper:.4g} {unit_name}" if bounded else "a turn"
             raise InputError(
-                f"{option}: joint '{joint.name}' is at {factor * value:.6g} {shown}, far beyond {limits}; give "
+                f"{option}: joint '{joint.name}' is at {factor * value:.6g} {unit_name}, far beyond {limits}; give "
                 f"{'metres' if joint.prismatic else unit}"
             )
 
 
-def check_unit_of_places(arm: Arm, places: NDArray[np.float64], option: str) -> None:
-    """Refuse places (3,) or (N, 3), m, so far from an arm that they must be millimetres.
+def check_position_units(arm: Arm, positions: NDArray[np.float64], option: str) -> None:
+    """Raise for positions (3,) or (N, 3), m, so far from an arm that they must be millimetres.
 
     Raises:
         InputError: A place is more than ten times as far from the base as the arm, stretched out, could be long.
     """
-    strokes = sum(max(abs(j.lower), abs(j.upper)) for j in arm.joints if j.prismatic)
-    parts = [*(j.origin for j in arm.joints), arm.tool]
-    longest = sum(float(np.linalg.norm(part[:3, 3])) for part in parts) + strokes
-    away = float(np.linalg.norm(np.atleast_2d(places) - arm.base[:3, 3], axis=1).max(initial=0.0))
-    if np.isfinite(longest) and away > 10 * longest:
+    strokes = sum(max(abs(joint.lower), abs(joint.upper)) for joint in arm.joints if joint.prismatic)
+    transforms = [*(joint.origin for joint in arm.joints), arm.tool]
+    longest = sum(float(np.linalg.norm(transform[:3, 3])) for transform in transforms) + strokes
+    distance = float(np.linalg.norm(np.atleast_2d(positions) - arm.base[:3, 3], axis=1).max(initial=0.0))
+    if np.isfinite(longest) and distance > 10 * longest:
         raise InputError(
-            f"{option}: a place is {away:.4g} m from the base of '{arm.name}', which is at most {longest:.4g} m long; "
+            f"{option}: a place is {distance:.4g} m from the base of '{arm.name}', which is at most {longest:.4g} m long; "
             "give metres"
         )
 
 
-def check_unit_of_path(arm: Arm, path: ToolPath, option: str) -> None:
-    """The same of the places along a path."""
-    check_unit_of_places(arm, path.pose(np.linspace(0, 1, 21))[:, :3, 3], option)
+def check_path_units(arm: Arm, path: ToolPath, option: str) -> None:
+    """Raise for a path, m, so far from an arm that it must be in millimetres."""
+    check_position_units(arm, path.pose(np.linspace(0, 1, 21))[:, :3, 3], option)
 
 
 def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") -> NDArray[np.float64]:
-    """Joint values separated by commas or spaces; with degrees, of the revolute joints (prismatic ones stay in m)."""
+    """Read joint values separated by commas or spaces; ``degrees`` applies to revolute joints, prismatic ones stay in m."""
     q = read_numbers(option, text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():
         raise InputError(f"{option} holds NaN or infinity; give {arm.n} finite numbers")
     q = np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
-    check_unit_of_joints(arm.joints, q.tolist(), option, degrees)
+    check_joint_units(arm.joints, q.tolist(), option, degrees)
     return q
 
 
 def read_weights(option: str, text: str) -> Any:
-    """Weights of the joints as the library takes them: a word, numbers, or the numbers of a CSV file."""
+    """Read joint weights as an argument of the library: a word, numbers, or the numbers of a CSV file."""
     if text in ("effort", "worst-case"):
         return text
     file = Path(text)
     if file.suffix.lower() != ".csv":
         return read_numbers(option, text, "effort, worst-case, a .csv file, or one number per joint")
     try:
-        with reading.guarded(f"{option}: '{file}'"):
-            lines = reading.text(file).splitlines()
+        with reading.guard_reading(f"{option}: '{file}'"):
+            lines = reading.read_text(file).splitlines()
     except UnicodeDecodeError as error:
         raise InputError(f"{option}: {file} is not text; give numbers separated by commas") from error
     rows = [read_numbers(f"{option} {file}", line, "numbers") for line in lines if line.strip()]
@@ -151,63 +153,64 @@ def read_weights(option: str, text: str) -> Any:
 
 
 def read_objective(arm: Arm, option: str, text: str, task: str | Task, failures: FailureSpec = "single") -> Objective:
-    """--minimise or --maximise as the library takes it: ``0.5*torque:effort + 0.1*acceleration``.
+    """Read ``--minimise`` or ``--maximise``, such as ``0.5*torque:effort + 0.1*acceleration``, as an argument of the library.
 
     A summand is the label of an index or a susceptibility; of this, after the colon may also be the one joint that counts.
     """
-    from holdfast.indices.objective import Opposite, WeightedSum
+    from holdfast.indices.objective import NegatedObjective, WeightedSum
 
     summands: list[tuple[float, Objective]] = []
-    at = 0
-    while at < len(text) or not summands:
-        found = _SUMMAND.match(text, at)
-        if found is None or (summands and not found["sign"]):
+    position = 0
+    while position < len(text) or not summands:
+        match = _SUMMAND_PATTERN.match(text, position)
+        if match is None or (summands and not match["sign"]):
             raise InputError(
-                f"{option}: '{text[at:].strip()}' cannot be read; write torque, torque:effort, torque:joint2, or a sum such as "
+                f"{option}: '{text[position:].strip()}' cannot be read; write torque, torque:effort, torque:joint2, or a "
+                f"sum such as "
                 "'0.5*torque:effort + 0.1*acceleration'"
             )
-        factor = float(found["factor"] or 1) * (-1 if found["sign"] == "-" else 1)
-        summands.append((factor, _summand(arm, option, found["name"], found["weights"], task, failures)))
-        at = found.end()
-    plain = len(summands) == 1 and summands[0][0] == 1
-    objective = summands[0][1] if plain else WeightedSum(summands)
-    wanted = {"--minimise": "smaller", "--maximise": "larger"}.get(option, objective.better)
-    return objective if objective.better == wanted else Opposite(objective)
+        factor = float(match["factor"] or 1) * (-1 if match["sign"] == "-" else 1)
+        summands.append((factor, _make_summand(arm, option, match["name"], match["weights"], task, failures)))
+        position = match.end()
+    is_single = len(summands) == 1 and summands[0][0] == 1
+    objective = summands[0][1] if is_single else WeightedSum(summands)
+    better = {"--minimise": "smaller", "--maximise": "larger"}.get(option, objective.better)
+    return objective if objective.better == better else NegatedObjective(objective)
 
 
-_SUMMAND = re.compile(
+_SUMMAND_PATTERN = re.compile(
     r"\s*(?P<sign>[+-])?\s*(?:(?P<factor>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*\*\s*)?"
     r"(?P<name>[A-Za-z_]\w*(?:[-.][A-Za-z_]\w*)*)(?:\s*:\s*(?P<weights>[^\s+,]+(?:\s*,\s*[^\s+,]+)*))?\s*"
 )
 
 
-def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task, failures: FailureSpec) -> Objective:
-    from holdfast.registry import INDICES, SUSCEPTIBILITIES, unknown
+def _make_summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task, failures: FailureSpec) -> Objective:
+    from holdfast.registry import INDEX_REGISTRY, SUSCEPTIBILITY_REGISTRY, unknown_name_message
 
-    found: Objective
-    if name in SUSCEPTIBILITIES:
+    objective: Objective
+    if name in SUSCEPTIBILITY_REGISTRY:
         if failures != "single":
             raise InputError(
                 f"--failures is for an index, not for {name}; give one joint as {name}:joint2, or leave --failures out"
             )
-        given = {} if weights is None else {"weights": _joint_weights(arm, option, name, weights)}
-        found = SUSCEPTIBILITIES.make(name, arm, option=option, **given)
-    elif INDICES.covers(label := name if weights is None else f"{name}:{weights}"):
-        found = INDICES.make(label, arm, option=option, task=task, failures=failures)
+        weight_options = {} if weights is None else {"weights": _read_joint_weights(arm, option, name, weights)}
+        objective = SUSCEPTIBILITY_REGISTRY.make(name, arm, option=option, **weight_options)
+    elif INDEX_REGISTRY.covers(label := name if weights is None else f"{name}:{weights}"):
+        objective = INDEX_REGISTRY.make(label, arm, option=option, task=task, failures=failures)
     else:
-        raise InputError(f"{option}: {unknown('objective', name, SUSCEPTIBILITIES, INDICES)}")
-    return found
+        raise InputError(f"{option}: {unknown_name_message('objective', name, SUSCEPTIBILITY_REGISTRY, INDEX_REGISTRY)}")
+    return objective
 
 
-def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
-    """Weights after a colon: one joint by name or as joint2, or what :func:`read_weights` takes."""
+def _read_joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
+    """Read the weights after a colon: one joint by name or as joint2, or any text of :func:`read_weights`."""
     number = text.removeprefix("joint")
     single = text in arm.joint_names or (number != text and number.isdecimal())
     if single:
         return np.eye(arm.n)[read_joint(arm, text if text in arm.joint_names else number)]
     if text in ("effort", "worst-case") or text.lower().endswith(".csv"):
         return read_weights(option, text)
-    if not all(is_number(x) for x in text.split(",")):
+    if not all(is_number(part) for part in text.split(",")):
         raise InputError(
             f"{option}: weights '{text}' of {name} are not known; use effort, worst-case, a joint by name or as joint2, "
             f"{arm.n} numbers separated by commas, or a .csv file of them"
@@ -222,7 +225,7 @@ def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
 
 
 def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
-    """``x,y,z,roll,pitch,yaw`` in m and degrees as (4, 4); ``x,y,z`` alone as (3,)."""
+    """Read ``x,y,z,roll,pitch,yaw`` in m and degrees as (4, 4), or ``x,y,z`` alone as (3,)."""
     from holdfast.arm.urdf import rpy_rotation
 
     numbers = read_numbers(option, text, "x,y,z,roll,pitch,yaw (m and degrees)")
@@ -230,7 +233,7 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
         raise InputError(f"{option} has {numbers.size} numbers; give x,y,z,roll,pitch,yaw (m and degrees), or x,y,z alone")
     if not np.isfinite(numbers).all():
         raise InputError(f"{option} holds NaN or infinity; give finite numbers")
-    check_unit_of_places(arm, numbers[:3], option)
+    check_position_units(arm, numbers[:3], option)
     if numbers.size == 3:
         return numbers
     pose = np.eye(4)
@@ -240,19 +243,21 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
 
 
 def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
-    """--target as the library takes it: the task's rows of the tool point, or a pose (4, 4) by angles or by a quaternion."""
+    """Read ``--target`` as an argument of the library: the task's rows of the tool point, or a pose (4, 4) by angles or by a
+    quaternion.
+    """
     values = read_numbers("--target", text, "numbers")
     if not np.isfinite(values).all():
         raise InputError("--target holds NaN or infinity; give finite numbers")
     if values.size == 6:
         return read_pose(arm, "--target", text)
     if values.size == 7:
-        from holdfast.arm.poses import pose_of
+        from holdfast.arm.poses import pose_from_quaternion
 
-        check_unit_of_places(arm, values[:3], "--target")
+        check_position_units(arm, values[:3], "--target")
         if not np.linalg.norm(values[3:]) > 1e-9:
             raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
-        return pose_of(values[:3], values[3:])
+        return pose_from_quaternion(values[:3], values[3:])
     if task.angular or task.frame != "base":
         raise InputError(
             f"--target has {values.size} numbers; task '{task.name}' needs x,y,z,roll,pitch,yaw in m and degrees, or "
@@ -260,5 +265,5 @@ def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
         )
     if values.size != task.m:
         raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
-    check_unit_of_places(arm, values @ task.rows[:, :3], "--target")
+    check_position_units(arm, values @ task.rows[:, :3], "--target")
     return values

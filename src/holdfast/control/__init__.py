@@ -1,4 +1,4 @@
-"""Control laws that do not know of a failure, their deviations after one, and their export."""
+"""Control laws without fault information, their deviations after a failure, and their export."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""How far the end effector's velocity is from the one commanded, at one instant: healthy, and with each joint locked.
+"""Deviation of the end effector's velocity from the command at one instant, without failure and with each joint locked.
 
 The controller knows of no failure, so the arm with joint i locked moves its end effector by ``J rates - j_i rates_i``.
 
@@ -19,7 +19,7 @@ from holdfast.kernels.program import SX
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_STILL = 1e-12  # of the commanded speed: slower has no direction
+_STILL_SPEED = 1e-12  # of the commanded speed: slower has no direction
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,38 +64,38 @@ class Deviations:
         return self.errors.argmax(axis=-1)
 
 
-def expression(j: SX, v: SX, rates: SX) -> SX:
-    """Errors, angles and flags with each joint locked, then error and angle without failure: (3 n + 2,).
+def deviation_expression(j: SX, v: SX, rates: SX) -> SX:
+    """Return errors, angles, and flags with each joint locked, then error and angle without failure: (3 n + 2,).
 
     Args:
         j: Task Jacobian (m, n), scaled.
         v: Commanded task velocity (m,), scaled.
         rates: (n,) commanded.
     """
-    size = ca.sqrt(ca.sumsqr(v))
-    u, moved = v / size, rates / size
-    hand = j @ moved
-    failed = [_compare(u, hand - j[:, i] * moved[i]) for i in range(j.shape[1])]
-    healthy = _compare(u, hand)
+    speed = ca.sqrt(ca.sumsqr(v))
+    u, unit_rates = v / speed, rates / speed
+    tool_velocity = j @ unit_rates
+    failed = [_compare_velocities(u, tool_velocity - j[:, joint] * unit_rates[joint]) for joint in range(j.shape[1])]
+    healthy = _compare_velocities(u, tool_velocity)
     return ca.vertcat(*[ca.vertcat(*column) for column in zip(*failed, strict=True)], healthy[0], healthy[1])
 
 
-def _compare(u: SX, w: SX) -> tuple[SX, SX, SX]:
-    """Error and angle of a velocity against a unit command, and whether it is still."""
-    along = ca.dot(u, w)
-    across = ca.sqrt(ca.sumsqr(w - along * u))
-    still = ca.sumsqr(w) <= _STILL**2
+def _compare_velocities(u: SX, w: SX) -> tuple[SX, SX, SX]:
+    """Return the error and angle of a velocity against a unit command, and whether the velocity is zero."""
+    parallel = ca.dot(u, w)
+    perpendicular = ca.sqrt(ca.sumsqr(w - parallel * u))
+    is_still = ca.sumsqr(w) <= _STILL_SPEED**2
     # Not the arccosine, which loses half of the digits of small angles.
-    angle = ca.if_else(still, np.pi / 2, ca.atan2(across, along))
-    return ca.sqrt(ca.sumsqr(u - w)), angle, ca.if_else(still, 1.0, 0.0)
+    angle = ca.if_else(is_still, np.pi / 2, ca.atan2(perpendicular, parallel))
+    return ca.sqrt(ca.sumsqr(u - w)), angle, ca.if_else(is_still, 1.0, 0.0)
 
 
-def read(out: Array, n: int) -> Deviations:
-    """What :func:`expression` gave, (3 n + 2,) or (N, 3 n + 2)."""
+def read_deviations(values: Array, n: int) -> Deviations:
+    """Read the values of :func:`deviation_expression`, (3 n + 2,) or (N, 3 n + 2)."""
     return Deviations(
-        errors=out[..., :n],
-        angles=out[..., n : 2 * n],
-        still=out[..., 2 * n : 3 * n] > 0,
-        healthy_error=out[..., 3 * n],
-        healthy_angle=out[..., 3 * n + 1],
+        errors=values[..., :n],
+        angles=values[..., n : 2 * n],
+        still=values[..., 2 * n : 3 * n] > 0,
+        healthy_error=values[..., 3 * n],
+        healthy_angle=values[..., 3 * n + 1],
     )

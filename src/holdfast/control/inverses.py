@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control.law import Law
@@ -39,7 +39,7 @@ class Pseudoinverse(Law):
         return np.eye(self.arm.n), 0.0
 
 
-@checked_class
+@check_constructor
 class Weighted(Law):
     """Joint rates of least weighted norm, ``W^-1 J' (J W^-1 J')^-1 v``.
 
@@ -58,21 +58,21 @@ class Weighted(Law):
         speed_limit: float | None = None,
     ) -> None:
         super().__init__(arm, task, gain, speed_limit=speed_limit)
-        w = np.asarray(weights, dtype=np.float64)
-        w = np.diag(w) if w.ndim == 1 else w
-        if w.shape != (arm.n, arm.n) or not np.isfinite(w).all():
+        weight_matrix = np.asarray(weights, dtype=np.float64)
+        weight_matrix = np.diag(weight_matrix) if weight_matrix.ndim == 1 else weight_matrix
+        if weight_matrix.shape != (arm.n, arm.n) or not np.isfinite(weight_matrix).all():
             raise InputError(
                 f"weights have shape {np.shape(weights)}; they must be ({arm.n},) or ({arm.n}, {arm.n}) finite numbers"
             )
-        self.weights = (w + w.T) / 2
-        if not np.allclose(w, w.T) or np.linalg.eigvalsh(self.weights)[0] <= 0:
+        self.weights = (weight_matrix + weight_matrix.T) / 2
+        if not np.allclose(weight_matrix, weight_matrix.T) or np.linalg.eigvalsh(self.weights)[0] <= 0:
             raise InputError("weights must be a symmetric positive definite matrix, or numbers above 0")
 
     def inverse(self, j: SX, v: SX) -> SX:
         """See :meth:`Law.inverse`."""
-        root = np.linalg.inv(np.linalg.cholesky(self.weights)).T  # W^-1 = root root'
-        spread = ca.sparsify(ca.SX(ca.DM(root)))
-        return spread @ damped_least_norm(j @ spread, v, 0.0)
+        weight_root = np.linalg.inv(np.linalg.cholesky(self.weights)).T  # W^-1 = root root'
+        sparse_root = ca.sparsify(ca.SX(ca.DM(weight_root)))
+        return sparse_root @ damped_least_norm(j @ sparse_root, v, 0.0)
 
     def quadratic(self) -> tuple[Array, float]:
         """See :meth:`Law.quadratic`."""
@@ -85,12 +85,15 @@ class Weighted(Law):
         return {"weights": diagonal if np.array_equal(self.weights, np.diag(diagonal)) else self.weights}
 
     def phrase(self) -> str:
-        """The law and its task, without gain and speed limit, for people."""
-        w = self.settings["weights"]
-        return f"{super().phrase()}, weights {'as a full matrix' if w.ndim == 2 else ', '.join(f'{x:g}' for x in w)}"
+        """Return the law and its task, without gain and speed limit, for people."""
+        joint_weights = self.settings["weights"]
+        return (
+            f"{super().phrase()}, weights "
+            f"{'as a full matrix' if joint_weights.ndim == 2 else ', '.join(f'{weight:g}' for weight in joint_weights)}"
+        )
 
 
-@checked_class
+@check_constructor
 class Damped(Law):
     """Damped least squares with fixed damping, ``J' (J J' + damping^2 I)^-1 v``.
 
@@ -119,7 +122,7 @@ class Damped(Law):
 
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
         """See :meth:`Law.damping`."""
-        return self._constant(q, v, self.fixed_damping)
+        return self._fill_constant(q, v, self.fixed_damping)
 
     def quadratic(self) -> tuple[Array, float]:
         """See :meth:`Law.quadratic`."""
@@ -131,7 +134,7 @@ class Damped(Law):
         return {"damping": self.fixed_damping}
 
     def phrase(self) -> str:
-        """The law and its task, without gain and speed limit, for people."""
+        """Return the law and its task, without gain and speed limit, for people."""
         return f"{super().phrase()}, damping {self.fixed_damping:g}"
 
 

@@ -1,4 +1,4 @@
-"""Control laws: what a controller that knows of no failure commands its joints, given where to move the end effector.
+"""Control laws: the joint rates that a controller without fault information commands for a motion of the end effector.
 
 Every law is one straight-line program of the task Jacobian and a task velocity, so that the same law runs in the batch
 kernel, in C on a robot's controller and in the browser. The velocity itself is ``Ke`` times the error, slowed down as a
@@ -18,27 +18,27 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.control import deviation, export
-from holdfast.control.c_functions import Function, written
+from holdfast.control.c_functions import CFunction, write_c_functions
 from holdfast.control.deviation import Deviations
 from holdfast.errors import InputError, TaskError
 from holdfast.frameworks.rows import Differentiable, RowFunction
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.kernels.step import Steps
-from holdfast.registry import LAWS, Labelled
-from holdfast.result import Shown
+from holdfast.kernels.recall import cached_kernel
+from holdfast.kernels.step import Steppable
+from holdfast.registry import LAW_REGISTRY, Labelled
+from holdfast.result import Presentable
 
 Array = NDArray[np.float64]
 
 
-class Law(Shown, Labelled, Differentiable, Steps):
+class Law(Presentable, Labelled, Differentiable, Steppable):
     """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
 
     In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);
@@ -64,7 +64,7 @@ class Law(Shown, Labelled, Differentiable, Steps):
     slug = ""
     source = ""
 
-    @checked
+    @check_arguments
     def __init__(
         self, arm: Arm, task: str | Task | Sequence[str] = "pose", gain: float = 1.0, *, speed_limit: float | None = None
     ) -> None:
@@ -73,86 +73,94 @@ class Law(Shown, Labelled, Differentiable, Steps):
             raise TaskError(
                 f"task '{self.task.name}' prescribes {self.task.m} rows, but '{arm.name}' has {arm.n} joints; prescribe fewer"
             )
-        for what, value in (("gain", gain), ("speed_limit", speed_limit)):
+        for name, value in (("gain", gain), ("speed_limit", speed_limit)):
             if value is not None and not (np.isfinite(value) and value > 0):
-                raise InputError(f"{what} is {value:g}; it must be above 0")
+                raise InputError(f"{name} is {value:g}; it must be above 0")
         self.gain, self.speed_limit = float(gain), speed_limit
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
     @abstractmethod
     def inverse(self, j: SX, v: SX) -> SX:
-        """Joint rates (n,) for a task velocity v (m,) and the task Jacobian J (m, n), both with scaled linear rows."""
+        """Return the joint rates (n,) for a task velocity v (m,) and the task Jacobian J (m, n), both with scaled
+        linear rows.
+        """
 
     def jacobian(self, q: SX) -> SX:
-        """The task Jacobian (m, n) that the law sees: linear rows divided by the task's characteristic length."""
+        """Return the task Jacobian (m, n) that the law uses: linear rows divided by the task's characteristic length."""
         return self.task.jacobian(self.arm, q)
 
     def scaled(self, v: SX) -> SX:
-        """A task velocity (m,) in m/s and rad/s, its linear rows divided by the task's characteristic length."""
+        """Return a task velocity (m,) in m/s and rad/s with its linear rows divided by the task's characteristic length."""
         return ca.SX(ca.DM(self.task.scale(self.task.length))) @ v
 
     def command(self, error: SX) -> SX:
-        """Task velocity (m,) for an error of the task's rows (m,), m and rad: eq. (6), within the speed limit.
+        """Return the task velocity (m,) for an error of the task's components (m,), m and rad: eq. (6), within the speed limit.
 
         A smaller gain far away only takes more time; it does not change the path.
         """
         if self.speed_limit is None:
             return self.gain * error
-        linear = ca.SX(ca.DM(_linear(self.task))) @ error
+        linear = ca.SX(ca.DM(_linear_selector(self.task))) @ error
         speed = self.gain * ca.sqrt(ca.sumsqr(linear))
-        slower = ca.if_else(speed > self.speed_limit, self.speed_limit / ca.if_else(speed > 0, speed, 1.0), 1.0)
-        return slower * self.gain * error
+        scale = ca.if_else(speed > self.speed_limit, self.speed_limit / ca.if_else(speed > 0, speed, 1.0), 1.0)
+        return scale * self.gain * error
 
     def rates(self, q: SX, v: SX) -> SX:
-        """Joint rates (n,) of q (n,) and a task velocity v (m,), m/s and rad/s."""
+        """Return the joint rates (n,) for q (n,) and a task velocity v (m,), m/s and rad/s."""
         return self.inverse(self.jacobian(q), self.scaled(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
-        """:meth:`rates`, and their derivatives (n, k) by symbols (k,) of which q and v are expressions."""
+        """Return :meth:`rates`, and their derivatives (n, k) by symbols (k,) of which q and v are expressions."""
         rates = self.rates(q, v)
         return rates, ca.jacobian(rates, by)
 
     def quadratic(self) -> tuple[Array, float] | None:
-        """``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v``, scaled rows; None for any other."""
+        """Return ``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v``, scaled rows; None for any other."""
         return None
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
-        """What the law tells of q (n,) and a task velocity v (m,): ``rates`` (n,) first, then what else it computes."""
+        """Return the outputs of the law for q (n,) and a task velocity v (m,): ``rates`` (n,) first, then all others."""
         return {"rates": self.rates(q, v)}
 
     def computed_in_c(self) -> str:
-        """C99 text of ``static void computed(const double *q, const double *v, double *rates, ...)``: :meth:`outputs`."""
+        """Return the C99 text of ``static void computed(const double *q, const double *v, double *rates, ...)``:
+        :meth:`outputs`.
+        """
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
-        return written({"computed": Function({"q": q, "v": v}, {key: [x] for key, x in self.outputs(q, v).items()})})
+        return write_c_functions(
+            {"computed": CFunction({"q": q, "v": v}, {key: [expression] for key, expression in self.outputs(q, v).items()})}
+        )
 
     def inverse_in_c(self) -> str:
-        """C99 text of ``static void inverse(const double *j, const double *v, double *rates)``, J (m, n) row by row."""
+        """Return the C99 text of ``static void inverse(const double *j, const double *v, double *rates)``, J (m, n)
+        row by row.
+        """
         j, v = ca.SX.sym("j", self.task.m, self.arm.n), ca.SX.sym("v", self.task.m)
-        return written({"inverse": Function({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
+        return write_c_functions({"inverse": CFunction({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
 
     # ---- numbers -----------------------------------------------------------------------------------------------
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _velocity_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         return Kernel(self.name, [q, v], list(self.outputs(q, v).values()))
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _deviation_kernel(self) -> Kernel:
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
         return Kernel(
-            f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)]
+            f"{self.name}, deviations", [q, v, rates], [deviation.deviation_expression(self.jacobian(q), self.scaled(v), rates)]
         )
 
     @cached_property
-    @recalled
-    def _slopes_kernel(self) -> Kernel:
+    @cached_kernel
+    def _jacobian_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
-        slopes = self.with_slopes(q, v, ca.vertcat(q, v))[1]
-        return Kernel(f"{self.name}, slopes", [q, v], [slopes[:, : self.arm.n], slopes[:, self.arm.n :]])
+        derivatives = self.with_slopes(q, v, ca.vertcat(q, v))[1]
+        return Kernel(f"{self.name}, slopes", [q, v], [derivatives[:, : self.arm.n], derivatives[:, self.arm.n :]])
 
     def row_function(self) -> RowFunction:
         """See :meth:`holdfast.frameworks.Differentiable.row_function`; its slopes are those of the rates by q and by v."""
@@ -161,16 +169,16 @@ class Law(Shown, Labelled, Differentiable, Steps):
             sizes=(self.arm.n, self.task.m),
             size=self.arm.n,
             value=self.velocity,
-            slopes=self._slopes_kernel,
-            kernels=(self._velocity_kernel, self._slopes_kernel),
+            slopes=self._jacobian_kernel,
+            kernels=(self._velocity_kernel, self._jacobian_kernel),
         )
 
     def _step_kernel(self) -> tuple[Kernel, int]:
         return self._velocity_kernel, self.arm.n
 
-    @checked
+    @check_arguments
     def velocity(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Commanded joint rates.
+        """Compute the commanded joint rates.
 
         Args:
             q: (n,) or (N, n), rad and m.
@@ -182,13 +190,13 @@ class Law(Shown, Labelled, Differentiable, Steps):
         Raises:
             InputError: A wrong shape.
         """
-        out, single = self._evaluate(q, v)
-        rates = np.ascontiguousarray(out[:, : self.arm.n])
+        outputs, single = self._evaluate_outputs(q, v)
+        rates = np.ascontiguousarray(outputs[:, : self.arm.n])
         return rates[0] if single else rates
 
-    @checked
+    @check_arguments
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """The damping lambda, not its square, in the unit of the scaled Jacobian; 0 for a law that has none.
+        """Compute the damping lambda, not its square, in the unit of the scaled Jacobian; 0 for a law that has none.
 
         Args:
             q: (n,) or (N, n), rad and m.
@@ -200,11 +208,11 @@ class Law(Shown, Labelled, Differentiable, Steps):
         Raises:
             InputError: A wrong shape.
         """
-        return self._constant(q, v, 0.0)
+        return self._fill_constant(q, v, 0.0)
 
-    @checked
+    @check_arguments
     def deviations(self, q: ArrayLike, v: ArrayLike) -> Deviations:
-        """How far the end effector's velocity is from the one commanded, for the healthy arm and with each joint locked.
+        """Compute the deviation of the tool velocity from the command, for the healthy arm and with each joint locked.
 
         Args:
             q: (n,) or (N, n), rad and m.
@@ -215,56 +223,61 @@ class Law(Shown, Labelled, Differentiable, Steps):
 
         Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (10).
         """
-        rows, velocities, single = self._rows(q, v)
-        rates = self._velocity_kernel.rows(rows, velocities)[:, : self.arm.n]
-        out = self._deviation_kernel.rows(rows, velocities, np.ascontiguousarray(rates))
-        return deviation.read(out[0] if single else out, self.arm.n)
+        configurations, velocities, single = self._broadcast_rows(q, v)
+        rates = self._velocity_kernel.rows(configurations, velocities)[:, : self.arm.n]
+        values = self._deviation_kernel.rows(configurations, velocities, np.ascontiguousarray(rates))
+        return deviation.read_deviations(values[0] if single else values, self.arm.n)
 
     def peak_velocity_error(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """PKE (8): the largest velocity error over all single locked joints, for the unit velocity; a number or (N,)."""
+        """Return PKE (8): the largest velocity error over all single locked joints, for the unit velocity; a number or (N,)."""
         return self.deviations(q, v).peak_velocity_error
 
     def peak_angular_deviation(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """PAD (10): the largest angle to the command over all single locked joints, rad; a number or (N,).
+        """Return PAD (10): the largest angle to the command over all single locked joints, rad; a number or (N,).
 
         No choice of the pre-failure error bounds it: see :class:`holdfast.control.Deviations`.
         """
         return self.deviations(q, v).peak_angular_deviation
 
     def healthy_angle(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """Angle between the healthy arm's velocity and the command, rad; a number or (N,)."""
+        """Return the angle between the healthy arm's velocity and the command, rad; a number or (N,)."""
         return self.deviations(q, v).healthy_angle
 
     def velocity_errors(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Velocity error with each joint locked, for the unit velocity: (n,) or (N, n)."""
+        """Return the velocity error with each joint locked, for the unit velocity: (n,) or (N, n)."""
         return self.deviations(q, v).errors
 
-    def _evaluate(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, bool]:
-        """All :meth:`outputs` in rows, and whether one row was asked for."""
-        rows, velocities, single = self._rows(q, v)
-        return self._velocity_kernel.rows(rows, velocities), single
+    def _evaluate_outputs(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, bool]:
+        """Return all :meth:`outputs` in rows, and whether a single row was requested."""
+        configurations, velocities, single = self._broadcast_rows(q, v)
+        return self._velocity_kernel.rows(configurations, velocities), single
 
-    def _constant(self, q: ArrayLike, v: ArrayLike, value: float) -> Any:
-        rows, velocities, single = self._rows(q, v)
-        good = np.isfinite(rows).all(axis=1) & np.isfinite(velocities).all(axis=1)
-        out = np.where(good, value, np.nan)
-        return out[0] if single else out
+    def _fill_constant(self, q: ArrayLike, v: ArrayLike, value: float) -> Any:
+        configurations, velocities, single = self._broadcast_rows(q, v)
+        is_finite = np.isfinite(configurations).all(axis=1) & np.isfinite(velocities).all(axis=1)
+        values = np.where(is_finite, value, np.nan)
+        return values[0] if single else values
 
-    def _rows(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array, bool]:
-        a, b = self.arm.check_configurations(q), real_numbers(v, "the velocity")
+    def _broadcast_rows(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array, bool]:
+        configurations, velocities = self.arm.check_configurations(q), require_real_numbers(v, "the velocity")
         m = self.task.m
-        if b.ndim not in (1, 2) or b.shape[-1] != m or (a.ndim == 2 and b.ndim == 2 and len(a) != len(b)):
+        if (
+            velocities.ndim not in (1, 2)
+            or velocities.shape[-1] != m
+            or (configurations.ndim == 2 and velocities.ndim == 2 and len(configurations) != len(velocities))
+        ):
             raise InputError(
-                f"the velocity has shape {b.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or (N, {m}), "
+                f"the velocity has shape {velocities.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), "
+                f"or (N, {m}), "
                 "a row for each configuration"
             )
-        if a.ndim == b.ndim == 1:
-            return a[None], b[None], True
-        lengths = [len(x) for x in (a, b) if x.ndim == 2]
+        if configurations.ndim == velocities.ndim == 1:
+            return configurations[None], velocities[None], True
+        lengths = [len(array) for array in (configurations, velocities) if array.ndim == 2]
         count = min(lengths, default=1)
-        return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), False
+        return np.broadcast_to(configurations, (count, self.arm.n)), np.broadcast_to(velocities, (count, m)), False
 
-    @checked
+    @check_arguments
     def export_c(self, folder: str | Path, name: str | None = None) -> export.ExportedLaw:
         """Write the law as a C99 file that needs nothing but ``math.h``, its header, an example and a test.
 
@@ -284,49 +297,49 @@ class Law(Shown, Labelled, Differentiable, Steps):
             InputError: A name that C does not take, or an arm that is close to singular everywhere.
             StoreError: The files cannot be written.
         """
-        return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
+        return export.write_law(self, folder, self.slug.replace("-", "_") if name is None else name)
 
     def phrase(self) -> str:
-        """The law and its task, without gain and speed limit, for people."""
+        """Return the law and its task, without gain and speed limit, for people."""
         return f"{self.name}, task {self.task.describe()}"
 
     def describe(self) -> str:
         """One phrase for people."""
-        limit = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
-        return f"{self.phrase()}, gain {self.gain:g}/s{limit}"
+        limit_text = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
+        return f"{self.phrase()}, gain {self.gain:g}/s{limit_text}"
 
     def stored(self) -> dict[str, Any]:
-        """All that tells it from other laws of the same arm, as JSON data.
+        """Return all values that distinguish the law from other laws of the same arm, as JSON data.
 
         Raises:
             InputError: It has no label.
         """
         limits = {"gain": self.gain, "speed_limit": self.speed_limit}
-        return {"law": LAWS.label(self), **limits, "task": self.task.to_dict()}
+        return {"law": LAW_REGISTRY.label(self), **limits, "task": self.task.to_dict()}
 
     def formerly(self, law: Any, task: Any = None) -> dict[str, Any] | None:
-        """What holdfast 0.1 kept in place of :meth:`stored`; None if that, of six digits, does not tell it from other laws.
+        """Return the value that holdfast 0.1 stored in place of :meth:`stored`, or None if its six digits are not unique.
 
         Args:
             law: In place of its label.
             task: In place of its task.
         """
         numbers = [self.gain, self.speed_limit or 0.0, *np.hstack([np.empty(0), *map(np.ravel, self.settings.values())])]
-        exact = all(float(f"{x:g}") == x for x in numbers)
-        return {"law": law, "gain": None, "speed_limit": None, "task": task} if exact else None
+        is_exact = all(float(f"{number:g}") == number for number in numbers)
+        return {"law": law, "gain": None, "speed_limit": None, "task": task} if is_exact else None
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
 
 
-def _linear(task: Task) -> Array:
-    """(3, m): the linear velocity that a task velocity stands for."""
+def _linear_selector(task: Task) -> Array:
+    """Return (3, m) the matrix from a task velocity to its linear velocity."""
     return np.asarray(task.rows[:, :3].T)
 
 
-@checked
+@check_arguments
 def by_name(name: str, arm: Arm, **options: Any) -> Law:
-    """A law by its label: ``pseudoinverse``, or ``damped:0.1``.
+    """Make a law from its label: ``pseudoinverse``, or ``damped:0.1``.
 
     Args:
         name: The law's ``slug``, with its settings.
@@ -337,5 +350,5 @@ def by_name(name: str, arm: Arm, **options: Any) -> Law:
         InputError: An unknown name, an option that the law does not have, or one that is missing.
         TaskError: The task has more rows than the arm has joints.
     """
-    made: Law = LAWS.make(name, arm, **options)
-    return made
+    law: Law = LAW_REGISTRY.make(name, arm, **options)
+    return law

@@ -1,4 +1,4 @@
-"""The failure-tolerant inverse: damped, with the damping that makes the worst single locked joint least bad."""
+"""The failure-tolerant inverse: damped, with the damping that minimises the error of the worst single locked joint."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control import damping_search
-from holdfast.control.c_functions import Function, written
+from holdfast.control.c_functions import CFunction, write_c_functions
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels.program import SX
@@ -23,7 +23,7 @@ from holdfast.registry import Parameter, constructor
 TaskSpec = str | Task | Sequence[str]
 
 
-@checked_class
+@check_constructor
 class FailureTolerant(Law):
     """Damped inverse whose damping minimises the peak velocity error over all single locked joints.
 
@@ -77,26 +77,28 @@ class FailureTolerant(Law):
 
     def inverse(self, j: SX, v: SX) -> SX:
         """See :meth:`Law.inverse`."""
-        return self._choose(j, v)["rates"]
+        return self._choose_damping(j, v)["rates"]
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
-        """``rates`` (n,), ``damping``, ``largest_damping`` and ``feasible`` (1 or 0)."""
-        return self._choose(self.jacobian(q), self.scaled(v))
+        """Return ``rates`` (n,), ``damping``, ``largest_damping``, and ``feasible`` (1 or 0)."""
+        return self._choose_damping(self.jacobian(q), self.scaled(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
         """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
         j, scaled = self.jacobian(q), self.scaled(v)
-        found = self._choose(j, scaled)
-        return found["rates"], damping_search.slopes(j, scaled, self.pre_failure_error, found, by)
+        choice = self._choose_damping(j, scaled)
+        return choice["rates"], damping_search.rate_derivatives(j, scaled, self.pre_failure_error, choice, by)
 
     def computed_in_c(self) -> str:
         """See :meth:`Law.computed_in_c`."""
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
-        seen = written({"seen": Function({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scaled(v)]})})
-        told = "double *rates, double *damping, double *largest, double *feasible"
-        return f"""{seen}
-{damping_search.in_c(self.task.m, self.arm.n, self.pre_failure_error)}
-static void computed(const double *q, const double *v, {told}) {{
+        scaling_text = write_c_functions(
+            {"seen": CFunction({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scaled(v)]})}
+        )
+        output_arguments = "double *rates, double *damping, double *largest, double *feasible"
+        return f"""{scaling_text}
+{damping_search.generate_c_search(self.task.m, self.arm.n, self.pre_failure_error)}
+static void computed(const double *q, const double *v, {output_arguments}) {{
     double j[ROWS * JOINTS], scaled[ROWS];
     seen(q, v, j, scaled);
     damped_inverse(j, scaled, rates, damping, largest, feasible);
@@ -105,44 +107,49 @@ static void computed(const double *q, const double *v, {told}) {{
 
     def inverse_in_c(self) -> str:
         """See :meth:`Law.inverse_in_c`."""
-        return f"""{damping_search.in_c(self.task.m, self.arm.n, self.pre_failure_error)}
+        return f"""{damping_search.generate_c_search(self.task.m, self.arm.n, self.pre_failure_error)}
 static void inverse(const double *j, const double *v, double *rates) {{
     double told[3];
     damped_inverse(j, v, rates, told, told + 1, told + 2);
 }}
 """
 
-    def _choose(self, j: SX, v: SX) -> dict[str, SX]:
-        size = ca.sqrt(ca.sumsqr(v))
-        moving = size > 0
-        first = np.eye(int(v.numel()))[0]
+    def _choose_damping(self, j: SX, v: SX) -> dict[str, SX]:
+        speed = ca.sqrt(ca.sumsqr(v))
+        is_moving = speed > 0
+        default_direction = np.eye(int(v.numel()))[0]
         u = ca.vertcat(
-            *[ca.if_else(moving, x / ca.if_else(moving, size, 1.0), e) for x, e in zip(ca.vertsplit(v), first, strict=True)]
+            *[
+                ca.if_else(is_moving, component / ca.if_else(is_moving, speed, 1.0), default)
+                for component, default in zip(ca.vertsplit(v), default_direction, strict=True)
+            ]
         )
-        found = damping_search.search(j, u, self.pre_failure_error)
+        choice = damping_search.search_damping(j, u, self.pre_failure_error)
         return {
-            "rates": size * ca.vertcat(*found.rates),
-            "damping": ca.if_else(moving, found.damping, 0.0),
-            "largest_damping": ca.if_else(moving, found.largest, 0.0),
-            "feasible": ca.if_else(moving, found.feasible, 1.0),
+            "rates": speed * ca.vertcat(*choice.rates),
+            "damping": ca.if_else(is_moving, choice.damping, 0.0),
+            "largest_damping": ca.if_else(is_moving, choice.largest, 0.0),
+            "feasible": ca.if_else(is_moving, choice.feasible, 1.0),
         }
 
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
         """See :meth:`Law.damping`."""
-        return self._other(q, v, 0)
+        return self._extra_output(q, v, 0)
 
     def largest_damping(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """The largest damping with which the healthy arm's error stays within the allowed one; a number or (N,)."""
-        return self._other(q, v, 1)
+        """Compute the largest damping that keeps the healthy arm's error within the allowed one; a number or (N,)."""
+        return self._extra_output(q, v, 1)
 
     def feasible(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.bool_] | np.bool_:
-        """Whether some damping keeps the healthy arm's error within the allowed one; () or (N,), False where q or v is NaN."""
-        flags: NDArray[np.bool_] | np.bool_ = self._other(q, v, 2) > 0
+        """Return True where some damping keeps the healthy arm's error within the allowed one; () or (N,), False where q or v
+        is NaN.
+        """
+        flags: NDArray[np.bool_] | np.bool_ = self._extra_output(q, v, 2) > 0
         return flags
 
-    def _other(self, q: ArrayLike, v: ArrayLike, k: int) -> Any:
-        out, single = self._evaluate(q, v)
-        values = np.ascontiguousarray(out[:, self.arm.n + k])
+    def _extra_output(self, q: ArrayLike, v: ArrayLike, number: int) -> Any:
+        outputs, single = self._evaluate_outputs(q, v)
+        values = np.ascontiguousarray(outputs[:, self.arm.n + number])
         return values[0] if single else values
 
     @property
@@ -151,7 +158,7 @@ static void inverse(const double *j, const double *v, double *rates) {{
         return {"pre_failure_error": self.pre_failure_error}
 
     def phrase(self) -> str:
-        """The law and its task, without gain and speed limit, for people."""
+        """Return the law and its task, without gain and speed limit, for people."""
         return f"{super().phrase()}, pre-failure error at most {self.pre_failure_error:g}"
 
 
@@ -167,5 +174,5 @@ def failure_tolerant(
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> FailureTolerant:
-    """Damped inverse that makes the worst single locked joint least bad; Goel et al. 2003, eq. (8), (9)."""
+    """Make the damped inverse that minimises the error of the worst single locked joint; Goel et al. 2003, eq. (8), (9)."""
     return FailureTolerant(arm, task, pre_failure_error, gain=gain, speed_limit=speed_limit)

@@ -1,4 +1,4 @@
-"""The Jacobian transpose: along the slope of the error, no inverse at all."""
+"""The Jacobian transpose: along the gradient of the error, without an inverse."""
 
 from __future__ import annotations
 
@@ -25,14 +25,19 @@ class JacobianTranspose(Law):
 
     def inverse(self, j: SX, v: SX) -> SX:
         """See :meth:`Law.inverse`."""
-        slope = j.T @ v
-        square = ca.sumsqr(j @ slope)
-        return ca.if_else(square > 0, ca.sumsqr(slope) / ca.if_else(square > 0, square, 1.0), 0.0) * slope
+        gradient = j.T @ v
+        squared_velocity = ca.sumsqr(j @ gradient)
+        return (
+            ca.if_else(squared_velocity > 0, ca.sumsqr(gradient) / ca.if_else(squared_velocity > 0, squared_velocity, 1.0), 0.0)
+            * gradient
+        )
 
 
 @constructor()
 def jacobian_transpose(
     arm: Arm, task: TaskSpec = "pose", *, gain: float = 1.0, speed_limit: float | None = None
 ) -> JacobianTranspose:
-    """Joint rates along the slope of the error, with the step that leaves the least of it; Buss 2004."""
+    """Make the law of joint rates along the gradient of the error, with the step that minimises the remaining
+    error; Buss 2004.
+    """
     return JacobianTranspose(arm, task, gain, speed_limit=speed_limit)

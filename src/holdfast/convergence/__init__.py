@@ -1,4 +1,4 @@
-"""How failed arms end over a workspace: measures, maps, the best law, comparisons of laws."""
+"""Outcomes of failed arms over a workspace: measures, maps, the best law, and comparisons of laws."""
 
 from holdfast._lazy import offer
 

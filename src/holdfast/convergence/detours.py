@@ -1,4 +1,4 @@
-"""What a control law costs the healthy arm: detours, slants and delays on the way to a target."""
+"""Cost of a control law for the healthy arm: detours, deviations, and delays on the way to a target."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from holdfast.arm.poses import check_poses
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.simulation.closed_loop import CYCLE_LIMIT, simulate
 from holdfast.simulation.runs import Reason
-from holdfast.simulation.system import own_units, prescribed_way
+from holdfast.simulation.system import prescribed_offset, scale_errors
 from holdfast.solvers.inverse_kinematics import task_error
 
 Array = NDArray[np.float64]
 
-NEAR = 1e-3  # rad, and of the arm's own length: this near to the target counts as reached
-HORIZON, SAMPLES = 40.0, 64  # 1/Ke; samples of a motion, closer to each other at its start
+REACH_TOLERANCE = 1e-3  # rad, and of the arm's own length: this near to the target counts as reached
+HORIZON_TIME_CONSTANTS, MOTION_SAMPLES = 40.0, 64  # 1/Ke; samples of a motion, closer to each other at its start
 
 
 @dataclass(frozen=True, eq=False)
 class HealthyCost:
-    """N motions of the healthy arm under one law.
+    """Costs of N motions of the healthy arm under one law.
 
     Attributes:
         deviation: (N,) largest distance of the tool point from the straight line between start and target, m; of the
@@ -42,82 +42,86 @@ class HealthyCost:
     time: Array
 
 
-def healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float) -> HealthyCost:
-    """Follow N motions, (N, n) to (N, 4, 4), of the healthy arm, looked at piece by piece.
+def measure_healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float) -> HealthyCost:
+    """Simulate N motions, (N, n) to (N, 4, 4), of the healthy arm, sample by sample, and measure their cost.
 
     What is between two samples is not seen: 64 samples over 40/Ke, the first 0.01/Ke and the last 1.3/Ke apart.
     """
-    share = np.linspace(0, 1, SAMPLES + 1) ** 2
-    until = np.unique(np.ceil(CYCLE_LIMIT / 4 * share)) if cycles else HORIZON / law.gain * share
-    q, now, on = q0, np.zeros(len(q0)), np.arange(len(q0))
-    configurations, times = [q0], [now]
-    for step in np.diff(until):
-        if on.size:
-            runs = simulate(law, q[on], target[on], cycles=cycles, time_limit=float(step), radius=radius)
-            q, now = q.copy(), now.copy()
+    fractions = np.linspace(0, 1, MOTION_SAMPLES + 1) ** 2
+    sample_times = np.unique(np.ceil(CYCLE_LIMIT / 4 * fractions)) if cycles else HORIZON_TIME_CONSTANTS / law.gain * fractions
+    q, current_times, active = q0, np.zeros(len(q0)), np.arange(len(q0))
+    configurations, times = [q0], [current_times]
+    for duration in np.diff(sample_times):
+        if active.size:
+            runs = simulate(law, q[active], target[active], cycles=cycles, time_limit=float(duration), radius=radius)
+            q, current_times = q.copy(), current_times.copy()
             # A run that has ended in a singularity stays there: NaN would spoil what came before.
-            q[on] = np.where(np.isfinite(runs.q_final), runs.q_final, q[on])
-            now[on] += np.nan_to_num(runs.time)
+            q[active] = np.where(np.isfinite(runs.q_final), runs.q_final, q[active])
+            current_times[active] += np.nan_to_num(runs.time)
             # So does one whose steps shrink to nothing: each of the pieces would take all the steps that there are.
-            on = on[~np.isin(runs.reason, (Reason.STEPS, Reason.HALF_TURN))]
+            active = active[~np.isin(runs.reason, (Reason.STEPS, Reason.HALF_TURN))]
         configurations.append(q)
-        times.append(now)
-    look = _Look(law)
-    size, scaled, gap, angle = look(np.array(configurations), check_poses(target))
-    time, far = np.array(times), scaled > NEAR
+        times.append(current_times)
+    evaluate_errors = _ErrorEvaluator(law)
+    errors, scaled_errors, offsets, angle = evaluate_errors(np.array(configurations), check_poses(target))
+    time, is_far = np.array(times), scaled_errors > REACH_TOLERANCE
     return HealthyCost(
-        deviation=_off_the_line(gap),
-        angle=np.where(far & np.isfinite(angle), angle, 0.0).max(axis=0),
-        time=_arrival(size, time, radius) if cycles else _arrival(scaled, time, NEAR),
+        deviation=_line_deviation(offsets),
+        angle=np.where(is_far & np.isfinite(angle), angle, 0.0).max(axis=0),
+        time=_arrival_times(errors, time, radius) if cycles else _arrival_times(scaled_errors, time, REACH_TOLERANCE),
     )
 
 
-class _Look:
-    """Errors of configurations at targets, and how slanted the law's answer is."""
+class _ErrorEvaluator:
+    """Errors of configurations at targets, and the angles between prescribed and commanded velocities."""
 
     def __init__(self, law: Law) -> None:
         self._law = law
 
     @cached_property
-    @recalled
-    def _error(self) -> Kernel:
+    @cached_kernel
+    def _error_kernel(self) -> Kernel:
         arm = self._law.arm
-        q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        return Kernel("error of the task", [q, p, r], [task_error(arm, self._law.task, q, p, r)[0]])
+        q, position, rotation = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        return Kernel("error of the task", [q, position, rotation], [task_error(arm, self._law.task, q, position, rotation)[0]])
 
     def __call__(self, q: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
-        """Errors (K, N), and with lengths in the arm's own unit; what is left of the way (K, N, 3); angles (K, N)."""
-        samples, count, n = q.shape
-        rows, every = q.reshape(-1, n), np.tile(poses, (samples, 1, 1))
-        error = self._error.rows(rows, every[:, :3, 3], every[:, :3, :3]).reshape(len(rows), -1)
-        hand = self._law.arm.forward_kinematics(rows)
-        gap = prescribed_way(self._law, hand, every)
-        angle = self._law.healthy_angle(rows, error)
-        size = np.linalg.norm(error, axis=1)
-        scaled = own_units(self._law, size, hand, every)
-        shape = samples, count
-        return size.reshape(shape), scaled.reshape(shape), gap.reshape(*shape, 3), angle.reshape(shape)
+        """Return errors (K, N), errors in the arm's own unit, remaining offsets (K, N, 3), and angles (K, N)."""
+        samples, motion_count, n = q.shape
+        configurations, targets = q.reshape(-1, n), np.tile(poses, (samples, 1, 1))
+        error = self._error_kernel.rows(configurations, targets[:, :3, 3], targets[:, :3, :3]).reshape(len(configurations), -1)
+        tool = self._law.arm.forward_kinematics(configurations)
+        offsets = prescribed_offset(self._law, tool, targets)
+        angle = self._law.healthy_angle(configurations, error)
+        error_norms = np.linalg.norm(error, axis=1)
+        scaled_errors = scale_errors(self._law, error_norms, tool, targets)
+        shape = samples, motion_count
+        return error_norms.reshape(shape), scaled_errors.reshape(shape), offsets.reshape(*shape, 3), angle.reshape(shape)
 
 
-def _off_the_line(gap: Array) -> Array:
-    """(N,) largest distance from the segment between the first point and the target, of what is left to go (K, N, 3)."""
-    whole = gap[0]
-    square = np.maximum((whole**2).sum(axis=1), 1e-30)
-    left = np.clip((gap * whole).sum(axis=2) / square, 0.0, 1.0)
-    return np.asarray(np.linalg.norm(gap - left[:, :, None] * whole, axis=2).max(axis=0))
+def _line_deviation(offsets: Array) -> Array:
+    """Return (N,) the largest distance from the segment between the first point and the target, from remaining offsets (K, N,
+    3).
+    """
+    first_offset = offsets[0]
+    squared_length = np.maximum((first_offset**2).sum(axis=1), 1e-30)
+    fraction = np.clip((offsets * first_offset).sum(axis=2) / squared_length, 0.0, 1.0)
+    return np.asarray(np.linalg.norm(offsets - fraction[:, :, None] * first_offset, axis=2).max(axis=0))
 
 
-def _arrival(size: Array, time: Array, near: float) -> Array:
-    """(N,) when the error (K, N) falls below ``near`` for good: between samples it falls exponentially."""
-    inside = size <= near
-    last = np.where(inside.all(axis=0), 0, len(size) - np.argmax(~inside[::-1], axis=0))  # first sample that stays inside
-    found = np.full(size.shape[1], np.nan)
-    for k in np.flatnonzero(last < len(size)):
-        i = last[k]
-        if i == 0:
-            found[k] = 0.0
+def _arrival_times(errors: Array, time: Array, tolerance: float) -> Array:
+    """Return (N,) the times at which errors (K, N) fall below ``tolerance`` for good, exponential between samples."""
+    inside = errors <= tolerance
+    first_inside = np.where(
+        inside.all(axis=0), 0, len(errors) - np.argmax(~inside[::-1], axis=0)
+    )  # first sample that stays inside
+    arrivals = np.full(errors.shape[1], np.nan)
+    for motion in np.flatnonzero(first_inside < len(errors)):
+        sample = first_inside[motion]
+        if sample == 0:
+            arrivals[motion] = 0.0
             continue
-        a, b = np.log(np.maximum(size[i - 1 : i + 1, k], 1e-300))
-        part = (a - np.log(near)) / (a - b) if a > b else 1.0
-        found[k] = time[i - 1, k] + part * (time[i, k] - time[i - 1, k])
-    return found
+        log_before, log_after = np.log(np.maximum(errors[sample - 1 : sample + 1, motion], 1e-300))
+        fraction = (log_before - np.log(tolerance)) / (log_before - log_after) if log_before > log_after else 1.0
+        arrivals[motion] = time[sample - 1, motion] + fraction * (time[sample, motion] - time[sample - 1, motion])
+    return arrivals

@@ -1,4 +1,4 @@
-"""The motion of the healthy arm towards a target, before a joint locks, for many starts side by side.
+"""The motion of the healthy arm towards a target before a joint locks, for many starts in parallel.
 
 ``q' = G(q) e(q)`` in the time of the law; here it is followed over the fraction s of the way, ``1 - s = exp(-Ke t)``:
 ``dq/ds = G(q) e(q) / (1 - s)``. Under an exact inverse the end effector is then at the share s of the straight line to the
@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.simulation.system import System
+from holdfast.simulation.system import FailedArmSystem
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-7  # rad (and m): error of a step
-_HALVED = 12  # times at most: a start that needs more has met a singular configuration
+STEP_TOLERANCE = 1e-7  # rad (and m): error of a step
+_MAX_HALVINGS = 12  # times at most: a start that needs more has met a singular configuration
 
 
 class HealthyPaths:
@@ -34,51 +34,60 @@ class HealthyPaths:
         from scipy.integrate import RK45  # only its coefficients
 
         self.law = law
-        system = System(law)
-        s, h = ca.SX.sym("s"), ca.SX.sym("h")
+        system = FailedArmSystem(law)
+        progress, step = ca.SX.sym("s"), ca.SX.sym("h")
 
-        def slope(q: SX, at: SX) -> SX:
-            e, _ = system.error(q)
-            return law.rates(q, e) / (1 - at)
+        def path_rates(q: SX, fraction: SX) -> SX:
+            error_vector, _ = system.compute_error(q)
+            return law.rates(q, error_vector) / (1 - fraction)
 
-        rates = [slope(system.q, s)]
-        for row in [*(RK45.A[i, :i].tolist() for i in range(1, 6)), RK45.B.tolist()]:
-            q = system.q + h * sum(w * k for w, k in zip(row, rates, strict=True))
-            rates.append(slope(q, s + h * sum(row)))
-        error = h * sum(w * k for w, k in zip(RK45.E.tolist(), rates, strict=True))
-        size = ca.sqrt(ca.sumsqr(error))
-        self._step = Kernel("healthy motion", [system.q, s, h, system.target, system.rotation], [ca.vertcat(q, size)])
+        rates = [path_rates(system.q, progress)]
+        for weights in [*(RK45.A[i, :i].tolist() for i in range(1, 6)), RK45.B.tolist()]:
+            q = system.q + step * sum(w * k for w, k in zip(weights, rates, strict=True))
+            rates.append(path_rates(q, progress + step * sum(weights)))
+        error = step * sum(w * k for w, k in zip(RK45.E.tolist(), rates, strict=True))
+        error_norm = ca.sqrt(ca.sumsqr(error))
+        self._step = Kernel(
+            "healthy motion", [system.q, progress, step, system.target, system.rotation], [ca.vertcat(q, error_norm)]
+        )
 
-    def cells(self, q0: Array, poses: Array, count: int) -> Iterator[Array]:
-        """Configurations (R, n) at the middle of each of ``count`` equal parts of the way from q0 (R, n) to poses (R, 4, 4).
+    def follow_cells(self, q0: Array, poses: Array, count: int) -> Iterator[Array]:
+        """Yield configurations (R, n) at the middle of each of ``count`` equal parts of the path from q0 (R, n) to poses (R, 4,
+        4).
 
         A row is NaN once the motion meets a singular configuration of the law.
         """
-        q, at = q0, 0.0
-        place, turn = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
-        for k in range(count):
-            to = (k + 0.5) / count
-            q = self._to(q, place, turn, at, to, _HALVED)
-            at = to
+        q, fraction = q0, 0.0
+        position, rotation = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
+        for cell in range(count):
+            next_fraction = (cell + 0.5) / count
+            q = self._integrate_to(q, position, rotation, fraction, next_fraction, _MAX_HALVINGS)
+            fraction = next_fraction
             yield q
 
-    def _to(self, q: Array, place: Array, turn: Array, at: float, to: float, halved: int) -> Array:
-        rows = np.full(len(q), at), np.full(len(q), to - at)
-        out = self._step.rows(q, *rows, place, turn)
-        new = out[:, :-1]
-        bad = np.flatnonzero(~(out[:, -1] <= TOLERANCE) & np.isfinite(q).all(axis=1))
-        if not bad.size:
-            return new
-        if not halved:
-            new[bad] = np.nan
-            return new
-        middle = (at + to) / 2
-        half = self._to(q[bad], place[bad], turn[bad], at, middle, halved - 1)
-        new[bad] = self._to(half, place[bad], turn[bad], middle, to, halved - 1)
-        return new
+    def _integrate_to(
+        self, q: Array, position: Array, rotation: Array, fraction: float, next_fraction: float, halvings_left: int
+    ) -> Array:
+        step_inputs = np.full(len(q), fraction), np.full(len(q), next_fraction - fraction)
+        outputs = self._step.rows(q, *step_inputs, position, rotation)
+        configurations = outputs[:, :-1]
+        rejected = np.flatnonzero(~(outputs[:, -1] <= STEP_TOLERANCE) & np.isfinite(q).all(axis=1))
+        if not rejected.size:
+            return configurations
+        if not halvings_left:
+            configurations[rejected] = np.nan
+            return configurations
+        middle = (fraction + next_fraction) / 2
+        middle_configurations = self._integrate_to(
+            q[rejected], position[rejected], rotation[rejected], fraction, middle, halvings_left - 1
+        )
+        configurations[rejected] = self._integrate_to(
+            middle_configurations, position[rejected], rotation[rejected], middle, next_fraction, halvings_left - 1
+        )
+        return configurations
 
 
 @lru_cache(maxsize=16)
-def healthy_paths(law: Law) -> HealthyPaths:
-    """The compiled step of a law, made once."""
+def compiled_healthy_paths(law: Law) -> HealthyPaths:
+    """Return the compiled step of a law, made once."""
     return HealthyPaths(law)

@@ -1,4 +1,4 @@
-"""Which control law reaches the target most often after a failure: several laws on the same failures."""
+"""Choice of the control law that reaches the target most often after a failure: several laws on the same failures."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.control.law import Law
 from holdfast.convergence.maps import ConvergenceMap, convergence_map, shared
 from holdfast.convergence.places import Places
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.probability.intervals import Difference, Interval, check_confidence
 from holdfast.result import Result
 
@@ -34,7 +34,7 @@ class LawChoice(Result):
     maps: tuple[ConvergenceMap, ...]
 
     def map_of(self, name: str) -> ConvergenceMap:
-        """What happened under one law.
+        """Return the convergence map of one law.
 
         Raises:
             InputError: No such law.
@@ -46,7 +46,7 @@ class LawChoice(Result):
     def share(
         self, name: str, joint: str | int | None = None, confidence: float = 0.95, *, outcome: str = "converged"
     ) -> Interval:
-        """Share of the failures after which the arm converges under a law: of one joint, or of all joints alike.
+        """Return the fraction of the failures after which the arm converges under a law, for one joint or for all joints alike.
 
         Args:
             name: Of the law.
@@ -59,12 +59,12 @@ class LawChoice(Result):
             InputError: No such law, joint or outcome.
         """
         check_confidence(confidence)
-        one = self.map_of(name)
-        each = int(one.known.sum(axis=1).max(initial=0)) * (one.law.arm.n if joint is None else 1)
-        return shared(self._by_place(name, joint, outcome), each, confidence)
+        law_map = self.map_of(name)
+        motion_count = int(law_map.known.sum(axis=1).max(initial=0)) * (law_map.law.arm.n if joint is None else 1)
+        return shared(self._fractions_by_place(name, joint, outcome), motion_count, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
-        """How much more often one law converges than another, on the same failures.
+        """Return how much more often one law converges than another, on the same failures.
 
         The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
         (:meth:`holdfast.probability.Difference.of_fractions`).
@@ -73,48 +73,55 @@ class LawChoice(Result):
             InputError: No such law or joint, or no place with a motion.
         """
         check_confidence(confidence)
-        apart = self._by_place(name, joint) - self._by_place(other, joint)
-        apart = apart[~np.isnan(apart)]
-        if not apart.size:
+        differences = self._fractions_by_place(name, joint) - self._fractions_by_place(other, joint)
+        differences = differences[~np.isnan(differences)]
+        if not differences.size:
             raise InputError("no place has a motion; choose places within reach")
-        return Difference.of_fractions(apart, confidence)
+        return Difference.of_fractions(differences, confidence)
 
     @property
     def ranking(self) -> list[str]:
-        """Names of the laws by the share of failures after which the target is reached, the greatest first."""
-        return sorted(self.names, key=lambda name: -float(np.nanmean(self._by_place(name, None))))
+        """Names of the laws by the fraction of failures after which the target is reached, the largest first."""
+        return sorted(self.names, key=lambda name: -float(np.nanmean(self._fractions_by_place(name, None))))
 
     @property
     def best(self) -> str:
-        """The first of the ranking; :meth:`difference` says how sure that is."""
+        """The first of the ranking; :meth:`difference` returns its certainty."""
         return self.ranking[0]
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        first, best = self.maps[0], self.best
+        """Return the ranking of the laws in a few sentences."""
+        first_map, best = self.maps[0], self.best
         lines = [
-            f"{len(self.names)} laws on {first.law.arm.title}, task {first.law.task.describe()}: the same "
-            f"{int(first.known.sum()) * first.law.arm.n} failures, {int(first.known.any(axis=1).sum())} {first.over}"
+            f"{len(self.names)} laws on {first_map.law.arm.title}, task {first_map.law.task.describe()}: the same "
+            f"{int(first_map.known.sum()) * first_map.law.arm.n} failures, {int(first_map.known.any(axis=1).sum())} "
+            f"{first_map.over}"
         ]
         for name in self.ranking:
-            s = self.share(name)
-            line = f"{name}: converges after {100 * s.value:.1f} % of the failures ({100 * s.low:.1f} to {100 * s.high:.1f} %)"
+            converged = self.share(name)
+            line = (
+                f"{name}: converges after {100 * converged.value:.1f} % of the failures ({100 * converged.low:.1f} to "
+                f"{100 * converged.high:.1f} %)"
+            )
             if name != best:
-                d = self.difference(name, best)
-                line += f", {100 * d.value:+.1f} points against the best ({100 * d.low:+.1f} to {100 * d.high:+.1f})"
-            if first.touched is not None:
+                difference = self.difference(name, best)
+                line += (
+                    f", {100 * difference.value:+.1f} points against the best ({100 * difference.low:+.1f} to "
+                    f"{100 * difference.high:+.1f})"
+                )
+            if first_map.touched is not None:
                 line += f"; something is touched on the way in {100 * self.share(name, outcome='touched').value:.1f} % at most"
             lines.append(line)
         return lines
 
-    def _by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> Array:
-        one = self.map_of(name)
-        values = one.values(outcome)[:, :-1]
-        return values.mean(axis=1) if joint is None else values[:, one.law.arm.joint_index(joint)]
+    def _fractions_by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> Array:
+        law_map = self.map_of(name)
+        values = law_map.values(outcome)[:, :-1]
+        return values.mean(axis=1) if joint is None else values[:, law_map.law.arm.joint_index(joint)]
 
 
-@checked
-@says("simulating failures")
+@check_arguments
+@reports_progress("simulating failures")
 def best_law(
     laws: Mapping[str, Law] | Sequence[Law],
     targets: ArrayLike | str | int | Places,
@@ -123,7 +130,7 @@ def best_law(
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> LawChoice:
-    """Which of several laws most often reaches the target with a joint locked that the controller does not know of.
+    """Choose the law that most often reaches the target with a locked joint of which the controller has no information.
 
     Every law meets the same failures: :func:`holdfast.convergence_map` with the same places, configurations and seed. To
     find the best pre-failure error, give the failure-tolerant law with several.
@@ -140,24 +147,26 @@ def best_law(
     Raises:
         InputError: Fewer than two laws, laws of different arms or tasks, or as :func:`holdfast.convergence_map`.
     """
-    named = dict(laws) if isinstance(laws, Mapping) else {_name(law): law for law in laws}
-    if len(named) < 2 or len(named) != len(laws):
-        raise InputError(f"there are {len(named)} different laws; give two or more, or name them yourself: {{'a': law, ...}}")
-    first = next(iter(named.values()))
-    for name, law in named.items():
-        if law.arm.fingerprint != first.arm.fingerprint or not law.task.same_rows(first.task):
+    law_by_name = dict(laws) if isinstance(laws, Mapping) else {_label_law(law): law for law in laws}
+    if len(law_by_name) < 2 or len(law_by_name) != len(laws):
+        raise InputError(
+            f"there are {len(law_by_name)} different laws; give two or more, or name them yourself: {{'a': law, ...}}"
+        )
+    first_law = next(iter(law_by_name.values()))
+    for name, law in law_by_name.items():
+        if law.arm.fingerprint != first_law.arm.fingerprint or not law.task.same_rows(first_law.task):
             raise InputError(f"the law '{name}' has another arm or task than the first; compare laws of one arm and task")
 
     maps = []
-    for k, law in enumerate(named.values()):
-        step = None if progress is None else _shifted(progress, k, len(named))
-        maps.append(convergence_map(law, targets, starts, progress=step, **options))
-    return LawChoice(tuple(named), tuple(maps))
+    for number, law in enumerate(law_by_name.values()):
+        law_progress = None if progress is None else _shift_progress(progress, number, len(law_by_name))
+        maps.append(convergence_map(law, targets, starts, progress=law_progress, **options))
+    return LawChoice(tuple(law_by_name), tuple(maps))
 
 
-def _name(law: Law) -> str:
+def _label_law(law: Law) -> str:
     return law.phrase().replace(f", task {law.task.describe()}", "")
 
 
-def _shifted(progress: Callable[[int, int], None], number: int, laws: int) -> Callable[[int, int], None]:
-    return lambda done, total: progress(number * total + done, laws * total)
+def _shift_progress(progress: Callable[[int, int], None], number: int, law_count: int) -> Callable[[int, int], None]:
+    return lambda done, total: progress(number * total + done, law_count * total)

@@ -1,4 +1,4 @@
-"""How control laws fare on the same motions, with each joint locked in turn: which converges, and what it costs."""
+"""Comparison of control laws on the same motions, with each joint locked in turn: convergence, and cost."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from holdfast.convergence.detours import HealthyCost
 from holdfast.errors import InputError
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.result import Result
-from holdfast.simulation.batch import ARRIVES
+from holdfast.simulation.batch import CONVERGENCE_TOLERANCE
 from holdfast.simulation.errors import error_kinds
-from holdfast.simulation.runs import UNDECIDED, Outcome, Runs
+from holdfast.simulation.runs import UNDECIDED_REASONS, RunOutcome, Runs
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 ErrorOf = Literal["error", "excess", "closest", "position_error", "angle_error"]
-HEALTHY, ANY = "healthy", "any joint"
-LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+HEALTHY_CASE, ANY_JOINT = "healthy", "any joint"
+QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -39,7 +39,7 @@ class Case:
     Attributes:
         law: Name of the law.
         failure: ``healthy``, or the name of the joint.
-        code: (N,) :class:`holdfast.simulation.Outcome`.
+        code: (N,) :class:`holdfast.simulation.RunOutcome`.
         reason: (N,) :class:`holdfast.simulation.Reason`.
         reachable: (N,) True where the target can still be reached with the joint locked, as far as was found
             and joint limits left aside.
@@ -75,30 +75,30 @@ class Case:
 
     @property
     def touched(self) -> Flags:
-        """(N,) True for the runs that touch something on the way, as far as anybody looked."""
+        """(N,) array that is True for runs with a contact on the way, as far as contacts were checked."""
         return np.array([contact is not None for contact in self.contacts or ()] or np.zeros(len(self.code)), dtype=bool)
 
     def ended(self, outcome: str) -> Flags:
-        """(N,) True for the runs that are ``converged``, ``stuck``, ``moving`` or ``undecided``.
+        """Return (N,) True for the runs that are ``converged``, ``stuck``, ``moving``, or ``undecided``.
 
         Raises:
             InputError: No such outcome.
         """
-        if outcome.upper() not in Outcome.__members__:
+        if outcome.upper() not in RunOutcome.__members__:
             raise InputError(f"outcome '{outcome}' is not known; use converged, stuck, moving or undecided")
-        return np.asarray(self.code == Outcome[outcome.upper()])
+        return np.asarray(self.code == RunOutcome[outcome.upper()])
 
     def share(self, outcome: str = "converged", among_reachable: bool = False) -> Interval | None:
-        """Share of the runs that ended so, with its exact 95 % interval; None of no runs.
+        """Return the fraction of the runs that ended so, with its exact 95 % interval; None of no runs.
 
         Args:
             outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
             among_reachable: Of the runs whose target is still within reach only.
         """
-        hits = self.ended(outcome)
+        is_hit = self.ended(outcome)
         if among_reachable:
-            hits = hits[self.reachable]
-        return Interval.of(int(hits.sum()), hits.size) if hits.size else None
+            is_hit = is_hit[self.reachable]
+        return Interval.of(int(is_hit.sum()), is_hit.size) if is_hit.size else None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -135,7 +135,7 @@ class LawComparison(Result):
 
     @property
     def clearance(self) -> Clearance | None:
-        """What the runs were looked at for touching, or None: nobody looked. It changes no run."""
+        """Collision model with which the runs were checked for contacts, or None if they were not. It changes no run."""
         return self.runs[0].clearance
 
     @property
@@ -146,22 +146,22 @@ class LawComparison(Result):
     @property
     def accuracy(self) -> float:
         """Error at which a target counts as reached, m and rad."""
-        first = self.runs[0]
-        return first._setting.accuracy if first.cycles else at_rest(first.law)
+        first_runs = self.runs[0]
+        return first_runs._settings.accuracy if first_runs.cycles else rest_error(first_runs.law)
 
-    def _law(self, name: str) -> int:
+    def _law_index(self, name: str) -> int:
         if name not in self.names:
             raise InputError(f"there is no law '{name}' here; there are {', '.join(self.names)}")
         return self.names.index(name)
 
-    def _failure(self, failure: str | int) -> int:
-        name = self.arm.joint_names[self.arm.joint_index(failure)] if isinstance(failure, int) else failure
-        if name not in self.failures:
-            raise InputError(f"'{name}' was not locked here; there are {', '.join(self.failures)}")
-        return self.failures.index(name)
+    def _failure_index(self, failure: str | int) -> int:
+        joint_name = self.arm.joint_names[self.arm.joint_index(failure)] if isinstance(failure, int) else failure
+        if joint_name not in self.failures:
+            raise InputError(f"'{joint_name}' was not locked here; there are {', '.join(self.failures)}")
+        return self.failures.index(joint_name)
 
-    def case(self, law: str, failure: str | int = HEALTHY) -> Case:
-        """The runs of one law with one joint locked.
+    def case(self, law: str, failure: str | int = HEALTHY_CASE) -> Case:
+        """Return the runs of one law with one joint locked.
 
         Args:
             law: Its name.
@@ -170,32 +170,32 @@ class LawComparison(Result):
         Raises:
             InputError: It was not part of the comparison.
         """
-        r, f = self.runs[self._law(law)], self._failure(failure)
-        rows = slice(f * len(self), (f + 1) * len(self))
-        least = self.least_error[f]
+        law_runs, failure_number = self.runs[self._law_index(law)], self._failure_index(failure)
+        rows = slice(failure_number * len(self), (failure_number + 1) * len(self))
+        least_errors = self.least_error[failure_number]
         with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = np.where(self.way > 1e-9, r.path_length[rows] / self.way, np.nan)
+            ratio = np.where(self.way > 1e-9, law_runs.path_length[rows] / self.way, np.nan)
         return Case(
             law=law,
-            failure=self.failures[f],
-            code=r.code[rows],
-            reason=r.reason[rows],
-            reachable=least <= self.accuracy,
-            error=r.error[rows],
-            position_error=r.position_error[rows],
-            angle_error=r.angle_error[rows],
-            excess=r.error[rows] - np.fmin(least, r.error[rows]),
-            closest=r.closest[rows],
-            path_length=r.path_length[rows],
+            failure=self.failures[failure_number],
+            code=law_runs.code[rows],
+            reason=law_runs.reason[rows],
+            reachable=least_errors <= self.accuracy,
+            error=law_runs.error[rows],
+            position_error=law_runs.position_error[rows],
+            angle_error=law_runs.angle_error[rows],
+            excess=law_runs.error[rows] - np.fmin(least_errors, law_runs.error[rows]),
+            closest=law_runs.closest[rows],
+            path_length=law_runs.path_length[rows],
             path_ratio=ratio,
-            excursion=(r.q_high[rows] - r.q_low[rows]).sum(axis=1),
-            past_limits=np.asarray(r.limits_passed[rows].any(axis=1)),
-            time=r.time[rows],
-            contacts=None if r.contacts is None else r.first_contacts[rows],
+            excursion=(law_runs.q_high[rows] - law_runs.q_low[rows]).sum(axis=1),
+            past_limits=np.asarray(law_runs.limits_passed[rows].any(axis=1)),
+            time=law_runs.time[rows],
+            contacts=None if law_runs.contacts is None else law_runs.first_contacts[rows],
         )
 
     def pooled(self, law: str, of: str) -> NDArray[Any]:
-        """(K, N) of K locked joints: an attribute of :class:`holdfast.convergence.Case`.
+        """Return (K, N) the values of an attribute of :class:`holdfast.convergence.Case` for K locked joints.
 
         Raises:
             InputError: No such law, or no joint was locked.
@@ -205,15 +205,15 @@ class LawComparison(Result):
         return np.array([getattr(self.case(law, joint), of) for joint in self.joints])
 
     def share_any(self, law: str, outcome: str = "converged") -> Interval:
-        """Share of an outcome where each of the joints is as likely to lock as any other, with its 95 % interval.
+        """Return the fraction of an outcome where each joint is equally likely to lock, with its 95 % interval.
 
         The runs of one motion with different joints locked are not independent samples: the unit is the motion, and the
         interval that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
         """
-        return Interval.of_fractions((self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0))
+        return Interval.of_fractions((self.pooled(law, "code") == RunOutcome[outcome.upper()]).mean(axis=0))
 
     def touched_any(self, law: str) -> Interval:
-        """Share of the runs that touch something where each of the joints is as likely to lock; as :meth:`share_any`.
+        """Return the fraction of the runs with a contact where each joint is equally likely to lock; as :meth:`share_any`.
 
         Distances are lower bounds, so it is at most so many.
         """
@@ -222,13 +222,14 @@ class LawComparison(Result):
     def gain(
         self,
         law: str,
-        failure: str | int = ANY,
+        failure: str | int = ANY_JOINT,
         than: str | None = None,
         *,
         among_reachable: bool = False,
         undecided: Literal["lost", "for", "against"] = "lost",
     ) -> Difference:
-        """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
+        """Return how many more of the same motions converge under a law than under another, as a fraction with its 95 %
+        interval.
 
         Paired: for one joint by the method of Newcombe with exact limits
         (:meth:`holdfast.probability.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
@@ -247,23 +248,26 @@ class LawComparison(Result):
             InputError: A law or a joint that was not part of the comparison, or no motion to compare.
         """
         other = self.names[0] if than is None else than
-        generous = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
-        if failure == ANY:
+        counts_undecided = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
+        if failure == ANY_JOINT:
             if not self.joints:
                 raise InputError("a mean over the joints takes a locked joint; give failures='single' or name one joint")
-            one, two = (
-                np.array([_arrived(self.case(x, joint), kind) for joint in self.joints])
-                for x, kind in zip((other, law), generous, strict=True)
+            other_converged, law_converged = (
+                np.array([_has_converged(self.case(law_name, joint), is_generous) for joint in self.joints])
+                for law_name, is_generous in zip((other, law), counts_undecided, strict=True)
             )
-            return Difference.of_fractions(two.mean(axis=0) - one.mean(axis=0))
-        before, after = self.case(other, failure), self.case(law, failure)
-        some = before.reachable if among_reachable else np.ones(len(self), dtype=bool)
-        if not some.any():
-            raise InputError(f"no target is within reach with '{before.failure}' locked; leave out among_reachable")
-        return Difference.of_pairs(_arrived(before, generous[0])[some], _arrived(after, generous[1])[some])
+            return Difference.of_fractions(law_converged.mean(axis=0) - other_converged.mean(axis=0))
+        other_case, law_case = self.case(other, failure), self.case(law, failure)
+        is_compared = other_case.reachable if among_reachable else np.ones(len(self), dtype=bool)
+        if not is_compared.any():
+            raise InputError(f"no target is within reach with '{other_case.failure}' locked; leave out among_reachable")
+        return Difference.of_pairs(
+            _has_converged(other_case, counts_undecided[0])[is_compared],
+            _has_converged(law_case, counts_undecided[1])[is_compared],
+        )
 
-    def change(self, law: str, of: ErrorOf, failure: str | int = ANY, *, than: str | None = None) -> Difference:
-        """Mean change of an error at the end of the same motions under a law and under another, with its 95 % interval.
+    def change(self, law: str, of: ErrorOf, failure: str | int = ANY_JOINT, *, than: str | None = None) -> Difference:
+        """Return the mean change of an error at the end of the same motions between two laws, with its 95 % interval.
 
         Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
         moving count as they were when time was up. Errors have no bound, so the interval is Student's t, which may cover too
@@ -278,31 +282,31 @@ class LawComparison(Result):
         Raises:
             InputError: A law or a joint that was not part of the comparison, or fewer than two motions.
         """
-        pair = (self.names[0] if than is None else than, law)
-        if failure == ANY:
-            one, two = (self.pooled(x, of).mean(axis=0) for x in pair)
+        law_names = (self.names[0] if than is None else than, law)
+        if failure == ANY_JOINT:
+            other_errors, law_errors = (self.pooled(law_name, of).mean(axis=0) for law_name in law_names)
         else:
-            one, two = (getattr(self.case(x, failure), of) for x in pair)
-        difference = (two - one)[np.isfinite(two - one)]
+            other_errors, law_errors = (getattr(self.case(law_name, failure), of) for law_name in law_names)
+        difference = (law_errors - other_errors)[np.isfinite(law_errors - other_errors)]
         if len(difference) < 2:
             raise InputError("a mean change takes two motions or more")
         return Difference.of_means(difference)
 
-    def cost(self, law: str, of: Literal["deviation", "angle", "time"], levels: Sequence[float] = LEVELS) -> Array:
-        """(L,) quantiles of what a law costs the healthy arm, over the motions that converge under every law.
+    def cost(self, law: str, of: Literal["deviation", "angle", "time"], levels: Sequence[float] = QUANTILE_LEVELS) -> Array:
+        """Return (L,) quantiles of the cost of a law for the healthy arm, over the motions that converge under every law.
 
         Args:
             law: Its name.
             of: An attribute of :class:`holdfast.convergence.HealthyCost`.
             levels: 0 to 1.
         """
-        values = getattr(self.healthy[self._law(law)], of)[self.comparable]
+        values = getattr(self.healthy[self._law_index(law)], of)[self.comparable]
         values = values[np.isfinite(values)]
         return np.quantile(values, levels) if values.size else np.full(len(levels), np.nan)
 
     @cached_property
     def comparable(self) -> Flags:
-        """(N,) True for the motions that converge under every law while nothing has failed."""
+        """(N,) array that is True for the motions that converge under every law without a failure."""
         return np.asarray(np.all([self.case(name).ended("converged") for name in self.names], axis=0))
 
     @cached_property
@@ -319,67 +323,70 @@ class LawComparison(Result):
         also ``touched`` (share of runs that touch something, with its interval) and ``converged_clear`` (converged, and
         touched nothing on the way).
         """
-        return [self._row(self.case(name, failure)) for name in self.names for failure in self.failures]
+        return [self._table_row(self.case(name, failure)) for name in self.names for failure in self.failures]
 
-    def _row(self, c: Case) -> dict[str, Any]:
-        row: dict[str, Any] = {"law": c.law, "failure": c.failure, "motions": len(self)}
-        for outcome in Outcome:
+    def _table_row(self, case: Case) -> dict[str, Any]:
+        row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motions": len(self)}
+        for outcome in RunOutcome:
             name = outcome.name.lower()
-            row |= _ends(name, c.share(name))
-        row["reachable"] = float(c.reachable.mean())
-        row |= _ends("converged_reachable", c.share(among_reachable=True))
-        row["converged_within_limits"] = float((c.ended("converged") & ~c.past_limits).mean())
+            row |= _interval_columns(name, case.share(name))
+        row["reachable"] = float(case.reachable.mean())
+        row |= _interval_columns("converged_reachable", case.share(among_reachable=True))
+        row["converged_within_limits"] = float((case.ended("converged") & ~case.past_limits).mean())
         kinds = error_kinds(self.laws[0])
-        one = len(kinds) == 1
-        for what, values in [*((kind.key, getattr(c, kind.name)) for kind in kinds), *[("excess", c.excess)] * one]:
-            for level in LEVELS:
-                row[f"{what}_{round(100 * level):02d}"] = _quantile(values, level)
+        has_one_kind = len(kinds) == 1
+        for column, values in [
+            *((kind.key, getattr(case, kind.name)) for kind in kinds),
+            *[("excess", case.excess)] * has_one_kind,
+        ]:
+            for level in QUANTILE_LEVELS:
+                row[f"{column}_{round(100 * level):02d}"] = _finite_quantile(values, level)
         for kind in kinds:
-            row[f"{kind.key}_astray"] = _quantile(getattr(c, kind.name)[~c.ended("converged")], 0.5)
-        for what in (*["closest"] * one, "path_ratio", "excursion"):
-            row[what] = _quantile(getattr(c, what), 0.5)
-        row["past_limits"] = float(c.past_limits.mean())
-        if c.contacts is not None:
-            row |= _ends("touched", Interval.of(int(c.touched.sum()), len(self)))
-            row["converged_clear"] = float((c.ended("converged") & ~c.touched).mean())
+            row[f"{kind.key}_astray"] = _finite_quantile(getattr(case, kind.name)[~case.ended("converged")], 0.5)
+        for column in (*["closest"] * has_one_kind, "path_ratio", "excursion"):
+            row[column] = _finite_quantile(getattr(case, column), 0.5)
+        row["past_limits"] = float(case.past_limits.mean())
+        if case.contacts is not None:
+            row |= _interval_columns("touched", Interval.of(int(case.touched.sum()), len(self)))
+            row["converged_clear"] = float((case.ended("converged") & ~case.touched).mean())
         return row
 
     def reasons(self, law: str) -> dict[str, int]:
-        """How many runs of a law, healthy and failed, are undecided for which reason."""
-        reason = self.runs[self._law(law)].reason
-        return {r.name.lower(): int((reason == r).sum()) for r in UNDECIDED if (reason == r).any()}
+        """Return the number of undecided runs of a law, healthy and failed, for each reason."""
+        reason = self.runs[self._law_index(law)].reason
+        return {cause.name.lower(): int((reason == cause).sum()) for cause in UNDECIDED_REASONS if (reason == cause).any()}
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the comparison of the laws in a few sentences."""
         lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
         for name in self.names:
             healthy = self.case(name).share()
             assert healthy is not None
             text = f"{name}: healthy {healthy.value:.1%} converge"
             if self.joints:
-                after = self.share_any(name)
-                text += f"; with a joint locked {after.value:.1%} (95 % interval {after.low:.1%} to {after.high:.1%})"
+                failed = self.share_any(name)
+                text += f"; with a joint locked {failed.value:.1%} (95 % interval {failed.low:.1%} to {failed.high:.1%})"
                 text += f"; {self.touched_any(name).value:.1%} touch something on the way" if self.clearance is not None else ""
             lines.append(text)
         return lines
 
 
-def at_rest(law: Law) -> float:
-    """Norm of the error, m and rad, below which a target counts as reached at rest."""
-    return ARRIVES if law.task.angular else ARRIVES * law.arm.length_unit
+def rest_error(law: Law) -> float:
+    """Return the norm of the error, m and rad, below which a target counts as reached at rest."""
+    return CONVERGENCE_TOLERANCE if law.task.angular else CONVERGENCE_TOLERANCE * law.arm.length_unit
 
 
-def _arrived(case: Case, generous: bool) -> Flags:
-    """(N,) True for the runs that converged; generously also for those that may yet."""
-    return case.ended("converged") | (generous & case.ended("undecided") & case.reachable)
+def _has_converged(case: Case, is_generous: bool) -> Flags:
+    """Return (N,) True for the runs that converged, and if generous also for those that may still converge."""
+    return case.ended("converged") | (is_generous & case.ended("undecided") & case.reachable)
 
 
-def _quantile(values: Array, level: float) -> float | None:
+def _finite_quantile(values: Array, level: float) -> float | None:
     finite = values[np.isfinite(values)]
     return float(np.quantile(finite, level)) if finite.size else None
 
 
-def _ends(name: str, p: Interval | None) -> dict[str, float | None]:
-    if p is None:
+def _interval_columns(name: str, interval: Interval | None) -> dict[str, float | None]:
+    if interval is None:
         return {name: None, f"{name}_low": None, f"{name}_high": None}
-    return {name: p.value, f"{name}_low": p.low, f"{name}_high": p.high}
+    return {name: interval.value, f"{name}_low": interval.low, f"{name}_high": interval.high}

@@ -1,4 +1,4 @@
-"""Measures of the paper over the configurations of a start, and which points of a motion are looked at.
+"""Measures of the paper over the configurations of a start, and the points of a motion that are evaluated.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace.
 """
@@ -15,16 +15,16 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.intp]
 
-ARC = 1e-9  # rad: this far outside an arc still counts as inside
+ARC_TOLERANCE_RAD = 1e-9  # rad: this far outside an arc still counts as inside
 Arcs = Sequence[tuple[float, float]]
 
-REACH, FINISH = ("R100", "Ravg", "Rsens"), ("F100", "Favg", "Fsens")
-NAMES = (*REACH, *FINISH)
+REACH_NAMES, FINISH_NAMES = ("R100", "Ravg", "Rsens"), ("F100", "Favg", "Fsens")
+MEASURE_NAMES = (*REACH_NAMES, *FINISH_NAMES)
 
 
 @dataclass(frozen=True, eq=False)
 class Measures:
-    """Of a share of each motion, over the configurations of a start, in percent.
+    """Measures of a fraction of each motion, over the configurations of a start, in percent.
 
     Attributes:
         full: (P, ...) share of the configurations of which the whole motion counts: R100, F100.
@@ -38,60 +38,60 @@ class Measures:
 
     @property
     def parts(self) -> tuple[Array, Array, Array]:
-        """Full, average and spread: in the order of the names ``REACH`` and ``FINISH``."""
+        """Full, average and spread: in the order of the names ``REACH_NAMES`` and ``FINISH_NAMES``."""
         return self.full, self.average, self.spread
 
     @classmethod
     def of(cls, shares: Array, owner: Index, starts: int) -> Measures:
-        """From shares (R, k) of the motions of starts ``owner`` (R,); NaN shares are left out, starts without any are NaN."""
-        whole, average, spread = (np.full((starts, shares.shape[1]), np.nan) for _ in range(3))
-        for j, column in enumerate(shares.T):
-            known = ~np.isnan(column)
-            value, mine = column[known], owner[known]
-            count = np.bincount(mine, minlength=starts)
-            there = count > 0
-            low, high = np.full(starts, np.inf), np.full(starts, -np.inf)
-            np.minimum.at(low, mine, value)
-            np.maximum.at(high, mine, value)
-            sums = np.bincount(mine, value, starts), np.bincount(mine, value >= 1 - 1e-12, starts)
-            average[there, j] = 100 * sums[0][there] / count[there]
-            whole[there, j] = 100 * sums[1][there] / count[there]
-            spread[there, j] = 100 * (high - low)[there]
-        return cls(whole, average, spread)
+        """Compute the measures from fractions (R, k) of the motions of starts ``owner`` (R,); NaN fractions are left out."""
+        full, average, spread = (np.full((starts, shares.shape[1]), np.nan) for _ in range(3))
+        for column_index, column in enumerate(shares.T):
+            is_known = ~np.isnan(column)
+            value, owners = column[is_known], owner[is_known]
+            count = np.bincount(owners, minlength=starts)
+            has_motions = count > 0
+            lowest, highest = np.full(starts, np.inf), np.full(starts, -np.inf)
+            np.minimum.at(lowest, owners, value)
+            np.maximum.at(highest, owners, value)
+            sums = np.bincount(owners, value, starts), np.bincount(owners, value >= 1 - 1e-12, starts)
+            average[has_motions, column_index] = 100 * sums[0][has_motions] / count[has_motions]
+            full[has_motions, column_index] = 100 * sums[1][has_motions] / count[has_motions]
+            spread[has_motions, column_index] = 100 * (highest - lowest)[has_motions]
+        return cls(full, average, spread)
 
 
-def within(values: Array, arcs: Arcs, turns: bool) -> Flags:
-    """True where values lie in one of the arcs (lower, upper); modulo 2 pi for a joint that turns."""
+def is_in_arcs(values: Array, arcs: Arcs, is_revolute: bool) -> Flags:
+    """Return True where values lie in one of the arcs (lower, upper); modulo 2 pi for a revolute joint."""
     inside = np.zeros(values.shape, dtype=bool)
     for lower, upper in arcs:
-        if turns and upper - lower >= 2 * np.pi - ARC:
+        if is_revolute and upper - lower >= 2 * np.pi - ARC_TOLERANCE_RAD:
             return np.ones(values.shape, dtype=bool)
-        if turns:
-            inside |= (values - lower + ARC) % (2 * np.pi) <= upper - lower + 2 * ARC
+        if is_revolute:
+            inside |= (values - lower + ARC_TOLERANCE_RAD) % (2 * np.pi) <= upper - lower + 2 * ARC_TOLERANCE_RAD
         else:
-            inside |= (values >= lower - ARC) & (values <= upper + ARC)
+            inside |= (values >= lower - ARC_TOLERANCE_RAD) & (values <= upper + ARC_TOLERANCE_RAD)
     return inside
 
 
-def spaced(flags: Flags, count: NDArray[np.int64]) -> tuple[Index, Index]:
-    """Of the cells (K, R) flagged in each row, ``count`` (R,) equally spaced ones: rows and cells, each pair once."""
+def select_spaced(flags: Flags, count: NDArray[np.int64]) -> tuple[Index, Index]:
+    """Select ``count`` (R,) equally spaced cells of those flagged in each row (K, R): rows and cells, each pair once."""
     passed = np.cumsum(flags, axis=0)
     total = passed[-1]
-    most = int(count.max(initial=0))
+    max_count = int(count.max(initial=0))
     rows, cells = [np.empty(0, dtype=np.intp)], [np.empty(0, dtype=np.intp)]
-    for j in range(most):
-        asked = np.flatnonzero((j < count) & (total > 0))
-        rank = np.floor((j + 0.5) / count[asked] * total[asked])
-        rows.append(asked)
-        cells.append((passed[:, asked] > rank).argmax(axis=0))
-    row, cell = np.concatenate(rows), np.concatenate(cells)
-    pairs = np.unique(row * len(flags) + cell)
+    for number in range(max_count):
+        open_rows = np.flatnonzero((number < count) & (total > 0))
+        rank = np.floor((number + 0.5) / count[open_rows] * total[open_rows])
+        rows.append(open_rows)
+        cells.append((passed[:, open_rows] > rank).argmax(axis=0))
+    all_rows, all_cells = np.concatenate(rows), np.concatenate(cells)
+    pairs = np.unique(all_rows * len(flags) + all_cells)
     return np.asarray(pairs // len(flags)), np.asarray(pairs % len(flags))
 
 
-def averaged(values: Array, row: Index, rows: int) -> Array:
-    """(R,) mean of the values of each row that are not NaN; NaN where there is none."""
-    known = ~np.isnan(values)
-    count = np.bincount(row[known], minlength=rows)
+def mean_by_row(values: Array, row: Index, rows: int) -> Array:
+    """Return (R,) the mean of the values of each row that are not NaN; NaN where there is none."""
+    is_known = ~np.isnan(values)
+    count = np.bincount(row[is_known], minlength=rows)
     with np.errstate(invalid="ignore"):
-        return np.asarray(np.bincount(row[known], values[known], rows) / np.where(count > 0, count, np.nan))
+        return np.asarray(np.bincount(row[is_known], values[is_known], rows) / np.where(count > 0, count, np.nan))

@@ -1,4 +1,4 @@
-"""Over a workspace: from which starts a target is still reached when a joint locks on the way and nobody knows."""
+"""The starts in a workspace from which a target is still reached after an undetected lock on the way."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.control.law import Law
 from holdfast.convergence.analysis import (
-    ARRIVING,
-    CELLS,
-    ENDS,
-    NO_SINK,
-    TOLERANCE,
-    Beginnings,
-    Job,
+    END_ARRIVING,
+    END_NO_SINK,
+    FAILURE_ENDS,
+    PATH_CELLS,
+    RUN_TOLERANCE,
     Method,
     RelativeTo,
-    prepared,
-    usual_method,
+    StartConfigurations,
+    TargetAnalysis,
+    choose_method,
+    prepare_analysis,
 )
-from holdfast.convergence.measures import FINISH, NAMES, REACH, Arcs, Measures
+from holdfast.convergence.measures import FINISH_NAMES, MEASURE_NAMES, REACH_NAMES, Arcs, Measures
 from holdfast.convergence.places import Places, read_places
 from holdfast.engine.store import Store
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.probability.intervals import Interval, check_confidence
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 from holdfast.result import Result
-from holdfast.simulation.runs import Outcome
+from holdfast.simulation.runs import RunOutcome
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,9 +41,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
-LATTICE: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
-SAMPLE: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
-_CHUNK = 128  # starts analysed together and stored as one; no result depends on it
+LATTICE_DEFAULTS: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
+SAMPLE_DEFAULTS: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
+_CHUNK_STARTS = 128  # starts analysed together and stored as one; no result depends on it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -80,36 +80,38 @@ class Workspace(Result):
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """What the columns of the measures are: the joints by name, and ``any``, an arbitrary one."""
+        """Columns of the measures: the joints by name, and ``any``, an arbitrary one."""
         return (*self.law.arm.joint_names, "any")
 
     @property
     def measures(self) -> dict[str, Array]:
         """R100, Ravg, Rsens, F100, Favg and Fsens by name, (P, n + 1) each, percent."""
-        return dict(zip(NAMES, (*self.reach.parts, *self.finish.parts), strict=True))
+        return dict(zip(MEASURE_NAMES, (*self.reach.parts, *self.finish.parts), strict=True))
 
     @property
     def simulated(self) -> int:
-        """Failures that were simulated."""
-        return int(self.ends[:, :NO_SINK].sum())
+        """Number of failures that were simulated."""
+        return int(self.ends[:, :END_NO_SINK].sum())
 
     @property
     def undecided(self) -> float:
-        """Share of the simulated failures that were undecided at the time limit; NaN if there is none."""
-        return float(self.ends[:, [Outcome.UNDECIDED, ARRIVING]].sum() / self.simulated) if self.simulated else float("nan")
+        """Fraction of the simulated failures that were undecided at the time limit; NaN if there is none."""
+        return (
+            float(self.ends[:, [RunOutcome.UNDECIDED, END_ARRIVING]].sum() / self.simulated) if self.simulated else float("nan")
+        )
 
     @property
     def saved(self) -> float:
-        """Share of the failures that did not have to be simulated, because the joint locked where there is no sink."""
-        every = int(self.ends.sum())
-        return float(self.ends[:, NO_SINK].sum() / every) if every else float("nan")
+        """Fraction of the failures that did not have to be simulated, because the joint locked where there is no sink."""
+        total = int(self.ends.sum())
+        return float(self.ends[:, END_NO_SINK].sum() / total) if total else float("nan")
 
     def means(self) -> dict[str, Array]:
-        """Mean of every measure over the starts that have it, (n + 1,) each, percent."""
+        """Return the mean of every measure over the starts that have it, (n + 1,) each, percent."""
         return {name: mean_over(values, 0) for name, values in self.measures.items()}
 
     def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
-        """How sure the means are for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
+        """Return the intervals of the means for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
 
         The unit is the start: configurations and failures of one start are alike, and however many there are, they only
         make its own value more exact. The intervals always cover, and are wide for few starts
@@ -119,7 +121,7 @@ class Workspace(Result):
         return {name: mean_intervals(values, confidence) for name, values in self.measures.items()}
 
     def throughout(self, name: str = "R100", confidence: float = 0.95) -> tuple[Interval, ...]:
-        """Share of the starts, for each column, at which R100 (or F100) is 100: whatever their configuration.
+        """Return the fraction of the starts, for each column, at which R100 (or F100) is 100 for all configurations.
 
         Only the configurations that were looked at are known, so that this is an upper bound of the share of starts at which
         it holds for every configuration of the self-motion. The interval is exact; NaN where no start has the measure.
@@ -128,46 +130,54 @@ class Workspace(Result):
             InputError: Another name.
         """
         check_confidence(confidence)
-        if name not in (REACH[0], FINISH[0]):
+        if name not in (REACH_NAMES[0], FINISH_NAMES[0]):
             raise InputError(f"'{name}' is not known; use R100 or F100")
         values = self.measures[name]
-        known = (~np.isnan(values)).sum(axis=0).tolist()
-        hits = (values >= 100 - 1e-9).sum(axis=0).tolist()
-        none = Interval(value=np.nan, low=np.nan, high=np.nan, confidence=confidence)
-        return tuple(Interval.of(h, k, confidence) if k else none for h, k in zip(hits, known, strict=True))
+        known_counts = (~np.isnan(values)).sum(axis=0).tolist()
+        hit_counts = (values >= 100 - 1e-9).sum(axis=0).tolist()
+        no_interval = Interval(value=np.nan, low=np.nan, high=np.nan, confidence=confidence)
+        return tuple(
+            Interval.of(hit_count, count, confidence) if count else no_interval
+            for hit_count, count in zip(hit_counts, known_counts, strict=True)
+        )
 
     def to_xarray(self) -> xr.Dataset:
-        """The measures, percent, by start and joint (the last is ``any``), and of each start its place and its counts."""
-        values: dict[str, Any] = {name: (("place", "joint"), v, {"units": "percent"}) for name, v in self.measures.items()}
+        """Return the measures, percent, by start and joint (the last is ``any``), and the position and counts of each start."""
+        values: dict[str, Any] = {
+            name: (("place", "joint"), columns, {"units": "percent"}) for name, columns in self.measures.items()
+        }
         values |= {"configurations": ("place", self.configurations), "lost": ("place", self.lost)}
         values["ends"] = (("place", "ending"), self.ends)
-        return self.places.dataset(values, joint=self.columns, ending=ENDS)
+        return self.places.dataset(values, joint=self.columns, ending=FAILURE_ENDS)
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the analysis of the workspace in a few sentences."""
         reached = int((self.configurations > 0).sum())
         lines = [
             f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
             f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
         ]
-        ends = dict(zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
+        end_counts = dict(zip(FAILURE_ENDS, self.ends.sum(axis=0).tolist(), strict=True))
         if self.ends.sum():
-            told = ", ".join(f"{ends[name]} {name}" for name in ENDS[:3])
-            share = f" ({100 * self.undecided:.2f} %)" if self.simulated else ""
+            end_text = ", ".join(f"{end_counts[name]} {name}" for name in FAILURE_ENDS[:3])
+            fraction_text = f" ({100 * self.undecided:.2f} %)" if self.simulated else ""
             lines.append(
-                f"{self.simulated} failures simulated: {told}, {ends['undecided'] + ends['arriving']} undecided at the time "
-                f"limit{share}, of which {ends['arriving']} next to a solution that attracts, counted as converged"
+                f"{self.simulated} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
+                f"undecided at the time "
+                f"limit{fraction_text}, of which {end_counts['arriving']} next to a solution that attracts, counted "
+                f"as converged"
             )
         if self.method == "procedure":
             lines.append(
-                f"{ends['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked away from every sink, "
+                f"{end_counts['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked away from "
+                f"every sink, "
                 "which makes convergence very likely but does not prove it"
             )
         return lines
 
 
-@checked
-@says("simulating failures")
+@check_arguments
+@reports_progress("simulating failures")
 def workspace(
     law: Law,
     target: ArrayLike,
@@ -176,16 +186,16 @@ def workspace(
     configurations: int | None = None,
     points: int | None = None,
     method: Method | None = None,
-    cells: int = CELLS,
+    cells: int = PATH_CELLS,
     time_limit: float | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float = RUN_TOLERANCE,
     relative_to: RelativeTo = "inside",
     sinks: Mapping[int, Arcs] | None = None,
     seed: int = 0,
     store: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Workspace:
-    """From which starts a target is still reached when a joint locks on the way and the controller does not know it.
+    """Compute from which starts a target is still reached when a joint locks on the way and is not detected.
 
     From every start the arm moves to the target from configurations equally far apart along its self-motion, in joint
     space; the way is cut into ``cells`` of equal length of the end effector's path, looked at in their middle. A joint that
@@ -243,24 +253,28 @@ def workspace(
     path: the paper does not define it. Sampling and its intervals are ours.
     """
     if store is not None:
-        LAWS.label(law)  # says so where there is none
-    chosen = usual_method(law) if method is None else method
-    usual = LATTICE if usual_method(law) == "brute" else SAMPLE
-    each = usual[1] if configurations is None else configurations
-    failures = usual[2] if points is None else points
-    places = read_places(law.arm, law.task, usual[0] if starts is None else starts, np.random.default_rng(seed))
-    job = prepared(law, target, each, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed)
-    if not job.reached:
-        place = ", ".join(f"{x:g}" for x in job.pose[:3, 3])
+        LAW_REGISTRY.label(law)  # says so where there is none
+    chosen = choose_method(law) if method is None else method
+    defaults = LATTICE_DEFAULTS if choose_method(law) == "brute" else SAMPLE_DEFAULTS
+    configuration_count = defaults[1] if configurations is None else configurations
+    failures = defaults[2] if points is None else points
+    places = read_places(law.arm, law.task, defaults[0] if starts is None else starts, np.random.default_rng(seed))
+    job = prepare_analysis(
+        law, target, configuration_count, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed
+    )
+    if not job.is_reached:
+        position = ", ".join(f"{coordinate:g}" for coordinate in job.pose[:3, 3])
         raise InputError(
-            f"no configuration of '{law.arm.name}' was found at the target ({place}) m; choose one within its reach"
+            f"no configuration of '{law.arm.name}' was found at the target ({position}) m; choose one within its reach"
         )
-    return analysed(job, Beginnings(law, places, each, chosen, seed), store, progress)
+    return analyse_target(job, StartConfigurations(law, places, configuration_count, chosen, seed), store, progress)
 
 
-def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progress: Progress | None = None) -> Workspace:
-    """The analysis of one target, some starts at a time."""
-    places, count = begin.places, len(begin.places)
+def analyse_target(
+    job: TargetAnalysis, starts: StartConfigurations, store: str | Path | None = None, progress: Progress | None = None
+) -> Workspace:
+    """Analyse one target, some starts at a time."""
+    places, count = starts.places, len(starts.places)
     folder = None
     if store is not None:
         folder = Store.create(
@@ -268,23 +282,23 @@ def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progr
             job.plan(places),
             job.store_columns(),
             rows=count,
-            chunk=_CHUNK,
+            chunk=_CHUNK_STARTS,
             formerly=job.law.formerly(job.law.describe()),
         )
     chunks: list[dict[str, NDArray[Any]]] = []
-    for k, first in enumerate(range(0, count, _CHUNK)):
-        stop = min(first + _CHUNK, count)
-        if folder is not None and k in folder.done:
-            rows = folder.read(k, job.names)
+    for chunk, first in enumerate(range(0, count, _CHUNK_STARTS)):
+        stop = min(first + _CHUNK_STARTS, count)
+        if folder is not None and chunk in folder.committed_chunks:
+            results = folder.read_chunk(chunk, job.names)
         else:
-            rows = job.analyse(*begin.of(first, stop), stop - first)
+            results = job.analyse(*starts.find_block(first, stop), stop - first)
             if folder is not None:
-                with folder.writing():
-                    folder.write(k, rows)
-        chunks.append(rows)
+                with folder.lock_for_writing():
+                    folder.commit_chunk(chunk, results)
+        chunks.append(results)
         if progress is not None:
             progress(stop, count)
-    found = {name: np.concatenate([rows[name] for rows in chunks]) for name in job.names}
+    columns = {name: np.concatenate([results[name] for results in chunks]) for name in job.names}
     return Workspace(
         law=job.law,
         target=job.pose,
@@ -292,26 +306,26 @@ def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progr
         bounds=job.bounds,
         method=job.method,
         relative_to=job.relative_to,
-        configurations=found["configurations"],
-        lost=found["lost"],
-        reach=Measures(*(found[name] for name in REACH)),
-        finish=Measures(*(found[name] for name in FINISH)),
-        ends=found["ends"],
+        configurations=columns["configurations"],
+        lost=columns["lost"],
+        reach=Measures(*(columns[name] for name in REACH_NAMES)),
+        finish=Measures(*(columns[name] for name in FINISH_NAMES)),
+        ends=columns["ends"],
     )
 
 
 def mean_intervals(values: Array, confidence: float) -> Array:
-    """(C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
-    out = np.full((values.shape[1], 2), np.nan)
-    for k, column in enumerate(values.T):
+    """Return (C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
+    bounds = np.full((values.shape[1], 2), np.nan)
+    for index, column in enumerate(values.T):
         if not np.isnan(column).all():
-            one = Interval.of_fractions(np.clip(column[~np.isnan(column)] / 100, 0.0, 1.0), confidence)
-            out[k] = 100 * one.low, 100 * one.high
-    return out
+            interval = Interval.of_fractions(np.clip(column[~np.isnan(column)] / 100, 0.0, 1.0), confidence)
+            bounds[index] = 100 * interval.low, 100 * interval.high
+    return bounds
 
 
 def mean_over(values: Array, axis: int) -> Array:
-    """Mean along an axis of the values that are not NaN; NaN where there is none."""
-    known = ~np.isnan(values)
-    count = known.sum(axis=axis)
-    return np.where(count > 0, np.where(known, values, 0.0).sum(axis=axis) / np.maximum(count, 1), np.nan)
+    """Return the mean along an axis of the values that are not NaN; NaN where there is none."""
+    is_known = ~np.isnan(values)
+    count = is_known.sum(axis=axis)
+    return np.where(count > 0, np.where(is_known, values, 0.0).sum(axis=axis) / np.maximum(count, 1), np.nan)

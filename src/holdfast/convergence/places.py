@@ -1,4 +1,4 @@
-"""Places of the tool from which, or to which, an arm moves: lattices, lists and random ones; and configurations there."""
+"""Tool positions from which, or to which, an arm moves: lattices, lists, and random ones; and configurations there."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
 from holdfast.grammar import is_count
 from holdfast.solvers import joint_space
-from holdfast.solvers.curve_tracing import TOLERANCE, Component
+from holdfast.solvers.curve_tracing import CURVE_TOLERANCE, Component
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.solvers.self_motions import fibres
 
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-LATTICE = 52  # points along an edge: 2032 inside the circle
-_SPACING, _SEEDS = 0.1, 48  # of traced self-motions, rad, and starts of inverse kinematics for each place
-_TRIES = 8  # random starts of inverse kinematics for each configuration that is wanted
+LATTICE_POINTS = 52  # points along an edge: 2032 inside the circle
+_CURVE_SPACING_RAD, _SEED_STARTS = 0.1, 48  # of traced self-motions, rad, and starts of inverse kinematics for each place
+_TRIES_PER_CONFIGURATION = 8  # random starts of inverse kinematics for each configuration that is wanted
 
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places of the tool.
+    """Poses of the tool from which, or to which, an arm moves.
 
     Attributes:
         poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
@@ -55,20 +55,22 @@ class Places:
         return self.poses[:, :3, 3]
 
     def dataset(self, values: Mapping[str, Any], **names: Sequence[str]) -> xr.Dataset:
-        """Values over the dimension ``place``, with the tool points as its coordinates x, y and z, m, and names of others."""
+        """Return values over the dimension ``place``, with the tool points as coordinates x, y, and z, m, and names
+        of others.
+        """
         import xarray as xr
 
-        points = {axis: ("place", v, {"units": "m"}) for axis, v in zip("xyz", self.points.T, strict=True)}
+        points = {axis: ("place", values_m, {"units": "m"}) for axis, values_m in zip("xyz", self.points.T, strict=True)}
         return xr.Dataset(values, {**points, **{name: list(labels) for name, labels in names.items()}})
 
 
-def in_a_plane(task: Task) -> bool:
-    """The task is the position in a plane: places may be a lattice."""
+def is_planar_position(task: Task) -> bool:
+    """Return True if the task is the position in a plane, for which places may be a lattice."""
     return task.m == 2 and not task.angular and task.frame == "base"
 
 
-def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
-    """A square lattice over the disc that a planar arm could reach if it had no limits, ``count`` points along its edge.
+def make_lattice(arm: Arm, task: Task, count: int = LATTICE_POINTS) -> Places:
+    """Return a square lattice over the disc that a planar arm could reach without limits, ``count`` points along its edge.
 
     With 52 points along the edge of the square about the circle there are exactly 2032 inside it, as in the paper.
 
@@ -76,32 +78,32 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
         TaskError: The task is not the position in a plane.
         InputError: Fewer than 2 points.
     """
-    if not in_a_plane(task):
+    if not is_planar_position(task):
         raise TaskError(f"task '{task.name}' is not the position in a plane, so there is no lattice; give places or a number")
     if count < 2:
         raise InputError(f"a lattice cannot have {count} points along its edge; give 2 or more")
-    reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
-    middle = arm.frames_at_zero[0, :3, 3]
-    line = np.linspace(-reach, reach, count)
-    row, column = (x.ravel() for x in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
-    inside = np.hypot(line[column], line[row]) <= reach * (1 + 1e-12)
+    reach = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
+    center = arm.frames_at_zero[0, :3, 3]
+    coordinates = np.linspace(-reach, reach, count)
+    row, column = (grid.ravel() for grid in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
+    inside = np.hypot(coordinates[column], coordinates[row]) <= reach * (1 + 1e-12)
     row, column = row[inside], column[inside]
     rows = task.rows[:, :3]
-    points = middle + np.stack([line[column], line[row]], axis=1) @ rows
-    first, second = (line + float(middle @ r) for r in rows)
-    return Places(_at(points), np.stack([column, row], axis=1), (first, second))
+    points = center + np.stack([coordinates[column], coordinates[row]], axis=1) @ rows
+    x_axis, y_axis = (coordinates + float(center @ component) for component in rows)
+    return Places(_make_poses(points), np.stack([column, row], axis=1), (x_axis, y_axis))
 
 
-def random_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
-    """Where the tool is at ``count`` random configurations, uniform within the joint limits."""
+def sample_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
+    """Sample the tool poses at ``count`` random configurations, uniform within the joint limits."""
     from holdfast.arm.configurations import finite_limits
 
-    low, high = finite_limits(arm)
-    return Places(arm.forward_kinematics(generator.uniform(low, high, (count, arm.n))))
+    lower, upper = finite_limits(arm)
+    return Places(arm.forward_kinematics(generator.uniform(lower, upper, (count, arm.n))))
 
 
 def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, generator: np.random.Generator) -> Places:
-    """Places as people give them: ``"grid:52"``, a number of random ones, (P, m) positions or (P, 4, 4) poses.
+    """Read places in any accepted form: ``"grid:52"``, a number of random ones, (P, m) positions, or (P, 4, 4) poses.
 
     Raises:
         InputError: None of these.
@@ -113,28 +115,28 @@ def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, gen
         kind, _, count = given.partition(":")
         if kind != "grid" or not is_count(count or "0"):
             raise InputError(f"places '{given}' are not known; give grid, grid:52, a number, or an array of positions or poses")
-        return lattice(arm, task, int(count or LATTICE))
+        return make_lattice(arm, task, int(count or LATTICE_POINTS))
     if isinstance(given, (int, np.integer)):
         if given < 1:
             raise InputError(f"there cannot be {given} places; give 1 or more")
-        return random_places(arm, int(given), generator)
+        return sample_places(arm, int(given), generator)
     values = np.asarray(given, dtype=np.float64)
     if values.ndim in (2, 3) and values.shape[-2:] == (4, 4):
         poses = check_poses(values)
     elif task.angular or task.frame != "base" or values.ndim not in (1, 2) or values.shape[-1] != task.m:
-        wanted = "(P, 4, 4)" if task.angular or task.frame != "base" else f"(P, {task.m}) or (P, 4, 4)"
-        raise InputError(f"places have shape {values.shape}; task '{task.name}' takes {wanted}")
+        required_shape = "(P, 4, 4)" if task.angular or task.frame != "base" else f"(P, {task.m}) or (P, 4, 4)"
+        raise InputError(f"places have shape {values.shape}; task '{task.name}' takes {required_shape}")
     else:
-        poses = _at(np.atleast_2d(values) @ task.rows[:, :3])
+        poses = _make_poses(np.atleast_2d(values) @ task.rows[:, :3])
     if not len(poses):
         raise InputError("there are no places; give 1 or more")
     if not np.isfinite(poses).all():
-        k = int(np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))[0])
-        raise InputError(f"place {k} holds NaN or infinity; give finite numbers")
+        index = int(np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))[0])
+        raise InputError(f"place {index} holds NaN or infinity; give finite numbers")
     return Places(poses)
 
 
-def _at(points: Array) -> Array:
+def _make_poses(points: Array) -> Array:
     poses = np.tile(np.eye(4), (len(points), 1, 1))
     poses[:, :3, 3] = points
     return poses
@@ -144,7 +146,7 @@ def _at(points: Array) -> Array:
 
 
 def configurations_at(arm: Arm, task: Task, places: Array, *, count: int, seed: int) -> tuple[Index, Array]:
-    """Configurations of places (P, 4, 4): which place each belongs to (R,), and they (R, n), in order of places.
+    """Return configurations of places (P, 4, 4): the place of each (R,), and the configurations (R, n), in order of places.
 
     With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
     joint space; else up to ``count`` random ones of each place. Places out of reach have none.
@@ -160,55 +162,63 @@ def configurations_at(arm: Arm, task: Task, places: Array, *, count: int, seed: 
     """
     arm = arm.without_idle_limits
     if arm.n - task.m == 1:
-        owner, guess = on_curves(arm, fibres(arm, places, task, spacing=_SPACING, seed=seed, starts=_SEEDS), count)
-        q, ok = solver(arm, task).attempt(guess, places[owner], TOLERANCE)
-        return owner[ok], q[ok]
-    engine = solver(arm, task)
+        owner, guess = sample_curves(
+            arm, fibres(arm, places, task, spacing=_CURVE_SPACING_RAD, seed=seed, starts=_SEED_STARTS), count
+        )
+        q, is_solved = solver(arm, task).attempt(guess, places[owner], CURVE_TOLERANCE)
+        return owner[is_solved], q[is_solved]
+    ik_solver = solver(arm, task)
     generator = np.random.default_rng(seed)
-    draws = engine.starts(len(places) * count * _TRIES, generator).reshape(len(places), count * _TRIES, arm.n)
-    owner, found = np.empty(0, dtype=np.intp), np.empty((0, arm.n))
-    used, missing = 0, np.full(len(places), count)
-    while used < count * _TRIES and missing.any():
-        left = np.flatnonzero(missing)
-        wave = min(count, count * _TRIES - used)
-        rows = np.repeat(left, wave)
-        q, ok = engine.attempt(draws[left, used : used + wave].reshape(-1, arm.n), places[rows], TOLERANCE)
-        ok &= np.cumsum(ok.reshape(-1, wave), axis=1).ravel() <= missing[rows]
-        owner, found = np.concatenate([owner, rows[ok]]), np.concatenate([found, q[ok]])
-        missing -= np.bincount(rows[ok], minlength=len(places))
-        used += wave
+    random_starts = ik_solver.sample_starts(len(places) * count * _TRIES_PER_CONFIGURATION, generator).reshape(
+        len(places), count * _TRIES_PER_CONFIGURATION, arm.n
+    )
+    owner, solutions = np.empty(0, dtype=np.intp), np.empty((0, arm.n))
+    used_starts, missing = 0, np.full(len(places), count)
+    while used_starts < count * _TRIES_PER_CONFIGURATION and missing.any():
+        open_places = np.flatnonzero(missing)
+        wave_size = min(count, count * _TRIES_PER_CONFIGURATION - used_starts)
+        place_rows = np.repeat(open_places, wave_size)
+        q, is_solved = ik_solver.attempt(
+            random_starts[open_places, used_starts : used_starts + wave_size].reshape(-1, arm.n),
+            places[place_rows],
+            CURVE_TOLERANCE,
+        )
+        is_solved &= np.cumsum(is_solved.reshape(-1, wave_size), axis=1).ravel() <= missing[place_rows]
+        owner, solutions = np.concatenate([owner, place_rows[is_solved]]), np.concatenate([solutions, q[is_solved]])
+        missing -= np.bincount(place_rows[is_solved], minlength=len(places))
+        used_starts += wave_size
     order = np.argsort(owner, kind="stable")
-    return owner[order], joint_space.wrapped(arm, found[order])
+    return owner[order], joint_space.wrap_joints(arm, solutions[order])
 
 
-def on_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, Array]:
-    """Points at ``count`` equal parts of each curve, in the middle of the part: of which motion (R,), and they (R, n)."""
-    owner = [i for i, m in enumerate(motions) for _ in m.components]
-    points = [_evenly(arm, c, count) for m in motions for c in m.components]
+def sample_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, Array]:
+    """Return points at the middle of ``count`` equal parts of each curve: the motion of each (R,), and the points (R, n)."""
+    owner = [number for number, motion in enumerate(motions) for _ in motion.components]
+    points = [_space_evenly(arm, component, count) for motion in motions for component in motion.components]
     return np.repeat(np.array(owner, dtype=np.intp), count), np.concatenate([np.empty((0, arm.n)), *points])
 
 
-def _evenly(arm: Arm, curve: Component, count: int) -> Array:
+def _space_evenly(arm: Arm, curve: Component, count: int) -> Array:
     q = curve.q
     if curve.closed:
-        q = np.concatenate([q, q[-1:] + joint_space.difference(arm, q[:1], q[-1:])])
-    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
-    at = (np.arange(count) + 0.5) / count * way[-1]
-    return np.stack([np.interp(at, way, column) for column in q.T], axis=1)
+        q = np.concatenate([q, q[-1:] + joint_space.joint_difference(arm, q[:1], q[-1:])])
+    path_lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
+    sample_lengths = (np.arange(count) + 0.5) / count * path_lengths[-1]
+    return np.stack([np.interp(sample_lengths, path_lengths, column) for column in q.T], axis=1)
 
 
-def picked_at(
+def pick_configurations(
     arm: Arm, task: Task, places: Array, count: int, seed: int, generator: np.random.Generator
 ) -> tuple[Index, Index, Array]:
-    """At most ``count`` configurations of each of the places (P, 4, 4), picked at random from :func:`configurations_at`.
+    """Pick at random at most ``count`` configurations of each of the places (P, 4, 4) from :func:`configurations_at`.
 
     Returns:
         Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
     """
-    owner, found = configurations_at(arm, task, places, count=count, seed=seed)
+    owner, configurations = configurations_at(arm, task, places, count=count, seed=seed)
     # Of several curves some points of each: a random choice of all.
     order = np.lexsort([generator.random(len(owner)), owner])
-    owner, found = owner[order], found[order]
+    owner, configurations = owner[order], configurations[order]
     rank = np.arange(len(owner)) - np.searchsorted(owner, owner)
-    kept = rank < count
-    return owner[kept], rank[kept], found[kept]
+    is_picked = rank < count
+    return owner[is_picked], rank[is_picked], configurations[is_picked]

@@ -1,4 +1,4 @@
-"""Random point-to-point motions: where the end effector starts, and where it is sent."""
+"""Random point-to-point motions: start configurations and target poses of the end effector."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
@@ -18,9 +18,9 @@ from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
 
-_BLOCK = 256  # motions drawn at a time: the first ones of a seed do not depend on how many are asked for
-_PATIENCE = 400  # blocks without enough motions before giving up
-TOLERANCE = 1e-6  # m and rad, of the inverse kinematics that say whether a target is still reached
+_BLOCK_MOTIONS = 256  # motions drawn at a time: the first ones of a seed do not depend on how many are asked for
+_MAX_BLOCKS = 400  # blocks without enough motions before giving up
+REACH_TOLERANCE = 1e-6  # m and rad, of the inverse kinematics that say whether a target is still reached
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +33,7 @@ class PointToPoint:
         target: (N, 4, 4) tool poses in the world, each that of ``q_target``.
         q_target: (N, n) a configuration at the target, within the limits, rad and m.
         drawn: How many motions were drawn to find these.
-        wish: What was asked of them, a phrase for people.
+        constraints: What was asked of them, a phrase for people.
     """
 
     arm: Arm
@@ -42,23 +42,23 @@ class PointToPoint:
     _: KW_ONLY
     q_target: Array
     drawn: int
-    wish: str
+    constraints: str
 
     def __len__(self) -> int:
         return len(self.q0)
 
     @property
     def distance(self) -> Array:
-        """(N,) from the tool at the start to the tool at the target, m."""
-        start = self.arm.forward_kinematics(self.q0)[:, :3, 3]
-        return np.asarray(np.linalg.norm(self.target[:, :3, 3] - start, axis=1))
+        """(N,) distances from the tool at the start to the tool at the target, m."""
+        start_points = self.arm.forward_kinematics(self.q0)[:, :3, 3]
+        return np.asarray(np.linalg.norm(self.target[:, :3, 3] - start_points, axis=1))
 
     def describe(self) -> str:
         """One phrase for people."""
-        return f"{len(self)} motions of {self.arm.title}, {self.wish}; {self.drawn} were drawn"
+        return f"{len(self)} motions of {self.arm.title}, {self.constraints}; {self.drawn} were drawn"
 
 
-@checked
+@check_arguments
 def point_to_point(
     arm: Arm,
     count: int,
@@ -69,7 +69,7 @@ def point_to_point(
     task: str | Task | Sequence[str] = "pose",
     restarts: int = 30,
 ) -> PointToPoint:
-    """Random motions: start and target are configurations drawn uniformly within the limits, the target as the tool's pose.
+    """Sample random motions: start and target are uniform configurations within the limits, the target as the tool's pose.
 
     Where a joint has no limits it is drawn from one turn, or 1 m to either side.
 
@@ -97,43 +97,49 @@ def point_to_point(
         raise InputError(f"distance is {nearest:g} to {farthest:g} m; the first must be 0 or more and below the second")
     joints = single_joints(arm, failures)
     chosen = as_task(arm, task)
-    wishes = [] if distance is None else [f"{nearest:g} to {farthest:g} m long"]
+    constraints = [] if distance is None else [f"{nearest:g} to {farthest:g} m long"]
     if joints:
-        names = "any one joint" if len(joints) == arm.n else " or ".join(arm.joint_names[k] for k in joints)
-        wishes.append(f"target still within reach (task {chosen.name}) with {names} locked at the start")
-    wish = ", ".join(wishes) or "drawn within the limits"
-    low, high = finite_limits(arm)
+        joint_text = "any one joint" if len(joints) == arm.n else " or ".join(arm.joint_names[joint] for joint in joints)
+        constraints.append(f"target still within reach (task {chosen.name}) with {joint_text} locked at the start")
+    constraint_text = ", ".join(constraints) or "drawn within the limits"
+    lower, upper = finite_limits(arm)
     seeds = np.random.SeedSequence(seed)
-    kept: list[PointToPoint] = []
-    found = drawn = 0
-    while found < count:
-        if len(kept) == _PATIENCE:
+    blocks: list[PointToPoint] = []
+    found_count = sampled_count = 0
+    while found_count < count:
+        if len(blocks) == _MAX_BLOCKS:
             raise InputError(
-                f"only {found} of {drawn} motions of '{arm.name}' are as asked for ({wish}), too few for {count}; ask for "
+                f"only {found_count} of {sampled_count} motions of '{arm.name}' are as asked for ({constraint_text}), too "
+                f"few for {count}; ask for "
                 "fewer motions, or for less of each"
             )
-        own, solving = seeds.spawn(2)
-        q0, q1 = np.random.default_rng(own).uniform(low, high, (2, _BLOCK, arm.n))
-        block = PointToPoint(arm, q0, arm.forward_kinematics(q1), q_target=q1, drawn=_BLOCK, wish=wish)
-        block = _rows(block, (block.distance >= nearest) & (block.distance <= farthest))
-        for k in joints:
-            block = _rows(block, _still_reached(block, chosen, k, solving, restarts))
-        kept.append(block)
-        found += len(block)
-        drawn += _BLOCK
-    q0, target, q_target = (np.concatenate([getattr(b, x) for b in kept])[:count] for x in ("q0", "target", "q_target"))
-    return PointToPoint(arm, q0, target, q_target=q_target, drawn=drawn, wish=wish)
+        block_seed, solving = seeds.spawn(2)
+        q0, q1 = np.random.default_rng(block_seed).uniform(lower, upper, (2, _BLOCK_MOTIONS, arm.n))
+        block = PointToPoint(
+            arm, q0, arm.forward_kinematics(q1), q_target=q1, drawn=_BLOCK_MOTIONS, constraints=constraint_text
+        )
+        block = _select_motions(block, (block.distance >= nearest) & (block.distance <= farthest))
+        for joint in joints:
+            block = _select_motions(block, _is_still_reachable(block, chosen, joint, solving, restarts))
+        blocks.append(block)
+        found_count += len(block)
+        sampled_count += _BLOCK_MOTIONS
+    q0, target, q_target = (
+        np.concatenate([getattr(motions, field_name) for motions in blocks])[:count]
+        for field_name in ("q0", "target", "q_target")
+    )
+    return PointToPoint(arm, q0, target, q_target=q_target, drawn=sampled_count, constraints=constraint_text)
 
 
-def _still_reached(
+def _is_still_reachable(
     motions: PointToPoint, task: Task, joint: int, seed: np.random.SeedSequence, restarts: int
 ) -> NDArray[np.bool_]:
     if not len(motions):
         return np.zeros(0, dtype=bool)
     locked = np.full(len(motions), joint)
-    engine = solver(motions.arm, task)
-    return engine.reaches_locked(motions.target, locked, motions.q0[:, joint], seed, restarts, TOLERANCE)
+    ik_solver = solver(motions.arm, task)
+    return ik_solver.reaches_locked(motions.target, locked, motions.q0[:, joint], seed, restarts, REACH_TOLERANCE)
 
 
-def _rows(motions: PointToPoint, keep: NDArray[np.bool_]) -> PointToPoint:
-    return replace(motions, q0=motions.q0[keep], target=motions.target[keep], q_target=motions.q_target[keep])
+def _select_motions(motions: PointToPoint, selection: NDArray[np.bool_]) -> PointToPoint:
+    return replace(motions, q0=motions.q0[selection], target=motions.target[selection], q_target=motions.q_target[selection])

@@ -1,4 +1,4 @@
-"""Several control laws on the same motions: the runs that a comparison is made of."""
+"""Runs of several control laws on the same motions, which a comparison consists of."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.poses import check_poses
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
-from holdfast.convergence.detours import healthy_cost
-from holdfast.convergence.law_comparison import HEALTHY, LawComparison, at_rest
+from holdfast.convergence.detours import measure_healthy_cost
+from holdfast.convergence.law_comparison import HEALTHY_CASE, LawComparison, rest_error
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec, single_joints
-from holdfast.notice import working
-from holdfast.simulation.closed_loop import RADIUS, TOLERANCE, simulate
-from holdfast.simulation.runs import Outcome, Runs
-from holdfast.simulation.system import prescribed_way
+from holdfast.notice import report_work
+from holdfast.simulation.closed_loop import DEFAULT_TOLERANCE, TARGET_RADIUS_M, simulate
+from holdfast.simulation.runs import RunOutcome, Runs
+from holdfast.simulation.system import prescribed_offset
 
 Array = NDArray[np.float64]
 
 
-@checked
+@check_arguments
 def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,
@@ -36,15 +36,15 @@ def compare_laws(
     failures: FailureSpec | None = "single",
     cycles: bool = False,
     time_limit: float | None = None,
-    tolerance: float = TOLERANCE,
-    radius: float = RADIUS,
+    tolerance: float = DEFAULT_TOLERANCE,
+    radius: float = TARGET_RADIUS_M,
     restarts: int = 24,
     seed: int = 0,
     about: str = "",
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
 ) -> LawComparison:
-    """Run control laws over the same motions: with nothing failed, and with each joint locked from the start.
+    """Simulate the same motions under several control laws, without a failure and with each joint locked from the start.
 
     Nobody tells the laws: see :func:`holdfast.simulation.simulate`, which this is one call of for each law.
 
@@ -70,96 +70,98 @@ def compare_laws(
         InputError: Wrong shapes or options; laws of different arms or tasks.
         TaskError: Failures that are not of one joint each.
     """
-    named = dict(laws) if isinstance(laws, Mapping) else _by_label(laws)
-    every = tuple(named.values())
-    if not every:
+    law_by_name = dict(laws) if isinstance(laws, Mapping) else _index_by_label(laws)
+    all_laws = tuple(law_by_name.values())
+    if not all_laws:
         raise InputError("there is no law to compare; give one or more, for example hf.control.pseudoinverse(arm)")
-    arm, task = every[0].arm, every[0].task
-    for name, law in named.items():
+    arm, task = all_laws[0].arm, all_laws[0].task
+    for name, law in law_by_name.items():
         if law.arm is not arm or not law.task.same_rows(task):
-            raise InputError(f"law '{name}' is of another arm or task than '{next(iter(named))}'; make both of the same")
+            raise InputError(f"law '{name}' is of another arm or task than '{next(iter(law_by_name))}'; make both of the same")
     joints = single_joints(arm, failures)
-    start, _ = as_configurations(arm, q0)
-    goal = real_numbers(target, "target")
-    if not goal.ndim:
+    starts, _ = as_configurations(arm, q0)
+    targets = require_real_numbers(target, "target")
+    if not targets.ndim:
         raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")
-    single = 2 if goal.shape[-2:] == (4, 4) else 1
-    goal = goal[None] if goal.ndim == single else goal
-    count = max(len(start), len(goal)) if min(len(start), len(goal)) else 0
-    if not count or {len(start), len(goal)} - {1, count}:
-        raise InputError(f"q0 has {len(start)} rows and target {len(goal)}; give the same number of each, or one for all")
-    start = np.broadcast_to(start, (count, arm.n))
-    goal = np.broadcast_to(goal, (count, *goal.shape[1:]))
-    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
-    stood = np.repeat(np.array([-1, *joints]), count)
-    many = len(joints) + 1
+    single = 2 if targets.shape[-2:] == (4, 4) else 1
+    targets = targets[None] if targets.ndim == single else targets
+    count = max(len(starts), len(targets)) if min(len(starts), len(targets)) else 0
+    if not count or {len(starts), len(targets)} - {1, count}:
+        raise InputError(f"q0 has {len(starts)} rows and target {len(targets)}; give the same number of each, or one for all")
+    starts = np.broadcast_to(starts, (count, arm.n))
+    targets = np.broadcast_to(targets, (count, *targets.shape[1:]))
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    locked_joints = np.repeat(np.array([-1, *joints]), count)
+    case_count = len(joints) + 1
     runs, costs = [], []
-    with working("comparing control laws") as advance:
-        for k, law in enumerate(every):
-            every_start, every_goal = np.tile(start, (many, 1)), np.tile(goal, (many, *[1] * single))
+    with report_work("comparing control laws") as report_progress:
+        for number, law in enumerate(all_laws):
+            every_start, every_goal = np.tile(starts, (case_count, 1)), np.tile(targets, (case_count, *[1] * single))
             runs.append(
                 simulate(
                     law,
                     every_start,
                     every_goal,
-                    locked=stood,
+                    locked=locked_joints,
                     cycles=cycles,
                     time_limit=time_limit,
                     tolerance=tolerance,
                     radius=radius,
-                    clearance=looked,
+                    clearance=checked_clearance,
                 )
             )
-            poses = _poses(law, goal)
-            costs.append(healthy_cost(law, start, poses, cycles, radius))
-            advance(k + 1, len(every) + 1)
-        least = _least(runs, radius if cycles else at_rest(every[0]), restarts, seed).reshape(many, count)
-    names = (HEALTHY, *[arm.joint_names[k] for k in joints])
-    way = prescribed_way(every[0], arm.forward_kinematics(start), poses)
+            poses = _to_poses(law, targets)
+            costs.append(measure_healthy_cost(law, starts, poses, cycles, radius))
+            report_progress(number + 1, len(all_laws) + 1)
+        least_errors = _find_least_errors(runs, radius if cycles else rest_error(all_laws[0]), restarts, seed).reshape(
+            case_count, count
+        )
+    failure_names = (HEALTHY_CASE, *[arm.joint_names[number] for number in joints])
+    offsets = prescribed_offset(all_laws[0], arm.forward_kinematics(starts), poses)
     return LawComparison(
-        laws=every,
-        names=tuple(named),
-        failures=names,
+        laws=all_laws,
+        names=tuple(law_by_name),
+        failures=failure_names,
         runs=tuple(runs),
-        least_error=least,
-        way=np.linalg.norm(way, axis=1),
+        least_error=least_errors,
+        way=np.linalg.norm(offsets, axis=1),
         healthy=tuple(costs),
         about=about,
     )
 
 
-def _by_label(laws: Sequence[Law]) -> dict[str, Law]:
-    found: dict[str, Law] = {}
+def _index_by_label(laws: Sequence[Law]) -> dict[str, Law]:
+    law_by_label: dict[str, Law] = {}
     for law in laws:
-        if law.label in found:
+        if law.label in law_by_label:
             raise InputError(f"two laws are called '{law.label}'; give a dictionary with names of your own")
-        found[law.label] = law
-    return found
+        law_by_label[law.label] = law
+    return law_by_label
 
 
-def _poses(law: Law, goal: Array) -> Array:
-    """Targets as tool poses (N, 4, 4): of those given as the task's rows the turn does not matter."""
-    if goal.shape[-2:] == (4, 4):
-        return check_poses(goal)
-    poses = np.tile(np.eye(4), (len(goal), 1, 1))
-    poses[:, :3, 3] = goal @ law.task.rows[:, :3]
+def _to_poses(law: Law, targets: Array) -> Array:
+    """Return targets as tool poses (N, 4, 4); the orientation of targets given as task components does not matter."""
+    if targets.shape[-2:] == (4, 4):
+        return check_poses(targets)
+    poses = np.tile(np.eye(4), (len(targets), 1, 1))
+    poses[:, :3, 3] = targets @ law.task.rows[:, :3]
     return poses
 
 
-def _least(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> Array:
-    """(F N,) least errors: joints are locked where they started, so what one law's runs find is true for all of them."""
-    least = np.full(len(runs[0]), np.inf)
-    for r in runs:
-        least = np.fmin(least, np.where(r.code == Outcome.CONVERGED, r.error, np.inf))
-    for k, r in enumerate(runs):
-        rows = np.flatnonzero((least > accuracy) & np.isfinite(r.q_final).all(axis=1))
-        if rows.size:
+def _find_least_errors(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> Array:
+    """Return (F N,) least errors over all laws, which share them because joints are locked where they started."""
+    least_errors = np.full(len(runs[0]), np.inf)
+    for law_runs in runs:
+        least_errors = np.fmin(least_errors, np.where(law_runs.code == RunOutcome.CONVERGED, law_runs.error, np.inf))
+    for number, law_runs in enumerate(runs):
+        open_rows = np.flatnonzero((least_errors > accuracy) & np.isfinite(law_runs.q_final).all(axis=1))
+        if open_rows.size:
             # From the ends of every law, but from random configurations once.
-            found = _some(r, rows).least_error(restarts if k == 0 else 0, seed)
-            least[rows] = np.fmin(least[rows], found)
-    return np.where(np.isfinite(least), least, np.nan)
+            errors = _select_runs(law_runs, open_rows).least_error(restarts if number == 0 else 0, seed)
+            least_errors[open_rows] = np.fmin(least_errors[open_rows], errors)
+    return np.where(np.isfinite(least_errors), least_errors, np.nan)
 
 
-def _some(runs: Runs, rows: NDArray[np.int64]) -> Runs:
+def _select_runs(runs: Runs, rows: NDArray[np.int64]) -> Runs:
     arrays: dict[str, Any] = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
     return replace(runs, **arrays)

@@ -1,4 +1,4 @@
-"""Results over places as files: a table with a line for each place, and a summary."""
+"""Results over places as files: a table with one row for each place, and a summary."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.convergence.places import Places
-from holdfast.files.output import made, replaced, writing
+from holdfast.files.output import make_folder, open_replacement, replace_file
 
 
 def save_places(
@@ -28,12 +28,12 @@ def save_places(
     Raises:
         StoreError: The folder cannot be written.
     """
-    place = made(folder)
-    files = [place / f"{name}.csv", place / f"{name}.json"]
-    with writing(files[0]) as stream:
+    output_folder = make_folder(folder)
+    files = [output_folder / f"{name}.csv", output_folder / f"{name}.json"]
+    with open_replacement(files[0]) as stream:
         writer = csv.writer(stream)
         writer.writerow(["x_m", "y_m", "z_m", *columns])
         for row in np.column_stack([places.points, *values]):
-            writer.writerow(["" if np.isnan(x) else f"{x:.9g}" for x in row])
-    replaced(files[1], json.dumps(summary, indent=2) + "\n")
+            writer.writerow(["" if np.isnan(value) else f"{value:.9g}" for value in row])
+    replace_file(files[1], json.dumps(summary, indent=2) + "\n")
     return files

@@ -1,4 +1,4 @@
-"""The workspace measures over targets instead of starts: which targets does a lock put at risk, wherever the motion began?"""
+"""The workspace measures over targets instead of starts, which show the targets that a lock puts at risk from any start."""
 
 from __future__ import annotations
 
@@ -9,13 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.control.law import Law
-from holdfast.convergence.analysis import ENDS, ENDS_IN_WORDS, Beginnings, Method, prepared, usual_method
-from holdfast.convergence.measures import NAMES
-from holdfast.convergence.origins import analysed, mean_intervals, mean_over
+from holdfast.convergence.analysis import (
+    FAILURE_END_TEXTS,
+    FAILURE_ENDS,
+    Method,
+    StartConfigurations,
+    choose_method,
+    prepare_analysis,
+)
+from holdfast.convergence.measures import MEASURE_NAMES
+from holdfast.convergence.origins import analyse_target, mean_intervals, mean_over
 from holdfast.convergence.places import Places, read_places
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.probability.intervals import check_confidence
 from holdfast.result import Result
 
@@ -24,9 +31,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-LATTICE: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
-SAMPLE: tuple[str | int, int] = (50, 4)  # and where they are sampled
-STARTS, POINTS = 20, 2
+LATTICE_DEFAULTS: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
+SAMPLE_DEFAULTS: tuple[str | int, int] = (50, 4)  # and where they are sampled
+DEFAULT_STARTS, DEFAULT_POINTS = 20, 2
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -52,49 +59,56 @@ class TargetMeasures(Result):
 
     @property
     def measures(self) -> dict[str, Array]:
-        """Of each target the mean over the starts that have the measure, (T, n + 1) each, percent."""
-        return {name: mean_over(v, 1) for name, v in self.values.items()}
+        """Mean of each measure for each target over the starts that have it, (T, n + 1) each, percent."""
+        return {name: mean_over(columns, 1) for name, columns in self.values.items()}
 
     def means(self) -> dict[str, Array]:
-        """Mean of every measure over the targets that have it, (n + 1,) each, percent."""
-        return {name: mean_over(v, 0) for name, v in self.measures.items()}
+        """Return the mean of every measure over the targets that have it, (n + 1,) each, percent."""
+        return {name: mean_over(columns, 0) for name, columns in self.measures.items()}
 
     def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
-        """How sure :meth:`means` are for targets that are a random sample: (n + 1, 2) each, percent, for these very starts.
+        """Return the intervals of :meth:`means` for targets that are a random sample: (n + 1, 2) each, percent, for these very
+        starts.
 
         The unit is the target. NaN where no target has a value.
         """
         check_confidence(confidence)
-        return {name: mean_intervals(v, confidence) for name, v in self.measures.items()}
+        return {name: mean_intervals(columns, confidence) for name, columns in self.measures.items()}
 
     def target_intervals(self, confidence: float = 0.95) -> dict[str, Array]:
-        """How sure the ``measures`` of each target are for starts that are a random sample: (T, n + 1, 2) each, percent.
+        """Return intervals of the ``measures`` of each target for starts that are a random sample: (T, n + 1, 2) each, percent.
 
         The unit is the start, as in :meth:`holdfast.Workspace.intervals`.
         """
         check_confidence(confidence)
-        return {name: np.array([mean_intervals(v, confidence) for v in values]) for name, values in self.values.items()}
+        return {
+            name: np.array([mean_intervals(columns, confidence) for columns in values]) for name, values in self.values.items()
+        }
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        told = ", ".join(f"{count} {word}" for word, count in zip(ENDS_IN_WORDS, self.ends.sum(axis=0).tolist(), strict=True))
+        """Return the measures over the targets in a few sentences."""
+        end_text = ", ".join(
+            f"{count} {word}" for word, count in zip(FAILURE_END_TEXTS, self.ends.sum(axis=0).tolist(), strict=True)
+        )
         within = int(np.isfinite(self.measures["Ravg"][:, -1]).sum())
         return [
             f"{self.law.describe()} on {self.law.arm.title}: {within} of {len(self.targets)} targets within reach of motions "
             f"from {len(self.starts)} starts",
-            f"failures: {told}",
+            f"failures: {end_text}",
         ]
 
     def to_xarray(self) -> xr.Dataset:
-        """The measures, percent, by target, start and joint (the last is ``any``), and of each target its place."""
-        each = ("place", "start")
-        values: dict[str, Any] = {name: ((*each, "joint"), v, {"units": "percent"}) for name, v in self.values.items()}
-        values |= {"configurations": (each, self.configurations), "ends": (("place", "ending"), self.ends)}
-        return self.targets.dataset(values, joint=(*self.law.arm.joint_names, "any"), ending=ENDS)
+        """Return the measures, percent, by target, start, and joint (the last is ``any``), and the position of each target."""
+        dimensions = ("place", "start")
+        values: dict[str, Any] = {
+            name: ((*dimensions, "joint"), columns, {"units": "percent"}) for name, columns in self.values.items()
+        }
+        values |= {"configurations": (dimensions, self.configurations), "ends": (("place", "ending"), self.ends)}
+        return self.targets.dataset(values, joint=(*self.law.arm.joint_names, "any"), ending=FAILURE_ENDS)
 
 
-@checked
-@says("simulating failures")
+@check_arguments
+@reports_progress("simulating failures")
 def target_measures(
     law: Law,
     targets: ArrayLike | str | int | Places | None = None,
@@ -107,7 +121,7 @@ def target_measures(
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> TargetMeasures:
-    """The measures of :func:`holdfast.workspace` for many targets, over the same starts.
+    """Compute the measures of :func:`holdfast.workspace` for many targets, over the same starts.
 
     Args:
         law: The law of the controller, of a redundant arm.
@@ -129,26 +143,26 @@ def target_measures(
 
     Source: the measures are those of Goel, Maciejewski, Balakrishnan 2005, section 5; over targets they are ours.
     """
-    chosen = usual_method(law) if method is None else method
-    usual = LATTICE if usual_method(law) == "brute" else SAMPLE
-    each = usual[1] if configurations is None else configurations
-    failures = POINTS if points is None else points
+    chosen = choose_method(law) if method is None else method
+    defaults = LATTICE_DEFAULTS if choose_method(law) == "brute" else SAMPLE_DEFAULTS
+    configuration_count = defaults[1] if configurations is None else configurations
+    failures = DEFAULT_POINTS if points is None else points
     generator = np.random.default_rng(seed)
-    goals = read_places(law.arm, law.task, usual[0] if targets is None else targets, generator)
-    places = read_places(law.arm, law.task, STARTS if starts is None else starts, generator)
-    begin = Beginnings(law, places, each, chosen, seed)
-    shape = len(goals), len(places)
-    values = {name: np.full((*shape, law.arm.n + 1), np.nan) for name in NAMES}
-    tried = np.zeros(shape, dtype=np.int64)
-    ends = np.zeros((len(goals), len(ENDS)), dtype=np.int64)
-    for k, pose in enumerate(goals.poses):
-        job = prepared(law, pose, each, failures, chosen, seed=seed, **options)
-        if job.reached:
-            one = analysed(job, begin)
-            for name, found in one.measures.items():
-                values[name][k] = found
-            tried[k] = one.configurations - one.lost
-            ends[k] = one.ends.sum(axis=0)
+    target_places = read_places(law.arm, law.task, defaults[0] if targets is None else targets, generator)
+    places = read_places(law.arm, law.task, DEFAULT_STARTS if starts is None else starts, generator)
+    start_configurations = StartConfigurations(law, places, configuration_count, chosen, seed)
+    shape = len(target_places), len(places)
+    values = {name: np.full((*shape, law.arm.n + 1), np.nan) for name in MEASURE_NAMES}
+    tried_counts = np.zeros(shape, dtype=np.int64)
+    ends = np.zeros((len(target_places), len(FAILURE_ENDS)), dtype=np.int64)
+    for index, pose in enumerate(target_places.poses):
+        job = prepare_analysis(law, pose, configuration_count, failures, chosen, seed=seed, **options)
+        if job.is_reached:
+            target_workspace = analyse_target(job, start_configurations)
+            for name, columns in target_workspace.measures.items():
+                values[name][index] = columns
+            tried_counts[index] = target_workspace.configurations - target_workspace.lost
+            ends[index] = target_workspace.ends.sum(axis=0)
         if progress is not None:
-            progress(k + 1, len(goals))
-    return TargetMeasures(law=law, targets=goals, starts=places, values=values, configurations=tried, ends=ends)
+            progress(index + 1, len(target_places))
+    return TargetMeasures(law=law, targets=target_places, starts=places, values=values, configurations=tried_counts, ends=ends)

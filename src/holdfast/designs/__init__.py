@@ -1,4 +1,4 @@
-"""Which arm to build: Jacobians and lengths searched for fault tolerance."""
+"""Search for fault-tolerant arms: Jacobians, link lengths, and other geometric parameters."""
 
 from holdfast._lazy import offer
 

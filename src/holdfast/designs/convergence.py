@@ -1,4 +1,4 @@
-"""Which arm to build so that it still reaches its targets when a joint locks and its controller does not know."""
+"""Search for the arm that most often reaches its targets after an unidentified lock."""
 
 from __future__ import annotations
 
@@ -11,36 +11,36 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arms.serial import to_dict
 from holdfast.control.law import Law
 from holdfast.convergence.places import read_places
-from holdfast.designs.failures import Convergences, Failures
+from holdfast.designs.failures import ConvergenceOutcomes, FailureTrials
 from holdfast.designs.joints import DesignJoints, LawOfDesigns
-from holdfast.designs.pattern import Box, improved
-from holdfast.designs.planar import PlanarRest, Radial
+from holdfast.designs.pattern import DesignBounds, search_patterns
+from holdfast.designs.planar import PlanarStationarySets, Radial
 from holdfast.designs.space import DesignSpace, Vary, design_space
-from holdfast.engine.memory import Memory, Parts
+from holdfast.engine.memory import Parts, SearchMemory
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.probability.intervals import Difference, Interval
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 Aim = Literal["guaranteed", "converged"]
 
-RINGS = 40
-TARGETS, FAILURES = 12, 2  # of a sampled search; each failure is one of every joint
-_CHUNK = 16  # designs that are looked at, and remembered, together
-_FRESH = 8  # times as many targets in the check of a sampled search
+RING_COUNT = 40
+DEFAULT_TARGETS, FAILURES_PER_JOINT = 12, 2  # of a sampled search; each failure is one of every joint
+_CHUNK_DESIGNS = 16  # designs that are looked at, and remembered, together
+_CHECK_TARGET_FACTOR = 8  # times as many targets in the check of a sampled search
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvergenceDesigns(Result):
-    """Designs of an arm by how often they converge after an unidentified lock; design 0 is the given arm.
+    """Designs of an arm by how often they converge after an unidentified lock; design 0 is the baseline arm.
 
     Attributes:
         law: The law, of the given arm.
@@ -69,15 +69,15 @@ class ConvergenceDesigns(Result):
     best: int
     checked: tuple[Interval, Interval, Difference] | None
     searched: dict[str, Any] = field(default_factory=dict)
-    _rest: PlanarRest | None = field(repr=False, default=None)
+    _rest: PlanarStationarySets | None = field(repr=False, default=None)
     _rings: Array | None = field(repr=False, default=None)
 
     def arm(self, design: int | None = None) -> Arm:
-        """The arm of a design, the best one if none is given, without inertial data."""
+        """Return the arm of a design, by default the best one, without inertial data."""
         return self.space.arm_of(self.values[self.best if design is None else design])
 
     def radial(self, design: int | None = None) -> Radial:
-        """Of a design, the best one if none is given: what locks leave of targets at every distance (exact only).
+        """Return the effect of locks on targets at every distance for a design, by default the best one (exact only).
 
         Raises:
             InputError: The search was by sampling.
@@ -85,35 +85,39 @@ class ConvergenceDesigns(Result):
         if self._rest is None or self._rings is None:
             raise InputError("only designs of planar arms with three joints are known by distance; these were sampled")
         chosen = self.values[[self.best if design is None else design]]
-        return self._rest.radial(_lengths(self._rest, self.space, chosen), self._rings)
+        return self._rest.radial(_make_link_lengths(self._rest, self.space, chosen), self._rings)
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        how = "from its stationary sets" if self.exact else "by simulation"
-        lines = [f"{self.law.arm.title} under {self.law.describe()}: {len(self.values)} designs, {how}"]
-        for word, k in (("given", 0), ("best", self.best)):
-            numbers = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.space.parameters, self.values[k], strict=True))
-            told = ", ".join(f"{name} {100 * m[k]:.1f} %" for name, m in self.measures.items())
-            lines.append(f"{word}: {numbers}: {told}")
+        """Return the result in a few sentences."""
+        method = "from its stationary sets" if self.exact else "by simulation"
+        lines = [f"{self.law.arm.title} under {self.law.describe()}: {len(self.values)} designs, {method}"]
+        for word, design in (("given", 0), ("best", self.best)):
+            numbers = ", ".join(
+                f"{parameter.name} {parameter.text(value)}"
+                for parameter, value in zip(self.space.parameters, self.values[design], strict=True)
+            )
+            measures_text = ", ".join(f"{name} {100 * values[design]:.1f} %" for name, values in self.measures.items())
+            lines.append(f"{word}: {numbers}: {measures_text}")
         if self.checked is not None:
-            given, best, apart = self.checked
+            baseline, best, difference = self.checked
             lines.append(
-                f"on fresh failures: given {100 * given.value:.1f} % ({100 * given.low:.1f} to {100 * given.high:.1f}), best "
+                f"on fresh failures: given {100 * baseline.value:.1f} % ({100 * baseline.low:.1f} to "
+                f"{100 * baseline.high:.1f}), best "
                 f"{100 * best.value:.1f} % ({100 * best.low:.1f} to {100 * best.high:.1f}), difference "
-                f"{100 * apart.value:+.1f} points ({100 * apart.low:+.1f} to {100 * apart.high:+.1f})"
+                f"{100 * difference.value:+.1f} points ({100 * difference.low:+.1f} to {100 * difference.high:+.1f})"
             )
         return lines
 
     def arm_file(self) -> str:
-        """The best arm as a file that every command takes."""
-        from holdfast.arms.dh_file import text
+        """Return the best arm as a file that every command reads."""
+        from holdfast.arms.dh_file import format_dh_file
 
         arm = self.arm()
-        return text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
+        return format_dh_file(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
 
 
-@checked
-@says("searching designs")
+@check_arguments
+@reports_progress("searching designs")
 def design_for_convergence(
     law: Law,
     vary: Vary,
@@ -121,15 +125,15 @@ def design_for_convergence(
     *,
     objective: Aim = "guaranteed",
     designs: int = 256,
-    climbs: int = 4,
+    local_searches: int = 4,
     keep_reach: bool = False,
     exact: bool | None = None,
-    failures: int = FAILURES,
+    failures: int = FAILURES_PER_JOINT,
     seed: int = 0,
     progress: Progress | None = None,
     store: str | Path | None = None,
 ) -> ConvergenceDesigns:
-    """Search for the arm that most surely reaches its targets with a joint locked that its controller does not know of.
+    """Search for the arm that most often reaches its targets after a lock that its controller has not identified.
 
     **Planar arms of three joints** (pseudoinverse, weighted by joint, damped): exact, up to a grid of 1.5 deg in one angle.
     Where the arm can stop away from the target is known for all targets at once, and so, for every distance of the
@@ -152,7 +156,7 @@ def design_for_convergence(
         objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
             ``converged``. ``converged``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``converged``.
         designs: Of the screening.
-        climbs: Of the best of them, so many are improved.
+        local_searches: Of the best of them, so many are improved.
         keep_reach: The varied link lengths keep their sum.
         exact: False: simulate where the exact sets are known, too.
         failures: Of each joint for each target (sampled).
@@ -169,85 +173,89 @@ def design_for_convergence(
     """
     if objective not in ("guaranteed", "converged"):
         raise InputError(f"objective '{objective}' is not known; use guaranteed or converged")
-    for what, number, least in (("designs", designs, 1), ("climbs", climbs, 0), ("failures", failures, 1)):
-        if number < least:
-            raise InputError(f"{what} is {number}; it must be {least} or more")
+    for option, number, minimum in (("designs", designs, 1), ("climbs", local_searches, 0), ("failures", failures, 1)):
+        if number < minimum:
+            raise InputError(f"{option} is {number}; it must be {minimum} or more")
     space = design_space(law.arm, vary)
-    box = Box.read(space, keep_reach)
-    rest = None
+    bounds = DesignBounds.from_space(space, keep_reach)
+    planar_rest = None
     if exact is not False:
         try:
-            rest = _planar(law, space)
+            planar_rest = _make_planar_rest(law, space)
         except InputError:
             if exact:
                 raise
-    if rest is not None:
+    if planar_rest is not None:
         if space.lower.min() <= 0:
             raise InputError("a link cannot have length 0 or less; give bounds above 0")
-        return _exact(rest, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
+        return _search_exactly(
+            planar_rest, bounds, _make_ring_radii(planar_rest, targets), objective, designs, local_searches, seed, progress
+        )
     if keep_reach:
         raise InputError("keep_reach belongs to the exact search for planar arms of three joints; leave it out")
-    return _sampled(law, box, targets, designs, climbs, failures, seed, progress, store)
+    return _search_by_sampling(law, bounds, targets, designs, local_searches, failures, seed, progress, store)
 
 
-def _planar(law: Law, space: DesignSpace) -> PlanarRest:
-    rest = PlanarRest(law)
-    other = [name for name in space.names if name not in ("a1", "a2", "a3")]
-    if other:
-        raise InputError(f"'{other[0]}' is not a link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
-    return rest
-
-
-def _rings(rest: PlanarRest, targets: ArrayLike | int | None) -> Array:
-    ends = np.asarray([0.0, rest.lengths.sum()] if targets is None else targets, dtype=np.float64)
-    if ends.shape != (2,) or not np.isfinite(ends).all() or not 0 <= ends[0] < ends[1]:
+def _make_planar_rest(law: Law, space: DesignSpace) -> PlanarStationarySets:
+    planar_rest = PlanarStationarySets(law)
+    other_names = [name for name in space.names if name not in ("a1", "a2", "a3")]
+    if other_names:
         raise InputError(
-            f"targets are {np.array2string(ends, precision=4)}; give the least and the greatest distance from the first "
+            f"'{other_names[0]}' is not a link length; exact sets are known for a1, a2 and a3, or sample: exact=False"
+        )
+    return planar_rest
+
+
+def _make_ring_radii(planar_rest: PlanarStationarySets, targets: ArrayLike | int | None) -> Array:
+    distances = np.asarray([0.0, planar_rest.lengths.sum()] if targets is None else targets, dtype=np.float64)
+    if distances.shape != (2,) or not np.isfinite(distances).all() or not 0 <= distances[0] < distances[1]:
+        raise InputError(
+            f"targets are {np.array2string(distances, precision=4)}; give the least and the greatest distance from the first "
             "joint, m"
         )
-    return np.asarray(np.linspace(float(ends[0]), float(ends[1]), RINGS + 1))
+    return np.asarray(np.linspace(float(distances[0]), float(distances[1]), RING_COUNT + 1))
 
 
-def _lengths(rest: PlanarRest, space: DesignSpace, values: Array) -> Array:
-    out = np.tile(rest.lengths, (len(values), 1))
-    out[:, [int(name[1:]) - 1 for name in space.names]] = values
-    return out
+def _make_link_lengths(planar_rest: PlanarStationarySets, space: DesignSpace, values: Array) -> Array:
+    lengths = np.tile(planar_rest.lengths, (len(values), 1))
+    lengths[:, [int(name[1:]) - 1 for name in space.names]] = values
+    return lengths
 
 
-def _exact(
-    rest: PlanarRest,
-    box: Box,
-    rings: Array,
+def _search_exactly(
+    planar_rest: PlanarStationarySets,
+    bounds: DesignBounds,
+    radii: Array,
     objective: Aim,
     designs: int,
-    climbs: int,
+    local_searches: int,
     seed: int,
     progress: Progress | None,
 ) -> ConvergenceDesigns:
-    def measured(values: Array) -> dict[str, Array]:
-        return planar_measures(rest.radial(_lengths(rest, box.space, values), rings))
+    def measure_designs(values: Array) -> dict[str, Array]:
+        return planar_measures(planar_rest.radial(_make_link_lengths(planar_rest, bounds.space, values), radii))
 
-    order = ("guaranteed", "free", "converged") if objective == "guaranteed" else ("converged",)
-    values, measures = improved(box, measured, order, designs, climbs, seed, progress)
-    best = _best(measures, order)
-    searched = {"designs": designs, "climbs": climbs, "seed": seed, "keep_reach": box.total is not None}
+    priorities = ("guaranteed", "free", "converged") if objective == "guaranteed" else ("converged",)
+    values, measures = search_patterns(bounds, measure_designs, priorities, designs, local_searches, seed, progress)
+    best = _choose_best(measures, priorities)
+    options = {"designs": designs, "climbs": local_searches, "seed": seed, "keep_reach": bounds.length_sum is not None}
     return ConvergenceDesigns(
-        law=rest.law,
-        space=box.space,
+        law=planar_rest.law,
+        space=bounds.space,
         values=values,
         measures=measures,
         objective=objective,
         exact=True,
         best=best,
         checked=None,
-        searched=searched,
-        _rest=rest,
-        _rings=rings,
+        searched=options,
+        _rest=planar_rest,
+        _rings=radii,
     )
 
 
 def planar_measures(radial: Radial) -> dict[str, Array]:
-    """The measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, over the area of the rings."""
+    """Return the measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, weighted by the areas of the rings."""
     area = radial.area
     in_reach, stuck = ((area * x).sum(axis=2) for x in (radial.in_reach, radial.stuck))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -260,90 +268,93 @@ def planar_measures(radial: Radial) -> dict[str, Array]:
     }
 
 
-def _best(measures: dict[str, Array], order: tuple[str, ...]) -> int:
+def _choose_best(measures: dict[str, Array], priorities: tuple[str, ...]) -> int:
     # Of measures that differ by less than 0.1 % the next one decides.
-    keys = [np.round(measures[name], 3) for name in order[:-1]] + [measures[order[-1]]]
-    return int(np.lexsort([-k for k in reversed(keys)])[0])
+    keys = [np.round(measures[name], 3) for name in priorities[:-1]] + [measures[priorities[-1]]]
+    return int(np.lexsort([-key for key in reversed(keys)])[0])
 
 
-def _sampled(
+def _search_by_sampling(
     law: Law,
-    box: Box,
+    bounds: DesignBounds,
     targets: ArrayLike | int | None,
     designs: int,
-    climbs: int,
+    local_searches: int,
     failures: int,
     seed: int,
     progress: Progress | None,
     store: str | Path | None,
 ) -> ConvergenceDesigns:
     if store is not None:
-        LAWS.label(law)  # says so where there is none
-    moved = LawOfDesigns(law, DesignJoints.of(box.space))
-    search, check = np.random.SeedSequence(seed).spawn(2)
-    given = TARGETS if targets is None else targets
-    places = read_places(law.arm, law.task, given, np.random.default_rng(search))
-    seen = Failures(moved, places.poses, failures, seed)
-    searched = {"designs": designs, "climbs": climbs, "seed": seed, "failures": failures, "targets": len(places)}
-    listed = None if isinstance(given, (int, np.integer)) else places.poses.tolist()
+        LAW_REGISTRY.label(law)  # says so where there is none
+    design_law = LawOfDesigns(law, DesignJoints.of(bounds.space))
+    search_seed, check_seed = np.random.SeedSequence(seed).spawn(2)
+    requested = DEFAULT_TARGETS if targets is None else targets
+    search_targets = read_places(law.arm, law.task, requested, np.random.default_rng(search_seed))
+    trials = FailureTrials(design_law, search_targets.poses, failures, seed)
+    options = {"designs": designs, "climbs": local_searches, "seed": seed, "failures": failures, "targets": len(search_targets)}
+    listed_poses = None if isinstance(requested, (int, np.integer)) else search_targets.poses.tolist()
     memory = None
     if store is not None:
         task = [law.task.rows.tolist(), law.task.frame, law.task.length]
-        formerly = law.formerly([law.label, law.describe()], task)
-        memory = Memory(store, _plan(law, box.space, {**searched, "places": listed}), formerly)
-    parts = count(1)
+        former_plans = law.formerly([law.label, law.describe()], task)
+        memory = SearchMemory(store, _make_search_plan(law, bounds.space, {**options, "places": listed_poses}), former_plans)
+    part_numbers = count(1)
 
-    def part(name: str, make: Callable[[], Parts]) -> Parts:
-        return make() if memory is None else memory.part(name, make)
+    def recall_part(name: str, make: Callable[[], Parts]) -> Parts:
+        return make() if memory is None else memory.recall_or_compute(name, make)
 
-    def looked(values: Array) -> Parts:
-        a = seen.of(values)
+    def evaluate_chunk(values: Array) -> Parts:
+        outcomes = trials.simulate_designs(values)
         with np.errstate(invalid="ignore"):
-            free = a.converged.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
-        return {"free": free, "arrival": a.overall, "reached": a.reached}
+            free_fraction = outcomes.converged.sum(axis=(1, 2, 3)) / (outcomes.known.sum(axis=(1, 2)) * law.arm.n)
+        return {"free": free_fraction, "arrival": outcomes.mean_fraction, "reached": outcomes.reached_fraction}
 
-    def measured(values: Array) -> dict[str, Array]:
+    def measure_designs(values: Array) -> dict[str, Array]:
         # What a design is worth does not depend on its company, so that a stopped search loses little.
-        chunks = [values[k : k + _CHUNK] for k in range(0, len(values), _CHUNK)]
-        found = [part(f"designs {next(parts)}", lambda c=c: looked(c)) for c in chunks]  # type: ignore[misc]
-        named = {"arrival": "converged"}  # stored under its former name
-        return {named.get(name, name): np.concatenate([f[name] for f in found]) for name in found[0]}
+        chunks = [values[start : start + _CHUNK_DESIGNS] for start in range(0, len(values), _CHUNK_DESIGNS)]
+        results = [recall_part(f"designs {next(part_numbers)}", lambda c=c: evaluate_chunk(c)) for c in chunks]  # type: ignore[misc]
+        current_names = {"arrival": "converged"}  # stored under its former name
+        return {current_names.get(name, name): np.concatenate([result[name] for result in results]) for name in results[0]}
 
-    values, measures = improved(box, measured, ("converged",), designs, climbs, seed, progress)
-    best = _best(measures, ("converged",))
+    values, measures = search_patterns(bounds, measure_designs, ("converged",), designs, local_searches, seed, progress)
+    best = _choose_best(measures, ("converged",))
     # What was chosen for doing well on some failures is judged by others; targets that were given stay what they are.
-    more = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
-    fresh = read_places(law.arm, law.task, more, np.random.default_rng(check))
-    judged = part("check", lambda: vars(Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])))
-    compared = _compared(Convergences(**judged))
+    check_targets = _CHECK_TARGET_FACTOR * len(search_targets) if isinstance(requested, (int, np.integer)) else requested
+    check_places = read_places(law.arm, law.task, check_targets, np.random.default_rng(check_seed))
+    check_data = recall_part(
+        "check",
+        lambda: vars(FailureTrials(design_law, check_places.poses, failures, seed + 1).simulate_designs(values[[0, best]])),
+    )
+    comparison = _compare_designs(ConvergenceOutcomes(**check_data))
     return ConvergenceDesigns(
         law=law,
-        space=box.space,
+        space=bounds.space,
         values=values,
         measures=measures,
         objective="converged",
         exact=False,
         best=best,
-        checked=compared,
-        searched=searched,
+        checked=comparison,
+        searched=options,
     )
 
 
-def _plan(law: Law, space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
-    """What defines a sampled search, as JSON data."""
+def _make_search_plan(law: Law, space: DesignSpace, options: dict[str, Any]) -> dict[str, Any]:
+    """Return everything that defines a sampled search, as JSON data."""
     return {
         "kind": "design for convergence",
         "arm": to_dict(law.arm),
         **law.stored(),
-        "vary": [p.written for p in space.parameters],
-        **searched,
+        "vary": [parameter.option_text for parameter in space.parameters],
+        **options,
     }
 
 
-def _compared(found: Convergences) -> tuple[Interval, Interval, Difference] | None:
-    """Of two designs: mean shares over the targets with their intervals, and of the difference."""
-    shares = np.nan_to_num(found.by_target)
-    if shares.shape[1] < 2:
+def _compare_designs(outcomes: ConvergenceOutcomes) -> tuple[Interval, Interval, Difference] | None:
+    """Return the mean fractions over the targets of two designs with their intervals, and the difference of the means."""
+    fractions = np.nan_to_num(outcomes.fraction_by_target)
+    if fractions.shape[1] < 2:
         return None
-    given, best = (Interval.of_fractions(x) for x in shares)
-    return given, best, Difference.of_fractions(shares[1] - shares[0])
+    baseline, best = (Interval.of_fractions(x) for x in fractions)
+    return baseline, best, Difference.of_fractions(fractions[1] - fractions[0])

@@ -1,4 +1,4 @@
-"""The result of a search of designs."""
+"""Result of a search of designs."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.designs.choice import SAME, farther
+from holdfast.designs.choice import SAME_VALUE_TOLERANCE, describe_farther_design
 from holdfast.designs.space import DesignSpace
 from holdfast.indices.index import Index
 from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
 from holdfast.result import Result
-from holdfast.words import article, counted, number
+from holdfast.words import format_count, format_number, indefinite_article
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Checked:
-    """The index of an arm on fresh poses: an estimate from a sample, not a proof.
+class HeldOutResult:
+    """Index of an arm on held-out poses: an estimate from a sample, not a proof.
 
     Attributes:
         distribution: Of the index at the best configuration of every pose; one that is not reached counts as 0.
@@ -35,8 +35,8 @@ class Checked:
     guaranteed: Interval
 
     @classmethod
-    def of(cls, value: Array, reached: NDArray[Any], weights: Array, *, level: float, heaviest: float = 0.0) -> Checked:
-        """The distribution on fresh poses, and its quantile with the order statistics that enclose it.
+    def of(cls, value: Array, reached: NDArray[Any], weights: Array, *, level: float, heaviest: float = 0.0) -> HeldOutResult:
+        """Return the distribution on held-out poses, and its quantile with the order statistics that enclose it.
 
         Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
 
@@ -51,41 +51,47 @@ class Checked:
         """
         from scipy.stats import binom
 
-        there = reached.astype(bool)
+        is_reached = reached.astype(bool)
         if weights.size:
-            d = Distribution.of(
-                value[there],
+            distribution = Distribution.of(
+                value[is_reached],
                 "larger",
-                int((~there).sum()),
-                weights=weights[there],
-                unreached_weights=weights[~there],
+                int((~is_reached).sum()),
+                weights=weights[is_reached],
+                unreached_weights=weights[~is_reached],
                 heaviest=heaviest,
             )
         else:
-            d = Distribution.of(value[there], "larger", int((~there).sum()))
-        size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
-        ends = np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share)) / size
-        low, middle, high = d.quantile(np.clip([ends[0], share, ends[1] + 1 / size], 0, 1), reachable_only=False).tolist()
-        return cls(d, Interval(value=middle, low=low if ends[0] > 0 else 0.0, high=high, confidence=confidence))
+            distribution = Distribution.of(value[is_reached], "larger", int((~is_reached).sum()))
+        sample_count, fraction, confidence = int(distribution.effective() + 1e-9), 1 - level, 0.95
+        end_fractions = (
+            np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], sample_count, fraction)) / sample_count
+        )
+        lower, middle, upper = distribution.quantile(
+            np.clip([end_fractions[0], fraction, end_fractions[1] + 1 / sample_count], 0, 1), reachable_only=False
+        ).tolist()
+        return cls(
+            distribution, Interval(value=middle, low=lower if end_fractions[0] > 0 else 0.0, high=upper, confidence=confidence)
+        )
 
 
 @dataclass(frozen=True)
-class Check:
-    """The given arm and the best design on the same fresh poses, which no choice was made on.
+class HeldOutCheck:
+    """Baseline arm and best design on the same held-out poses, on which no choice was based.
 
     Attributes:
         given, best: Each on those poses.
         optimism: By how much the best design looked better on the poses it was chosen on.
     """
 
-    given: Checked
-    best: Checked
+    given: HeldOutResult
+    best: HeldOutResult
     optimism: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class Designs(Result):
-    """What :func:`holdfast.design` found: D designs, the given arm first.
+    """Result of :func:`holdfast.design`: D designs, the baseline arm first.
 
     Attributes:
         space: What was varied.
@@ -114,7 +120,7 @@ class Designs(Result):
     reached: Array
     front: NDArray[np.intp]
     best: int
-    checked: Check
+    checked: HeldOutCheck
     index: Index
     region: Region
     level: float
@@ -127,81 +133,88 @@ class Designs(Result):
 
     @property
     def start_guaranteed(self) -> float:
-        """Of the given arm."""
+        """Guaranteed index of the baseline arm, in the unit of the index."""
         return float(self.guaranteed[0])
 
     @property
     def start_reach(self) -> float:
-        """Of the given arm, m."""
+        """Reach of the baseline arm, m."""
         return float(self.reach[0])
 
     @property
     def best_is_start(self) -> bool:
-        """True where no design beats the given arm."""
+        """True if no design beats the baseline arm."""
         return self.best == 0
 
     def arm(self, number: int | None = None) -> Arm:
-        """The arm of a design; the best one if no number is given."""
+        """Return the arm of a design, by default the best one."""
         return self.space.arm_of(self.values[self.best if number is None else number])
 
     @property
     def headline(self) -> str:
-        """The answer in one or two sentences."""
-        given, best = self.checked.given, self.checked.best
-        gives, keeps = interval_text(given.guaranteed), interval_text(best.guaranteed)
-        name, share = self.index.name, chosen(self.level)
-        if not best.guaranteed.value > 0 and not given.guaranteed.value > 0:
+        """Answer in one or two sentences."""
+        baseline, best = self.checked.given, self.checked.best
+        baseline_text, best_text = format_value_interval(baseline.guaranteed), format_value_interval(best.guaranteed)
+        index_name, level_text = self.index.name, format_level(self.level)
+        if not best.guaranteed.value > 0 and not baseline.guaranteed.value > 0:
             return (
-                f"No design within these bounds keeps any {name} at {share} of the poses of the region: too many poses "
+                f"No design within these bounds keeps any {index_name} at {level_text} of the poses of the region: too "
+                f"many poses "
                 "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or "
                 "level."
             )
-        more = farther(self.guaranteed, self.reach, self.best)
+        farther_text = describe_farther_design(self.guaranteed, self.reach, self.best)
         if self.best_is_start:
-            text = (
-                f"No design was found that keeps more than the given arm: at {share} of the poses of the region its {name} "
-                f"is at least {gives}, {self._failures()}."
+            answer = (
+                f"No design was found that keeps more than the given arm: at {level_text} of the poses of the region its "
+                f"{index_name} "
+                f"is at least {baseline_text}, {self._describe_failures()}."
             )
-            return f"{text} {more}".rstrip()
-        if self.guaranteed[self.best] <= (1 + SAME) * self.start_guaranteed:
+            return f"{answer} {farther_text}".rstrip()
+        if self.guaranteed[self.best] <= (1 + SAME_VALUE_TOLERANCE) * self.start_guaranteed:
             return (
-                f"No design keeps more than the given arm, but the best one keeps as much, {keeps} "
-                f"at {share} of the poses (the given arm {gives}), and reaches {self.reach[self.best]:.3f} m "
-                f"instead of {self.start_reach:.3f} m. {more}"
+                f"No design keeps more than the given arm, but the best one keeps as much, {best_text} "
+                f"at {level_text} of the poses (the given arm {baseline_text}), and reaches {self.reach[self.best]:.3f} m "
+                f"instead of {self.start_reach:.3f} m. {farther_text}"
             ).rstrip()
-        if best.guaranteed.value <= given.guaranteed.value:
+        if best.guaranteed.value <= baseline.guaranteed.value:
             return (
-                f"No gain that lasts was found: on the {counted(self.poses, 'pose')} of the search the best design "
-                f"keeps a {name} of {number(float(self.guaranteed[self.best]))}, but on fresh ones {keeps}, and the given "
-                f"arm {gives}. Search with more poses."
+                f"No gain that lasts was found: on the {format_count(self.poses, 'pose')} of the search the best design "
+                f"keeps a {index_name} of {format_number(float(self.guaranteed[self.best]))}, but on fresh ones "
+                f"{best_text}, and the given "
+                f"arm {baseline_text}. Search with more poses."
             )
         reaches = f"The reach goes from {self.start_reach:.3f} m to {self.reach[self.best]:.3f} m."
         return (
-            f"For {share} of the poses of the region the best design keeps {article(name)} {name} of at least "
-            f"{keeps}, {self._failures()}; the given arm {gives}. {reaches} {more}"
+            f"For {level_text} of the poses of the region the best design keeps {indefinite_article(index_name)} "
+            f"{index_name} of at least "
+            f"{best_text}, {self._describe_failures()}; the given arm {baseline_text}. {reaches} {farther_text}"
         ).rstrip()
 
-    def _failures(self) -> str:
-        sizes = {len(f) for f in self.index.failures}
+    def _describe_failures(self) -> str:
+        sizes = {len(failed) for failed in self.index.failures}
         if len(sizes) > 1 or len(self.index.failures) != math.comb(self.space.arm.n, min(sizes)):
             return "after any of the failures considered"
         return "whichever joint locks" if sizes == {1} else f"whichever {min(sizes)} joints lock together"
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        ends = f"{self.reach[self.front[0]]:.4g} to {self.reach[self.front[-1]]:.4g} m"
+        """Return the result in a few sentences."""
+        reach_range = f"{self.reach[self.front[0]]:.4g} to {self.reach[self.front[-1]]:.4g} m"
         return [
             self.headline,
             f"{len(self.values):,} designs tried; {len(self.front)} of them are on the Pareto front of reach and "
-            f"{self.index.name}, reach {ends}",
+            f"{self.index.name}, reach {reach_range}",
         ]
 
 
-def chosen(x: float) -> str:
-    """A share that was chosen."""
-    return f"{100 * x:.4g} %"
+def format_level(fraction: float) -> str:
+    """Format a fraction that the user chose, as percent."""
+    return f"{100 * fraction:.4g} %"
 
 
-def interval_text(p: Interval) -> str:
-    """A value with its interval."""
-    return f"{number(p.value)} ({number(p.low)} to {number(p.high)}, {100 * p.confidence:.4g} %)"
+def format_value_interval(interval: Interval) -> str:
+    """Format a value with its interval."""
+    return (
+        f"{format_number(interval.value)} ({format_number(interval.low)} to {format_number(interval.high)}, "
+        f"{100 * interval.confidence:.4g} %)"
+    )

@@ -1,4 +1,4 @@
-"""How often failed arms of many designs reach their target, by simulation: any arm, task and law, all designs in one batch."""
+"""Simulate how often failed arms of many designs reach their target: any arm, task, and law, all designs in one batch."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.designs.joints import LawOfDesigns
-from holdfast.equilibria.solutions import Solutions
+from holdfast.equilibria.solutions import SolutionSearch
 from holdfast.simulation.closed_loop import simulate
-from holdfast.simulation.runs import Outcome
-from holdfast.simulation.system import own_units
+from holdfast.simulation.runs import RunOutcome
+from holdfast.simulation.system import scale_errors
 from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
 
-TIME_CONSTANTS, TOLERANCE = 500.0, 1e-8  # of a run, as in a convergence map
-NEAR = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has converged
-_TRIES = 40  # random starts of inverse kinematics for each configuration that is wanted
+RUN_TIME_CONSTANTS, RUN_TOLERANCE = 500.0, 1e-8  # of a run, as in a convergence map
+CONVERGED_DISTANCE = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has converged
+_STARTS_PER_CONFIGURATION = 40  # random starts of inverse kinematics for each configuration that is wanted
 
 
 @dataclass(frozen=True, eq=False)
-class Convergences:
-    """How D designs do at T targets, after C failures of each joint.
+class ConvergenceOutcomes:
+    """Outcomes of D designs at T targets, after C failures of each joint.
 
     Attributes:
         converged: (D, T, C, n) True where the target was reached.
         known: (D, T, C) there was a configuration at the target to take the locked angles from.
-        ends: (D, 4) how the runs ended, by :class:`holdfast.simulation.Outcome`; undecided ones next to the target have
+        ends: (D, 4) how the runs ended, by :class:`holdfast.simulation.RunOutcome`; undecided ones next to the target have
             converged.
     """
 
@@ -38,26 +38,26 @@ class Convergences:
     ends: NDArray[np.int64]
 
     @property
-    def reached(self) -> Array:
-        """(D,) share of the targets for which a configuration was found."""
+    def reached_fraction(self) -> Array:
+        """(D,) fraction of the targets for which a configuration was found."""
         return np.asarray(self.known.any(axis=2).mean(axis=1))
 
     @property
-    def by_target(self) -> Array:
-        """(D, T) share of the failures of a target after which it is still reached; NaN where it is out of reach."""
+    def fraction_by_target(self) -> Array:
+        """(D, T) fraction of the failures of a target after which it is still reached; NaN where it is out of reach."""
         count = self.known.sum(axis=2)
         with np.errstate(invalid="ignore"):
-            share = self.converged.mean(axis=3).sum(axis=2) / np.where(count > 0, count, np.nan)
-        return np.asarray(share)
+            fractions = self.converged.mean(axis=3).sum(axis=2) / np.where(count > 0, count, np.nan)
+        return np.asarray(fractions)
 
     @property
-    def overall(self) -> Array:
-        """(D,) mean over the targets, 0 for those out of reach."""
-        return np.asarray(np.nan_to_num(self.by_target).mean(axis=1))
+    def mean_fraction(self) -> Array:
+        """(D,) mean over the targets; targets out of reach count as 0."""
+        return np.asarray(np.nan_to_num(self.fraction_by_target).mean(axis=1))
 
 
-class Failures:
-    """The same failures for every design: targets, and random numbers for configurations and starts.
+class FailureTrials:
+    """Equal failures for every design: targets, and random numbers for configurations and starts.
 
     A joint locks where it is in a configuration at the target, so that the target stays in reach; the arm starts from a
     random configuration with that joint there.
@@ -71,53 +71,55 @@ class Failures:
 
     def __init__(self, law: LawOfDesigns, poses: Array, count: int, seed: int) -> None:
         self.law, self.poses, self.count = law, poses, count
-        self._solutions = Solutions(law)
-        low, high = finite_limits(law.joints.arm)
+        self._solutions = SolutionSearch(law)
+        lower, upper = finite_limits(law.joints.arm)
         generator = np.random.default_rng(seed)
-        self._guesses = generator.uniform(low, high, (len(poses), count * _TRIES, low.size))
-        self._starts = generator.uniform(low, high, (len(poses), count, low.size, low.size))
+        self._guesses = generator.uniform(lower, upper, (len(poses), count * _STARTS_PER_CONFIGURATION, lower.size))
+        self._starts = generator.uniform(lower, upper, (len(poses), count, lower.size, lower.size))
 
-    def of(self, values: Array) -> Convergences:
-        """What becomes of them with designs (D, k)."""
+    def simulate_designs(self, values: Array) -> ConvergenceOutcomes:
+        """Simulate the failures with designs (D, k)."""
         joints, poses = self.law.joints, self.poses
         n, shape = joints.arm.n, (len(values), len(poses), self.count)
-        at, known = self._configurations(values)
+        target_q, is_known = self._find_target_configurations(values)
         # Each joint in turn is locked where it is at the target.
         q0 = np.broadcast_to(self._starts, (*shape, n, n)).copy()
-        each = np.arange(n)
-        q0[..., each, each] = at
-        rows = np.broadcast_to(known[..., None], (*shape, n))
-        design, target, _, joint = np.nonzero(rows)
+        joint_range = np.arange(n)
+        q0[..., joint_range, joint_range] = target_q
+        selected = np.broadcast_to(is_known[..., None], (*shape, n))
+        design, target, _, joint = np.nonzero(selected)
         runs = simulate(
             self.law,
-            joints.configurations(values[design], q0[rows]),
+            joints.configurations(values[design], q0[selected]),
             poses[target],
             locked=joints.moving[joint],
-            time_limit=TIME_CONSTANTS / self.law.gain,
-            tolerance=TOLERANCE,
+            time_limit=RUN_TIME_CONSTANTS / self.law.gain,
+            tolerance=RUN_TOLERANCE,
         )
-        left = own_units(self.law, runs.error, runs.x_final, poses[target])
-        near = (runs.code == Outcome.CONVERGED) | ((runs.code == Outcome.UNDECIDED) & (left < NEAR))
+        distances = scale_errors(self.law, runs.error, runs.x_final, poses[target])
+        has_converged = (runs.code == RunOutcome.CONVERGED) | (
+            (runs.code == RunOutcome.UNDECIDED) & (distances < CONVERGED_DISTANCE)
+        )
         converged = np.zeros((*shape, n), dtype=bool)
-        converged[rows] = near
-        ends = np.zeros((len(values), len(Outcome)), dtype=np.int64)
-        np.add.at(ends, (design, np.where(near, Outcome.CONVERGED, runs.code)), 1)
-        return Convergences(converged, known, ends)
+        converged[selected] = has_converged
+        outcome_counts = np.zeros((len(values), len(RunOutcome)), dtype=np.int64)
+        np.add.at(outcome_counts, (design, np.where(has_converged, RunOutcome.CONVERGED, runs.code)), 1)
+        return ConvergenceOutcomes(converged, is_known, outcome_counts)
 
-    def _configurations(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """(D, T, C, n) configurations at the targets within the limits, and (D, T, C) which there are."""
+    def _find_target_configurations(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Return configurations (D, T, C, n) at the targets within the limits, and which of them (D, T, C) exist."""
         joints = self.law.joints
         arm, count = joints.arm, self.count
-        found = np.zeros((len(values), len(self.poses), count, arm.n))
-        known = np.zeros(found.shape[:3], dtype=bool)
-        for t, (pose, guesses) in enumerate(zip(self.poses, self._guesses, strict=True)):
+        configurations = np.zeros((len(values), len(self.poses), count, arm.n))
+        is_known = np.zeros(configurations.shape[:3], dtype=bool)
+        for target, (pose, guesses) in enumerate(zip(self.poses, self._guesses, strict=True)):
             starts = joints.configurations(np.repeat(values, len(guesses), axis=0), np.tile(guesses, (len(values), 1)))
-            q, ok = self._solutions.search(starts, pose, joints.mask)
-            q = joint_space.wrapped(arm, q[:, joints.moving])
-            ok &= ((q >= arm.lower) & (q <= arm.upper)).all(axis=1)
-            ok = ok.reshape(len(values), -1)
+            q, is_valid = self._solutions.search(starts, pose, joints.mask)
+            q = joint_space.wrap_joints(arm, q[:, joints.moving])
+            is_valid &= ((q >= arm.lower) & (q <= arm.upper)).all(axis=1)
+            is_valid = is_valid.reshape(len(values), -1)
             # The first ones that were found, in the order of the guesses.
-            order = np.argsort(~ok, axis=1, kind="stable")[:, :count]
-            found[:, t] = np.take_along_axis(q.reshape(*ok.shape, arm.n), order[..., None], axis=1)
-            known[:, t] = np.take_along_axis(ok, order, axis=1)
-        return found, known
+            order = np.argsort(~is_valid, axis=1, kind="stable")[:, :count]
+            configurations[:, target] = np.take_along_axis(q.reshape(*is_valid.shape, arm.n), order[..., None], axis=1)
+            is_known[:, target] = np.take_along_axis(is_valid, order, axis=1)
+        return configurations, is_known

@@ -1,4 +1,4 @@
-r"""How the index of a design at a pose changes with the design, at the best configuration: exactly, by its multipliers.
+r"""Compute the exact gradient of the index of a design at a pose, at the best configuration, from its Lagrange multipliers.
 
 With scores s of the failures, the pose error c and the limits, the best configuration solves ``max t`` subject to
 ``s_k(q, x) >= t``, ``c(q, x) = 0`` and ``lower(x) <= q <= upper(x)``. At a strict optimum the value changes with the design as
@@ -25,16 +25,16 @@ from holdfast.designs.evaluation import Evaluated, Evaluator
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_NEWTON = 10
-_APART = 1e-5  # rad or m: for second derivatives, which only say how fast Newton's method converges, not where to
-_TRUST = 0.1  # rad or m: largest change of a joint in one step
-_CURVED = 1e-2  # of the quadratic program: steps of this size are worth a change of the score by their slope
-_SMALL = 1e-8  # what counts as 0 of the conditions
+_NEWTON_STEPS = 10
+_DIFFERENCE_STEP = 1e-5  # rad or m: for second derivatives, which only say how fast Newton's method converges, not where to
+_MAX_JOINT_STEP = 0.1  # rad or m: largest change of a joint in one step
+_PROGRAM_CURVATURE = 1e-2  # of the quadratic program: steps of this size are worth a change of the score by their slope
+_CONDITION_TOLERANCE = 1e-8  # what counts as 0 of the conditions
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sensitivity:
-    """R designs and poses.
+    """Values and gradients of R pairs of a design and a pose.
 
     Attributes:
         q: (R, n) the configuration, more exactly the best than the one given.
@@ -51,256 +51,304 @@ class Sensitivity:
 
 
 def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensitivity:
-    """Values and gradients of some rows of what was evaluated.
+    """Return values and gradients of some rows of an evaluation.
 
     Args:
         evaluator: That evaluated.
         found: D designs at P poses.
         chosen: (R,) rows: design times P plus pose.
     """
-    count, k = len(chosen), len(evaluator.family.space.parameters)
+    row_count, parameter_count = len(chosen), len(evaluator.family.space.parameters)
     q = found.q.reshape(-1, evaluator.family.arm.n)[chosen].copy()
     reached = found.reached.reshape(-1)[chosen]
-    value, gradient, exact = np.zeros(count), np.zeros((count, k)), np.zeros(count, dtype=bool)
-    for rows, solve in ((np.flatnonzero(reached), _of_reached), (np.flatnonzero(~reached), _of_missed)):
+    value, gradient, exact = np.zeros(row_count), np.zeros((row_count, parameter_count)), np.zeros(row_count, dtype=bool)
+    for rows, solve in ((np.flatnonzero(reached), _solve_reached_poses), (np.flatnonzero(~reached), _solve_missed_poses)):
         if rows.size:
             q[rows], value[rows], gradient[rows], exact[rows] = solve(evaluator, found.values, chosen[rows], q[rows])
     return Sensitivity(q=q, value=value, gradient=gradient, exact=exact)
 
 
-def _by_limits(evaluator: Evaluator, force: Array) -> Array:
-    """What the limits that are parameters add to a gradient: ``force`` (R, n) of joints at their limits."""
-    added = np.zeros((len(force), len(evaluator.family.space.parameters)))
-    for i, p in enumerate(evaluator.family.space.parameters):
-        if p.row is not None and p.kind in ("lower", "upper"):
-            pushed = force[:, p.row]
-            added[:, i] = np.where(pushed > 0, pushed, 0.0) if p.kind == "upper" else np.where(pushed < 0, pushed, 0.0)
-    return added
+def _compute_limit_gradient(evaluator: Evaluator, force: Array) -> Array:
+    """Return the contribution of varied limits to a gradient, from the ``force`` (R, n) of joints at their limits."""
+    contribution = np.zeros((len(force), len(evaluator.family.space.parameters)))
+    for index, parameter in enumerate(evaluator.family.space.parameters):
+        if parameter.row is not None and parameter.kind in ("lower", "upper"):
+            joint_force = force[:, parameter.row]
+            contribution[:, index] = (
+                np.where(joint_force > 0, joint_force, 0.0)
+                if parameter.kind == "upper"
+                else np.where(joint_force < 0, joint_force, 0.0)
+            )
+    return contribution
 
 
-def _of_missed(evaluator: Evaluator, values: Array, owner: Index, q: Array) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
-    """Minus the miss and its gradient, at the configuration that comes nearest: Newton's method within the limits."""
+def _solve_missed_poses(
+    evaluator: Evaluator, values: Array, owner: Index, q: Array
+) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+    """Return minus the pose error and its gradient, at the nearest configuration, by Newton's method within the limits."""
     family = evaluator.family
-    p, r, x = evaluator.rows(owner, values)
-    low, high = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
+    position, rotation, design_values = evaluator.rows(owner, values)
+    lower, upper = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
     m, n = family.task.m, family.arm.n
 
-    def pulled(q: Array) -> tuple[Array, Array, Array]:
-        """Error (R, m), with what force it pulls at the joints (R, n), and derivative of half its square by the design."""
-        out = np.nan_to_num(family.misses.rows(q, p, r, x))
-        return out[:, :m], out[:, m : m + n], out[:, m + n :]
+    def evaluate_pull(q: Array) -> tuple[Array, Array, Array]:
+        """Return the error (R, m), its force on the joints (R, n), and the derivative of half its square by the design."""
+        outputs = np.nan_to_num(family.misses.rows(q, position, rotation, design_values))
+        return outputs[:, :m], outputs[:, m : m + n], outputs[:, m + n :]
 
-    e, pull, by_design = pulled(q)
-    trust = np.full(len(q), _TRUST)
-    for _ in range(_NEWTON):
-        held = ((q <= low) & (pull < 0)) | ((q >= high) & (pull > 0))
-        curvature = np.stack([(pulled(q + h)[1] - pulled(q - h)[1]) / (2 * _APART) for h in _APART * np.eye(n)], axis=2)
+    error, pull, by_design = evaluate_pull(q)
+    trust = np.full(len(q), _MAX_JOINT_STEP)
+    for _ in range(_NEWTON_STEPS):
+        is_blocked = ((q <= lower) & (pull < 0)) | ((q >= upper) & (pull > 0))
+        curvature = np.stack(
+            [
+                (evaluate_pull(q + offset)[1] - evaluate_pull(q - offset)[1]) / (2 * _DIFFERENCE_STEP)
+                for offset in _DIFFERENCE_STEP * np.eye(n)
+            ],
+            axis=2,
+        )
         curvature = (curvature + curvature.swapaxes(1, 2)) / 2
-        curvature = np.where(held[:, :, None] | held[:, None, :], -np.eye(n), curvature)
-        size, axes = np.linalg.eigh(curvature)
+        curvature = np.where(is_blocked[:, :, None] | is_blocked[:, None, :], -np.eye(n), curvature)
+        curvatures, axes = np.linalg.eigh(curvature)
         # Away from the optimum the error may be curved the wrong way: then along the slope.
-        along = np.einsum("rij,ri->rj", axes, np.where(held, 0.0, pull)) / np.maximum(np.abs(size), 1e-4)
-        move = np.einsum("rij,rj->ri", axes, along)
+        axis_steps = np.einsum("rij,ri->rj", axes, np.where(is_blocked, 0.0, pull)) / np.maximum(np.abs(curvatures), 1e-4)
+        move = np.einsum("rij,rj->ri", axes, axis_steps)
         move *= np.minimum(1.0, trust / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
-        ahead = np.clip(q + move, low, high)
-        e_ahead, pull_ahead, by_ahead = pulled(ahead)
-        better = (np.linalg.norm(e_ahead, axis=1) <= np.linalg.norm(e, axis=1) + 1e-12)[:, None]
-        q, e, pull = np.where(better, ahead, q), np.where(better, e_ahead, e), np.where(better, pull_ahead, pull)
-        by_design = np.where(better, by_ahead, by_design)
+        trial_q = np.clip(q + move, lower, upper)
+        trial_error, trial_pull, trial_by_design = evaluate_pull(trial_q)
+        better = (np.linalg.norm(trial_error, axis=1) <= np.linalg.norm(error, axis=1) + 1e-12)[:, None]
+        q, error, pull = np.where(better, trial_q, q), np.where(better, trial_error, error), np.where(better, trial_pull, pull)
+        by_design = np.where(better, trial_by_design, by_design)
         trust = np.where(better[:, 0], trust, trust / 4)
-    miss = np.linalg.norm(e, axis=1)
+    error_size = np.linalg.norm(error, axis=1)
     # Moved by dq the error falls by J dq: a joint that is pulled against its limit would follow that limit.
-    held = ((q <= low) & (pull < 0)) | ((q >= high) & (pull > 0))
-    gradient = (_by_limits(evaluator, np.where(held, pull, 0.0)) - by_design) / np.maximum(miss, 1e-12)[:, None]
-    return q, -miss, gradient, np.abs(np.where(held, 0.0, pull)).max(axis=1) <= _SMALL * np.maximum(miss, _SMALL)
+    is_blocked = ((q <= lower) & (pull < 0)) | ((q >= upper) & (pull > 0))
+    gradient = (_compute_limit_gradient(evaluator, np.where(is_blocked, pull, 0.0)) - by_design) / np.maximum(
+        error_size, 1e-12
+    )[:, None]
+    return (
+        q,
+        -error_size,
+        gradient,
+        np.abs(np.where(is_blocked, 0.0, pull)).max(axis=1)
+        <= _CONDITION_TOLERANCE * np.maximum(error_size, _CONDITION_TOLERANCE),
+    )
 
 
-def _of_reached(evaluator: Evaluator, values: Array, owner: Index, q: Array) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+def _solve_reached_poses(
+    evaluator: Evaluator, values: Array, owner: Index, q: Array
+) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     family = evaluator.family
-    p, r, x = evaluator.rows(owner, values)
-    low, high = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
-    problem = _Problem(evaluator, p, r, x, low, high)
-    first = problem.guess(q)
-    last, exact = problem.solved(first)
-    before = problem.value(first)
-    after = problem.value(last)
-    exact &= (after >= before - 1e-6) & ((last.q >= low) & (last.q <= high)).all(axis=1)
-    exact &= evaluator.on_pose(values, owner, last.q)
-    chosen = first.where(exact, last)
-    out = problem.by_design(chosen)
-    rate = out[:, 1:2]
-    gradient = rate * (out[:, 2:] + _by_limits(evaluator, chosen.force))
+    position, rotation, design_values = evaluator.rows(owner, values)
+    lower, upper = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
+    problem = _OptimumConditions(evaluator, position, rotation, design_values, lower, upper)
+    initial = problem.guess_multipliers(q)
+    optimum, exact = problem.solve_newton(initial)
+    initial_value = problem.evaluate_index(initial)
+    optimum_value = problem.evaluate_index(optimum)
+    exact &= (optimum_value >= initial_value - 1e-6) & ((optimum.q >= lower) & (optimum.q <= upper)).all(axis=1)
+    exact &= evaluator.on_pose(values, owner, optimum.q)
+    point = initial.replace_rows(exact, optimum)
+    outputs = problem.evaluate_derivatives(point)
+    value_rate = outputs[:, 1:2]
+    gradient = value_rate * (outputs[:, 2:] + _compute_limit_gradient(evaluator, point.force))
     gradient = np.where(np.isfinite(gradient), gradient, 0.0)
-    return chosen.q, np.nan_to_num(out[:, 0]), gradient, exact
+    return point.q, np.nan_to_num(outputs[:, 0]), gradient, exact
 
 
 @dataclass(frozen=True)
-class _Point:
-    """Configurations and multipliers: of the failures, of the pose, of the limits (above 0 at an upper one)."""
+class _OptimumPoint:
+    """Configurations with multipliers of the failures, of the pose, and of the limits (above 0 at an upper limit)."""
 
     q: Array
     failures: Array
     pose: Array
     force: Array
 
-    def where(self, chosen: NDArray[np.bool_], other: _Point) -> _Point:
-        """The other's rows where chosen."""
-        c = chosen[:, None]
-        return _Point(
-            np.where(c, other.q, self.q),
-            np.where(c, other.failures, self.failures),
-            np.where(c, other.pose, self.pose),
-            np.where(c, other.force, self.force),
+    def replace_rows(self, is_chosen: NDArray[np.bool_], other: _OptimumPoint) -> _OptimumPoint:
+        """Return the point with the rows of another point where ``is_chosen`` is true."""
+        columns = is_chosen[:, None]
+        return _OptimumPoint(
+            np.where(columns, other.q, self.q),
+            np.where(columns, other.failures, self.failures),
+            np.where(columns, other.pose, self.pose),
+            np.where(columns, other.force, self.force),
         )
 
 
-class _Problem:
-    """The conditions of optima, R of them side by side."""
+class _OptimumConditions:
+    """Optimality conditions of R rows, side by side."""
 
-    def __init__(self, evaluator: Evaluator, p: Array, r: Array, x: Array, low: Array, high: Array) -> None:
-        self._family, self._p, self._r, self._x, self._low, self._high = evaluator.family, p, r, x, low, high
+    def __init__(
+        self, evaluator: Evaluator, position: Array, rotation: Array, design_values: Array, lower: Array, upper: Array
+    ) -> None:
+        self._family, self._position, self._rotation, self._design_values, self._lower, self._upper = (
+            evaluator.family,
+            position,
+            rotation,
+            design_values,
+            lower,
+            upper,
+        )
         self._n, self._m = evaluator.family.arm.n, evaluator.family.task.m
 
-    def _conditions(self, q: Array) -> tuple[Array, Array, Array, Array]:
-        """Scores (R, F), slopes (R, F, n), pose error (R, m) and its Jacobian (R, m, n)."""
-        scores, slopes, error, jacobian = self._family.conditions(q, self._p, self._r, self._x)
-        return scores, slopes.reshape(len(q), -1, self._n), error.reshape(len(q), -1), jacobian.reshape(len(q), -1, self._n)
+    def _evaluate_conditions(self, q: Array) -> tuple[Array, Array, Array, Array]:
+        """Return scores (R, F), their gradients (R, F, n), the pose error (R, m), and its Jacobian (R, m, n)."""
+        scores, gradients, error, jacobian = self._family.conditions(q, self._position, self._rotation, self._design_values)
+        return scores, gradients.reshape(len(q), -1, self._n), error.reshape(len(q), -1), jacobian.reshape(len(q), -1, self._n)
 
-    def value(self, point: _Point) -> Array:
-        """(R,) the index."""
-        return np.asarray(self.by_design(point)[:, 0])
+    def evaluate_index(self, point: _OptimumPoint) -> Array:
+        """Return the index (R,)."""
+        return np.asarray(self.evaluate_derivatives(point)[:, 0])
 
-    def by_design(self, point: _Point) -> Array:
-        """(R, 2 + k) index, its slope by the score, derivative of the Lagrangian by the design without the limits."""
+    def evaluate_derivatives(self, point: _OptimumPoint) -> Array:
+        """Return (R, 2 + k): the index, its derivative by the score, and that of the Lagrangian by the design
+        without limits.
+        """
         family = self._family
-        return np.asarray(family.by_design.rows(point.q, self._p, self._r, self._x, point.failures, point.pose))
+        return np.asarray(
+            family.by_design.rows(point.q, self._position, self._rotation, self._design_values, point.failures, point.pose)
+        )
 
-    def guess(self, q: Array) -> _Point:
-        """Multipliers at configurations that are nearly the best, by a small quadratic program for each."""
-        scores, slopes, _, jacobian = self._conditions(q)
-        null = null_spaces(jacobian)
+    def guess_multipliers(self, q: Array) -> _OptimumPoint:
+        """Return multipliers at nearly optimal configurations, by a small quadratic program for each."""
+        scores, gradients, _, jacobian = self._evaluate_conditions(q)
+        null_space = compute_null_spaces(jacobian)
         failures, force = np.zeros_like(scores), np.zeros_like(q)
-        for i in range(len(q)):
-            if np.isfinite(slopes[i]).all() and np.isfinite(null[i]).all():
-                failures[i], force[i] = nearby(
-                    scores[i] - scores[i].min(), slopes[i] @ null[i], null[i], self._high[i] - q[i], q[i] - self._low[i]
+        for row in range(len(q)):
+            if np.isfinite(gradients[row]).all() and np.isfinite(null_space[row]).all():
+                failures[row], force[row] = solve_multiplier_program(
+                    scores[row] - scores[row].min(),
+                    gradients[row] @ null_space[row],
+                    null_space[row],
+                    self._upper[row] - q[row],
+                    q[row] - self._lower[row],
                 )
-        return _Point(q, failures, self._pose_multipliers(slopes, jacobian, failures, force), force)
+        return _OptimumPoint(q, failures, self._solve_pose_multipliers(gradients, jacobian, failures, force), force)
 
     @staticmethod
-    def _pose_multipliers(slopes: Array, jacobian: Array, failures: Array, force: Array) -> Array:
-        """Of the balance ``slopes' failures - J' mu - force = 0``, by least squares."""
-        pull = np.einsum("rfi,rf->ri", slopes, failures) - force
+    def _solve_pose_multipliers(gradients: Array, jacobian: Array, failures: Array, force: Array) -> Array:
+        """Return the pose multipliers of the balance ``slopes' failures - J' mu - force = 0``, by least squares."""
+        pull = np.einsum("rfi,rf->ri", gradients, failures) - force
         inverse = np.linalg.pinv(np.nan_to_num(jacobian))
         return np.asarray(np.einsum("rim,ri->rm", inverse, np.nan_to_num(pull)))
 
-    def solved(self, start: _Point) -> tuple[_Point, NDArray[np.bool_]]:
-        """Newton's method from nearby, with the active constraints sought on the way; and where it ended."""
+    def solve_newton(self, start: _OptimumPoint) -> tuple[_OptimumPoint, NDArray[np.bool_]]:
+        """Solve the conditions by Newton's method from a nearby point, updating the active set; return the end point and (R,)
+        whether it is exact.
+        """
         q, n = start.q.copy(), self._n
         failures, force = start.failures, start.force
         active = failures > 1e-3
-        side = np.where(force > 0, 1, np.where(force < 0, -1, 0))
+        limit_side = np.where(force > 0, 1, np.where(force < 0, -1, 0))
         f = failures.shape[1]
         exact = np.zeros(len(q), dtype=bool)
         pose = start.pose
-        for _ in range(_NEWTON):
-            scores, slopes, error, jacobian = (np.nan_to_num(a) for a in self._conditions(q))
-            null = null_spaces(jacobian)
-            r = null.shape[2]
-            pull = np.einsum("rfi,rf->ri", slopes, failures)
-            balance = np.einsum("ri,ric->rc", pull - force, null)
-            target = np.where(side > 0, self._high, np.where(side < 0, self._low, q))
-            off = np.where(side != 0, target - q, 0.0)
-            level = np.where(active, scores, np.inf).min(axis=1)
-            uneven = np.where(active, scores - level[:, None], 0.0)
+        for _ in range(_NEWTON_STEPS):
+            scores, gradients, error, jacobian = (np.nan_to_num(a) for a in self._evaluate_conditions(q))
+            null_space = compute_null_spaces(jacobian)
+            r = null_space.shape[2]
+            pull = np.einsum("rfi,rf->ri", gradients, failures)
+            balance = np.einsum("ri,ric->rc", pull - force, null_space)
+            target = np.where(limit_side > 0, self._upper, np.where(limit_side < 0, self._lower, q))
+            limit_error = np.where(limit_side != 0, target - q, 0.0)
+            least_score = np.where(active, scores, np.inf).min(axis=1)
+            score_excess = np.where(active, scores - least_score[:, None], 0.0)
             scale = 1.0 + np.abs(pull).max(axis=1)
             exact = (
-                (np.abs(balance).max(axis=1) <= _SMALL * scale)
-                & (np.abs(error).max(axis=1) <= _SMALL)
-                & (np.abs(off).max(axis=1) <= _SMALL)
-                & (uneven.max(axis=1) <= _SMALL)
-                & (scores.min(axis=1) >= level - _SMALL)
-                & (failures >= -_SMALL).all(axis=1)
-                & ((force * side >= -_SMALL) | (side == 0)).all(axis=1)
-                & ((q >= self._low - _SMALL) & (q <= self._high + _SMALL)).all(axis=1)
+                (np.abs(balance).max(axis=1) <= _CONDITION_TOLERANCE * scale)
+                & (np.abs(error).max(axis=1) <= _CONDITION_TOLERANCE)
+                & (np.abs(limit_error).max(axis=1) <= _CONDITION_TOLERANCE)
+                & (score_excess.max(axis=1) <= _CONDITION_TOLERANCE)
+                & (scores.min(axis=1) >= least_score - _CONDITION_TOLERANCE)
+                & (failures >= -_CONDITION_TOLERANCE).all(axis=1)
+                & ((force * limit_side >= -_CONDITION_TOLERANCE) | (limit_side == 0)).all(axis=1)
+                & ((q >= self._lower - _CONDITION_TOLERANCE) & (q <= self._upper + _CONDITION_TOLERANCE)).all(axis=1)
             )
             if exact.all():
                 break
-            curvature = self._curvature(q, null, failures, pose)
-            back = -np.einsum("rim,rm->ri", np.linalg.pinv(jacobian), error)
+            curvature = self._compute_curvature(q, null_space, failures, pose)
+            correction = -np.einsum("rim,rm->ri", np.linalg.pinv(jacobian), error)
             # Unknown: step along the null space, level, multipliers of failures and limits.
             a = np.zeros((len(q), r + 1 + f + n, r + 1 + f + n))
             b = np.zeros((len(q), r + 1 + f + n))
             a[:, :r, :r] = curvature - 1e-9 * np.eye(r)
-            along = slopes @ null  # (R, F, r)
-            a[:, :r, r + 1 : r + 1 + f] = along.swapaxes(1, 2)
-            a[:, :r, r + 1 + f :] = -null.swapaxes(1, 2)
-            on, still = active[:, :, None], (side != 0)[:, :, None]
-            k = np.arange(f)
-            a[:, r + 1 : r + 1 + f, :r] = np.where(on, along, 0.0)
+            reduced_gradients = gradients @ null_space  # (R, F, r)
+            a[:, :r, r + 1 : r + 1 + f] = reduced_gradients.swapaxes(1, 2)
+            a[:, :r, r + 1 + f :] = -null_space.swapaxes(1, 2)
+            is_active, is_limited = active[:, :, None], (limit_side != 0)[:, :, None]
+            indices = np.arange(f)
+            a[:, r + 1 : r + 1 + f, :r] = np.where(is_active, reduced_gradients, 0.0)
             a[:, r + 1 : r + 1 + f, r] = np.where(active, -1.0, 0.0)
-            a[:, r + 1 + k, r + 1 + k] = np.where(active, 1e-13, 1.0)
-            b[:, r + 1 : r + 1 + f] = np.where(active, -scores - np.einsum("rfi,ri->rf", slopes, back), 0.0)
-            k = np.arange(n)
-            a[:, r + 1 + f :, :r] = np.where(still, null, 0.0)
-            a[:, r + 1 + f + k, r + 1 + f + k] = np.where(side != 0, 1e-13, 1.0)
-            b[:, r + 1 + f :] = np.where(side != 0, off - back, 0.0)
+            a[:, r + 1 + indices, r + 1 + indices] = np.where(active, 1e-13, 1.0)
+            b[:, r + 1 : r + 1 + f] = np.where(active, -scores - np.einsum("rfi,ri->rf", gradients, correction), 0.0)
+            indices = np.arange(n)
+            a[:, r + 1 + f :, :r] = np.where(is_limited, null_space, 0.0)
+            a[:, r + 1 + f + indices, r + 1 + f + indices] = np.where(limit_side != 0, 1e-13, 1.0)
+            b[:, r + 1 + f :] = np.where(limit_side != 0, limit_error - correction, 0.0)
             a[:, r, r + 1 : r + 1 + f] = 1.0
             b[:, r] = 1.0
             step = np.linalg.solve(a, b[:, :, None])[:, :, 0]
             step = np.where(np.isfinite(step), step, 0.0)
-            move = back + np.einsum("ric,rc->ri", null, step[:, :r])
-            shrink = np.minimum(1.0, _TRUST / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
+            move = correction + np.einsum("ric,rc->ri", null_space, step[:, :r])
+            shrink = np.minimum(1.0, _MAX_JOINT_STEP / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
             move = move * shrink
-            go = ~exact[:, None]
-            failures = np.where(go, step[:, r + 1 : r + 1 + f], failures)
-            force = np.where(go, step[:, r + 1 + f :], force)
-            ahead = scores + np.einsum("rfi,ri->rf", slopes, move)
-            level = np.where(active, ahead, np.inf).min(axis=1)
+            is_open = ~exact[:, None]
+            failures = np.where(is_open, step[:, r + 1 : r + 1 + f], failures)
+            force = np.where(is_open, step[:, r + 1 + f :], force)
+            next_scores = scores + np.einsum("rfi,ri->rf", gradients, move)
+            least_score = np.where(active, next_scores, np.inf).min(axis=1)
             # What is no longer active leaves the set, what would be crossed joins it.
-            active = np.where(go, np.where(active, failures >= -1e-9, ahead < level[:, None] - 1e-9), active)
+            active = np.where(is_open, np.where(active, failures >= -1e-9, next_scores < least_score[:, None] - 1e-9), active)
             failures = np.where(active, failures, 0.0)
-            reach = q + move
-            crossed = np.where(reach > self._high + 1e-12, 1, np.where(reach < self._low - 1e-12, -1, 0))
-            side = np.where(go, np.where(side != 0, np.where(force * side >= -1e-9, side, 0), crossed), side)
-            force = np.where(side != 0, force, 0.0)
-            q = np.where(go, np.clip(reach, self._low, self._high), q)
-            fresh = self._pose_multipliers(slopes, jacobian, failures, force)
-            pose = np.where(go, fresh, pose)
+            next_q = q + move
+            crossed_side = np.where(next_q > self._upper + 1e-12, 1, np.where(next_q < self._lower - 1e-12, -1, 0))
+            limit_side = np.where(
+                is_open,
+                np.where(limit_side != 0, np.where(force * limit_side >= -1e-9, limit_side, 0), crossed_side),
+                limit_side,
+            )
+            force = np.where(limit_side != 0, force, 0.0)
+            q = np.where(is_open, np.clip(next_q, self._lower, self._upper), q)
+            pose_multipliers = self._solve_pose_multipliers(gradients, jacobian, failures, force)
+            pose = np.where(is_open, pose_multipliers, pose)
         # The multipliers of the pose where the iteration ended.
-        _, slopes, _, jacobian = (np.nan_to_num(a) for a in self._conditions(q))
-        return _Point(q, failures, self._pose_multipliers(slopes, jacobian, failures, force), force), exact
+        _, gradients, _, jacobian = (np.nan_to_num(a) for a in self._evaluate_conditions(q))
+        return _OptimumPoint(q, failures, self._solve_pose_multipliers(gradients, jacobian, failures, force), force), exact
 
-    def _curvature(self, q: Array, null: Array, failures: Array, pose: Array) -> Array:
-        """Second derivative (R, r, r) of the Lagrangian along the null space, by differences of its exact gradient."""
+    def _compute_curvature(self, q: Array, null_space: Array, failures: Array, pose: Array) -> Array:
+        """Return the second derivative (R, r, r) of the Lagrangian along the null space, by differences of its
+        exact gradient.
+        """
         columns = []
-        for c in range(null.shape[2]):
-            sides = []
-            for h in (_APART, -_APART):
-                _, slopes, _, jacobian = self._conditions(q + h * null[:, :, c])
-                pull = np.einsum("rfi,rf->ri", slopes, failures)
-                sides.append(pull - np.einsum("rmi,rm->ri", jacobian, pose))
-            change = np.nan_to_num((sides[0] - sides[1]) / (2 * _APART))
-            columns.append(np.einsum("ric,ri->rc", null, change))
+        for column in range(null_space.shape[2]):
+            side_gradients = []
+            for offset in (_DIFFERENCE_STEP, -_DIFFERENCE_STEP):
+                _, gradients, _, jacobian = self._evaluate_conditions(q + offset * null_space[:, :, column])
+                pull = np.einsum("rfi,rf->ri", gradients, failures)
+                side_gradients.append(pull - np.einsum("rmi,rm->ri", jacobian, pose))
+            change = np.nan_to_num((side_gradients[0] - side_gradients[1]) / (2 * _DIFFERENCE_STEP))
+            columns.append(np.einsum("ric,ri->rc", null_space, change))
         curvature = np.stack(columns, axis=2)
         return np.asarray((curvature + curvature.swapaxes(1, 2)) / 2)
 
 
-def null_spaces(jacobian: Array) -> Array:
-    """Orthonormal null-space bases (R, n, n - m) of Jacobians (R, m, n) of full rank."""
+def compute_null_spaces(jacobian: Array) -> Array:
+    """Return orthonormal null-space bases (R, n, n - m) of Jacobians (R, m, n) of full rank."""
     m = jacobian.shape[1]
     return np.asarray(np.linalg.svd(np.nan_to_num(jacobian))[2][:, m:].swapaxes(1, 2))
 
 
-def nearby(gap: Array, along: Array, null: Array, above: Array, below: Array) -> tuple[Array, Array]:
-    """Multipliers of ``max t - |z|^2 / (2 c)`` subject to ``gap_k + along_k z >= t`` and ``-below <= null z <= above``.
+def solve_multiplier_program(gap: Array, along: Array, null_space: Array, above: Array, below: Array) -> tuple[Array, Array]:
+    """Return the multipliers of ``max t - |z|^2 / (2 c)`` subject to ``gap_k + along_k z >= t`` and ``-below <= null_space z <=
+    above``.
 
     A least-distance program, solved as non-negative least squares.
 
     Args:
         gap: (F,) scores less the lowest one.
         along: (F, r) their slopes.
-        null: (n, r) how the joints move.
+        null_space: (n, r) how the joints move.
         above: (n,) room to the upper limits.
         below: (n,) room to the lower limits.
 
@@ -312,21 +360,21 @@ def nearby(gap: Array, along: Array, null: Array, above: Array, below: Array) ->
     from scipy.optimize import nnls
 
     f, r = along.shape
-    up, down = np.flatnonzero(above < 0.1), np.flatnonzero(below < 0.1)
-    root, flat = np.sqrt(_CURVED), 0.1
+    near_upper, near_lower = np.flatnonzero(above < 0.1), np.flatnonzero(below < 0.1)
+    step_scale, level_scale = np.sqrt(_PROGRAM_CURVATURE), 0.1
     # In y = (z / root, flat (t - 1 / flat^2)) the objective is the length of y.
     g = np.concatenate(
         [
-            np.concatenate([root * along, np.full((f, 1), -1 / flat)], axis=1),
-            np.concatenate([-root * null[up], np.zeros((up.size, 1))], axis=1),
-            np.concatenate([root * null[down], np.zeros((down.size, 1))], axis=1),
+            np.concatenate([step_scale * along, np.full((f, 1), -1 / level_scale)], axis=1),
+            np.concatenate([-step_scale * null_space[near_upper], np.zeros((near_upper.size, 1))], axis=1),
+            np.concatenate([step_scale * null_space[near_lower], np.zeros((near_lower.size, 1))], axis=1),
         ]
     )
-    h = np.concatenate([1 / flat**2 - gap, -above[up], -below[down]])
+    h = np.concatenate([1 / level_scale**2 - gap, -above[near_upper], -below[near_lower]])
     e = np.concatenate([g.T, h[None]])
     u, _ = nnls(e, np.r_[np.zeros(r + 1), 1.0])
     u = u / max(u[:f].sum(), 1e-300)
-    force = np.zeros(len(null))
-    force[up] += u[f : f + up.size]
-    force[down] -= u[f + up.size :]
+    force = np.zeros(len(null_space))
+    force[near_upper] += u[f : f + near_upper.size]
+    force[near_lower] -= u[f + near_upper.size :]
     return u[:f], force

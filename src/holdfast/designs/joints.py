@@ -1,4 +1,4 @@
-"""An arm in which every varied number is a joint of its own that never moves: one compiled law for all designs.
+"""Arm in which every varied number is a separate joint that never moves, so that one compiled law serves all designs.
 
 A link length is a slide along the link, a twist or a tool angle a turn about it. Simulation, inverse kinematics and
 linearisation then take designs as they take configurations, each row its own, and nothing is compiled again.
@@ -23,12 +23,12 @@ from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
 
-_X, _Y, _Z = np.eye(3)
+_X_AXIS, _Y_AXIS, _Z_AXIS = np.eye(3)
 
 
 @dataclass(frozen=True, eq=False)
 class DesignJoints:
-    """An arm with joints for what is varied.
+    """Arm with additional joints for the varied parameters.
 
     Attributes:
         space: What is varied; not joint limits.
@@ -45,55 +45,57 @@ class DesignJoints:
 
     @classmethod
     def of(cls, space: DesignSpace) -> DesignJoints:
-        """Put a joint in for each parameter.
+        """Insert a joint for each parameter.
 
         Raises:
             InputError: A limit is varied.
         """
-        limits = [p.name for p in space.parameters if p.kind in ("lower", "upper")]
+        limits = [parameter.name for parameter in space.parameters if parameter.kind in ("lower", "upper")]
         if limits:
             raise InputError(f"{limits[0]} is a joint limit, which no control law heeds; vary lengths, twists or the tool")
         joints: list[Joint] = []
         pending = space.table.base
-        for name, axis, sliding, value, own in _parts(space):
-            if own is not None:
-                joints.append(replace(own, origin=pending, axis=axis))
+        for name, axis, is_prismatic, value, own_joint in _iterate_steps(space):
+            if own_joint is not None:
+                joints.append(replace(own_joint, origin=pending, axis=axis))
             elif name in space.names:
-                joints.append(Joint(name, "prismatic" if sliding else "continuous", pending, axis=axis))
+                joints.append(Joint(name, "prismatic" if is_prismatic else "continuous", pending, axis=axis))
             else:
-                pending = pending @ _moved(axis, sliding, value)
+                pending = pending @ _make_transform(axis, is_prismatic, value)
                 continue
             pending = np.eye(4)
         arm = space.arm
         whole = Arm(
             name=f"{arm.name}, {', '.join(space.names)} varied", joints=tuple(joints), tool=pending, gravity=arm.gravity
         )
-        at = {joint.name: k for k, joint in enumerate(joints)}
-        moving = np.array([at[name] for name in arm.joint_names])
-        return cls(space, whole, moving, varied=np.array([at[name] for name in space.names]))
+        indices = {joint.name: index for index, joint in enumerate(joints)}
+        moving = np.array([indices[name] for name in arm.joint_names])
+        return cls(space, whole, moving, varied=np.array([indices[name] for name in space.names]))
 
     @property
     def arm(self) -> Arm:
-        """The given arm."""
+        """Baseline arm."""
         return self.space.arm
 
     def configurations(self, values: Array, q: Array) -> Array:
-        """(N, n + k) of the whole for designs (k,) or (N, k) and configurations (n,) or (N, n) of the arm."""
-        rows = max(len(np.atleast_2d(values)), len(np.atleast_2d(q)))
-        out = np.empty((rows, self.whole.n))
-        out[:, self.varied], out[:, self.moving] = values, q
-        return out
+        """Return configurations (N, n + k) of the whole arm, for designs (k,) or (N, k) and configurations (n,) or (N, n) of
+        the baseline arm.
+        """
+        row_count = max(len(np.atleast_2d(values)), len(np.atleast_2d(q)))
+        combined = np.empty((row_count, self.whole.n))
+        combined[:, self.varied], combined[:, self.moving] = values, q
+        return combined
 
     @cached_property
     def mask(self) -> Array:
         """(n + k,) 1 for the arm's own joints, 0 for those of the design."""
-        out = np.zeros(self.whole.n)
-        out[self.moving] = 1.0
-        return out
+        values = np.zeros(self.whole.n)
+        values[self.moving] = 1.0
+        return values
 
 
 class LawOfDesigns(Law):
-    """The same law on any design: it moves no joint of the design.
+    """Control law on any design, which moves no joint of the design.
 
     Args:
         law: The law of the given arm.
@@ -108,35 +110,37 @@ class LawOfDesigns(Law):
         self.law, self.joints = law, joints
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """The law's own inverse with the columns of the joints that move."""
+        """Return the inverse of the original law with the columns of the moving joints."""
         rates = self.law.inverse(j[:, self.joints.moving.tolist()], v)
         return ca.SX(ca.DM(np.eye(self.arm.n)[:, self.joints.moving])) @ rates
 
 
-def _parts(space: DesignSpace) -> Iterator[tuple[str, Array, bool, float, Joint | None]]:
-    """Name, axis, whether it slides, value, and the arm's own joint if it is one, of every step from the base to the tool."""
+def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, Array, bool, float, Joint | None]]:
+    """Yield name, axis, whether it is prismatic, value, and the arm's own joint if it is one, of every step from the base to
+    the tool.
+    """
     from scipy.spatial.transform import Rotation
 
-    for k, (row, joint) in enumerate(zip(space.table.rows, space.arm.joints, strict=True), 1):
-        yield f"theta{k}", _Z, False, row.theta, None
-        yield joint.name, _Z, joint.prismatic, 0.0, joint
-        yield f"d{k}", _Z, True, row.d, None
-        yield f"a{k}", _X, True, row.a, None
-        yield f"alpha{k}", _X, False, row.alpha, None
+    for number, (row, joint) in enumerate(zip(space.table.rows, space.arm.joints, strict=True), 1):
+        yield f"theta{number}", _Z_AXIS, False, row.theta, None
+        yield joint.name, _Z_AXIS, joint.prismatic, 0.0, joint
+        yield f"d{number}", _Z_AXIS, True, row.d, None
+        yield f"a{number}", _X_AXIS, True, row.a, None
+        yield f"alpha{number}", _X_AXIS, False, row.alpha, None
     tool = space.table.tool
     yaw, pitch, roll = Rotation.from_matrix(tool[:3, :3]).as_euler("ZYX", suppress_warnings=True)
     for name, axis, value in zip(("x", "y", "z"), np.eye(3), tool[:3, 3], strict=True):
         yield f"tool.{name}", axis, True, float(value), None
-    for name, axis, value in (("yaw", _Z, yaw), ("pitch", _Y, pitch), ("roll", _X, roll)):
+    for name, axis, value in (("yaw", _Z_AXIS, yaw), ("pitch", _Y_AXIS, pitch), ("roll", _X_AXIS, roll)):
         yield f"tool.{name}", axis, False, float(value), None
 
 
-def _moved(axis: Array, sliding: bool, value: float) -> Array:
+def _make_transform(axis: Array, is_prismatic: bool, value: float) -> Array:
     from scipy.spatial.transform import Rotation
 
-    out = np.eye(4)
-    if sliding:
-        out[:3, 3] = axis * value
+    transform = np.eye(4)
+    if is_prismatic:
+        transform[:3, 3] = axis * value
     else:
-        out[:3, :3] = Rotation.from_rotvec(axis * value).as_matrix()
-    return out
+        transform[:3, :3] = Rotation.from_rotvec(axis * value).as_matrix()
+    return transform

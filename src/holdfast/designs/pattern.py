@@ -1,4 +1,4 @@
-"""Search for a design by a measure that is not smooth: Sobol screening, designs with equal lengths, pattern search."""
+"""Search for a design with a measure that is not smooth: Sobol screening, designs with equal lengths, and pattern search."""
 
 from __future__ import annotations
 
@@ -13,152 +13,156 @@ from holdfast.designs.space import DesignSpace
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
-Measured = Callable[[Array], dict[str, Array]]
+MeasureFunction = Callable[[Array], dict[str, Array]]
 
-_FIRST, _LAST = 1 / 8, 1 / 128  # steps of the pattern search, of the width of the bounds
-_SAME = 1e-9
-_DRAWS = 64  # times as many drawn as wanted, at most, where the sum is kept
+_FIRST_STEP, _LAST_STEP = 1 / 8, 1 / 128  # steps of the pattern search, of the width of the bounds
+_BOUND_TOLERANCE = 1e-9
+_MAX_DRAW_FACTOR = 64  # times as many drawn as wanted, at most, where the sum is kept
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
-    """The designs that are allowed.
+class DesignBounds:
+    """Admissible designs: bounds of the parameters and, optionally, a fixed sum of the lengths.
 
     Attributes:
         space: Parameters and their bounds.
-        total: Sum that lengths keep; None: none.
+        length_sum: Sum that lengths keep; None: none.
     """
 
     space: DesignSpace
-    total: float | None
+    length_sum: float | None
 
     @classmethod
-    def read(cls, space: DesignSpace, keep_reach: bool) -> Box:
-        """With the sum of the lengths of the given arm, if that is to be kept.
+    def from_space(cls, space: DesignSpace, keep_reach: bool) -> DesignBounds:
+        """Return the bounds of a space, with the sum of the lengths of the baseline arm if ``keep_reach`` is true.
 
         Raises:
             InputError: A sum that cannot be kept.
         """
-        box = cls(space, float(space.start.sum()) if keep_reach else None)
-        if keep_reach and (box.lengths.sum() < 2 or not box.lengths.all()):
+        bounds = cls(space, float(space.start.sum()) if keep_reach else None)
+        if keep_reach and (bounds.is_length.sum() < 2 or not bounds.is_length.all()):
             raise InputError("keep_reach needs two or more varied link lengths, and nothing else varied")
-        return box
+        return bounds
 
     @property
     def size(self) -> int:
-        """K."""
+        """Number of parameters."""
         return len(self.space.parameters)
 
     @property
-    def lengths(self) -> NDArray[np.bool_]:
-        """(k,) which parameters are link lengths."""
-        return np.array([p.kind == "a" for p in self.space.parameters])
+    def is_length(self) -> NDArray[np.bool_]:
+        """(k,) True for parameters that are link lengths."""
+        return np.array([parameter.kind == "a" for parameter in self.space.parameters])
 
-    def holds(self, values: Array) -> NDArray[np.bool_]:
-        """(N,) whether designs (N, k) are within the bounds."""
-        return np.asarray(((values >= self.space.lower - _SAME) & (values <= self.space.upper + _SAME)).all(axis=1))
+    def contains(self, values: Array) -> NDArray[np.bool_]:
+        """Return (N,) whether designs (N, k) are within the bounds."""
+        return np.asarray(
+            ((values >= self.space.lower - _BOUND_TOLERANCE) & (values <= self.space.upper + _BOUND_TOLERANCE)).all(axis=1)
+        )
 
-    def draw(self, count: int, seed: int) -> Array:
-        """(count, k) designs of a scrambled Sobol sequence; where a sum is kept, the last one follows from the others."""
+    def sample_designs(self, count: int, seed: int) -> Array:
+        """Return designs (count, k) of a scrambled Sobol sequence; with a fixed sum the last length follows from the others."""
         from scipy.stats import qmc
 
-        if self.total is None:
+        if self.length_sum is None:
             return self.space.draw(count, seed)
-        low, width = self.space.lower[:-1], (self.space.upper - self.space.lower)[:-1]
+        lower, width = self.space.lower[:-1], (self.space.upper - self.space.lower)[:-1]
         engine = qmc.Sobol(self.size - 1, rng=np.random.default_rng(seed))
-        found = np.empty((0, self.size))
-        for _ in range(_DRAWS):
-            values = low + engine.random(1 << (max(count, 2) - 1).bit_length()) * width
-            values = np.column_stack([values, self.total - values.sum(axis=1)])
-            found = np.concatenate([found, values[self.holds(values)]])[:count]
-            if len(found) == count:
+        designs = np.empty((0, self.size))
+        for _ in range(_MAX_DRAW_FACTOR):
+            values = lower + engine.random(1 << (max(count, 2) - 1).bit_length()) * width
+            values = np.column_stack([values, self.length_sum - values.sum(axis=1)])
+            designs = np.concatenate([designs, values[self.contains(values)]])[:count]
+            if len(designs) == count:
                 break
-        return found
+        return designs
 
-    def levelled(self, values: Array) -> Array:
-        """Designs (N, k) with two lengths made equal to their mean, for every pair: (M, k), those within the bounds."""
-        made = [np.empty((0, self.size))]
-        for i, j in combinations(np.flatnonzero(self.lengths).tolist(), 2):
-            level = values.copy()
-            level[:, [i, j]] = values[:, [i, j]].mean(axis=1, keepdims=True)
-            made.append(level)
-        every = np.concatenate(made)
-        return every[self.holds(every)]
+    def equalise_lengths(self, values: Array) -> Array:
+        """Return designs (M, k) with two lengths of designs (N, k) replaced by their mean, for every pair, if within the
+        bounds.
+        """
+        equalised = [np.empty((0, self.size))]
+        for i, j in combinations(np.flatnonzero(self.is_length).tolist(), 2):
+            changed = values.copy()
+            changed[:, [i, j]] = values[:, [i, j]].mean(axis=1, keepdims=True)
+            equalised.append(changed)
+        designs = np.concatenate(equalised)
+        return designs[self.contains(designs)]
 
-    def moves(self) -> Array:
-        """(M, k) directions of the pattern search: one number up or down, two together or against each other."""
-        k = self.size
-        steps = [] if self.total is not None else [s * e for e in np.eye(k) for s in (1, -1)]
-        for i, j in combinations(range(k), 2):
-            for a, b in ((1, -1), (-1, 1)) if self.total is not None else ((1, -1), (-1, 1), (1, 1), (-1, -1)):
-                step = np.zeros(k)
-                step[i], step[j] = a, b
-                steps.append(step)
-        if self.total is not None:
+    def list_directions(self) -> Array:
+        """Return the directions (M, k) of the pattern search: one number up or down, or two together or against each other."""
+        dimension = self.size
+        directions = [] if self.length_sum is not None else [sign * unit for unit in np.eye(dimension) for sign in (1, -1)]
+        for i, j in combinations(range(dimension), 2):
+            for a, b in ((1, -1), (-1, 1)) if self.length_sum is not None else ((1, -1), (-1, 1), (1, 1), (-1, -1)):
+                direction = np.zeros(dimension)
+                direction[i], direction[j] = a, b
+                directions.append(direction)
+        if self.length_sum is not None:
             # Two equal ones stay equal while the third gives way.
-            for i, j in combinations(range(k), 2):
-                for other in set(range(k)) - {i, j}:
-                    step = np.zeros(k)
-                    step[[i, j]], step[other] = 0.5, -1.0
-                    steps += [step, -step]
-        return np.array(steps)
+            for i, j in combinations(range(dimension), 2):
+                for third in set(range(dimension)) - {i, j}:
+                    direction = np.zeros(dimension)
+                    direction[[i, j]], direction[third] = 0.5, -1.0
+                    directions += [direction, -direction]
+        return np.array(directions)
 
 
-def improved(
-    box: Box,
-    measured: Measured,
-    order: Sequence[str],
+def search_patterns(
+    bounds: DesignBounds,
+    measure: MeasureFunction,
+    priorities: Sequence[str],
     designs: int,
-    climbs: int,
+    local_searches: int,
     seed: int,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[Array, dict[str, Array]]:
-    """Screen, then improve the best.
+    """Screen designs, then improve the best of them by pattern search.
 
     Args:
-        box: The designs.
-        measured: From designs (N, k) to measures (N,) by name, the greater the better.
-        order: Names of measures, the first decides, the next of equals.
+        bounds: The designs.
+        measure: From designs (N, k) to measures (N,) by name, the greater the better.
+        priorities: Names of measures, the first decides, the next of equals.
         designs: Of the screening.
-        climbs: Designs to improve.
+        local_searches: Designs to improve.
         seed: Of the screening.
         progress: Called with (designs done, designs expected in all).
 
     Returns:
         All designs that were looked at, the given one first, and their measures.
     """
-    drawn = box.draw(designs, seed)
-    values = np.concatenate([box.space.start[None], drawn, box.levelled(drawn)])
-    expected = len(values) + climbs * len(box.moves()) * 6
-    seen = measured(values)
+    sampled = bounds.sample_designs(designs, seed)
+    values = np.concatenate([bounds.space.start[None], sampled, bounds.equalise_lengths(sampled)])
+    expected = len(values) + local_searches * len(bounds.list_directions()) * 6
+    measures = measure(values)
     if progress is not None:
         progress(len(values), max(expected, len(values)))
 
-    def score(k: int) -> tuple[float, ...]:
-        return tuple(round(float(seen[name][k]), 4 if name != order[-1] else 9) for name in order)
+    def score_design(number: int) -> tuple[float, ...]:
+        return tuple(round(float(measures[name][number]), 4 if name != priorities[-1] else 9) for name in priorities)
 
-    leaders = sorted(range(len(values)), key=score, reverse=True)[: max(climbs, 0)]
+    leaders = sorted(range(len(values)), key=score_design, reverse=True)[: max(local_searches, 0)]
     for leader in leaders:
-        at, step = leader, _FIRST
-        while step >= _LAST:
+        current, step_size = leader, _FIRST_STEP
+        while step_size >= _LAST_STEP:
             # Lengths are moved alike, so that a sum is kept; other numbers by their own width.
-            width = box.space.upper - box.space.lower
-            width = np.where(box.lengths, width[box.lengths].min(initial=np.inf), width)
-            trial = values[at] + step * width * box.moves()
-            trial = np.concatenate([trial, box.levelled(values[[at]])])
-            trial = trial[box.holds(trial)]
-            if not len(trial):
-                step /= 2
+            width = bounds.space.upper - bounds.space.lower
+            width = np.where(bounds.is_length, width[bounds.is_length].min(initial=np.inf), width)
+            trials = values[current] + step_size * width * bounds.list_directions()
+            trials = np.concatenate([trials, bounds.equalise_lengths(values[[current]])])
+            trials = trials[bounds.contains(trials)]
+            if not len(trials):
+                step_size /= 2
                 continue
-            found = measured(trial)
-            first = len(values)
-            values = np.concatenate([values, trial])
-            seen = {name: np.concatenate([seen[name], found[name]]) for name in seen}
-            best = max(range(first, len(values)), key=score)
-            if score(best) > score(at):
-                at = best
+            trial_measures = measure(trials)
+            first_trial = len(values)
+            values = np.concatenate([values, trials])
+            measures = {name: np.concatenate([measures[name], trial_measures[name]]) for name in measures}
+            best = max(range(first_trial, len(values)), key=score_design)
+            if score_design(best) > score_design(current):
+                current = best
             else:
-                step /= 2
+                step_size /= 2
             if progress is not None:
                 progress(len(values), max(expected, len(values)))
-    return values, seen
+    return values, measures

@@ -1,4 +1,4 @@
-"""Where sinks hold planar arms of three joints, for all targets and any link lengths at once.
+"""Find the sinks of planar arms of three joints with one joint locked, for all targets and any link lengths at once.
 
 The reverse of :func:`holdfast.stationary_points`: not the stationary points of one target, but the targets of every stationary
 point. With joint i locked the arm can only rest where the columns of the two healthy joints line up, ``rank(iJ) = 1``: a curve
@@ -39,17 +39,17 @@ from holdfast.reach.closed_form import ThreeLinks
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-TURN = 2 * np.pi
-_TINY = 1e-7  # of the reach: intervals of radii shorter than this are rounding
-ANGLES = 120  # values of the angle that is run through, in half a turn
-_CHUNK = 16  # designs analysed together
+FULL_TURN_RAD = 2 * np.pi
+_MIN_INTERVAL_FRACTION = 1e-7  # of the reach: intervals of radii shorter than this are rounding
+ANGLE_COUNT = 120  # values of the angle that is run through, in half a turn
+_CHUNK_DESIGNS = 16  # designs analysed together
 # Of each locked joint: the angle that is run through and the one that is solved for, as joints from 0.
-_RUN, _SOLVED = (1, 1, 2), (2, 2, 1)
+_SWEPT_JOINTS, _SOLVED_JOINTS = (1, 1, 2), (2, 2, 1)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Radial:
-    """What locks leave of targets at K distances, for D designs.
+    """Effect of locks on targets at K distances, for D designs.
 
     Attributes:
         radii: (K + 1,) borders of the rings of targets, m.
@@ -69,18 +69,20 @@ class Radial:
 
     @property
     def guaranteed(self) -> Flags:
-        """(D, K) the healthy arm reaches the ring, and whichever joint locks, nothing holds it while the target is in reach."""
+        """(D, K) True where the healthy arm reaches the ring and, for any locked joint, nothing stops the arm short of a
+        reachable target.
+        """
         return np.asarray(self.reached & self.clear.all(axis=1))
 
     @property
     def area(self) -> Array:
-        """(K,) share of each ring in the area of all."""
+        """(K,) fraction of each ring in the total area."""
         squares = self.radii**2
         return np.asarray(np.diff(squares) / (squares[-1] - squares[0]))
 
 
-class PlanarRest:
-    """The stuck sets of one law on planar arms of three links.
+class PlanarStationarySets:
+    """Stuck sets of one law on planar arms of three links.
 
     Args:
         law: A pseudoinverse, a weighted inverse with weights for each joint, or a damped inverse, of an arm with three revolute
@@ -91,85 +93,92 @@ class PlanarRest:
     """
 
     def __init__(self, law: Law) -> None:
-        form = law.quadratic()
-        if form is None or not np.array_equal(form[0], np.diag(np.diag(form[0]))):
+        quadratic = law.quadratic()
+        if quadratic is None or not np.array_equal(quadratic[0], np.diag(np.diag(quadratic[0]))):
             raise InputError(
                 f"where the {law.name} rests is not known in closed form; use the pseudoinverse, the damped inverse, or the "
                 "weighted inverse with a weight for each joint, or sample: exact=False"
             )
-        found = ThreeLinks.of(law.arm, law.task)
-        if found is None:
+        arm_links = ThreeLinks.from_task(law.arm, law.task)
+        if arm_links is None:
             raise InputError(
                 f"'{law.arm.name}' is not a planar arm of three revolute joints that turn all the way, with its position as "
                 "the task; sample: exact=False"
             )
-        self.law, self.lengths = law, found.lengths
-        self._a, self._damping = np.diag(form[0]), form[1]
+        self.law, self.lengths = law, arm_links.lengths
+        self._joint_weights, self._damping = np.diag(quadratic[0]), quadratic[1]
         rows = [DH(a=1.0, alpha=0.0) for _ in range(3)]
-        self._joints = DesignJoints.of(design_space(Arm.from_dh(rows), {f"a{k}": (0.0, 2.0) for k in (1, 2, 3)}))
+        self._design_joints = DesignJoints.of(
+            design_space(Arm.from_dh(rows), {f"a{number}": (0.0, 2.0) for number in (1, 2, 3)})
+        )
 
     @cached_property
     def _kernels(self) -> tuple[Kernel, Kernel]:
-        """Jacobian and tool of (q, lengths); the linearisation by q and by the error, for an error along a direction."""
-        arm, moving = self._joints.whole, self._joints.moving.tolist()
+        """Jacobian and tool of (q, lengths), and the linearisation by q and by the error, for an error along a direction."""
+        arm, moving = self._design_joints.whole, self._design_joints.moving.tolist()
         q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", 2)
         # As the law sees it: in units of the task's characteristic length.
-        j = kinematics.jacobian(arm, q)[:2, moving] / self.law.task.length
-        rates = self.law.inverse(j, v / self.law.task.length)
+        jacobian = kinematics.world_jacobian(arm, q)[:2, moving] / self.law.task.length
+        rates = self.law.inverse(jacobian, v / self.law.task.length)
         tool = kinematics.tool_pose(arm, q)[:2, 3]
-        moved = -ca.jacobian(rates, v) @ kinematics.jacobian(arm, q)[:2, moving]
+        tool_rates = -ca.jacobian(rates, v) @ kinematics.world_jacobian(arm, q)[:2, moving]
         return (
-            Kernel("rest shapes", [q], [j, tool]),
-            Kernel("rest slopes", [q, v], [ca.jacobian(rates, q)[:, moving], moved]),
+            Kernel("rest shapes", [q], [jacobian, tool]),
+            Kernel("rest slopes", [q, v], [ca.jacobian(rates, q)[:, moving], tool_rates]),
         )
 
-    def radial(self, lengths: Array, radii: Array, angles: int = ANGLES) -> Radial:
-        """What locks leave of targets in rings.
+    def radial(self, lengths: Array, radii: Array, angles: int = ANGLE_COUNT) -> Radial:
+        """Compute the effect of locks on targets in rings.
 
         Args:
             lengths: (D, 3) of the links, above 0, m.
             radii: (K + 1,) ascending borders of the rings, m.
             angles: At how many values in half a turn the angle that is run through is looked at.
         """
-        chunks = [self._radial(lengths[k : k + _CHUNK], radii, angles) for k in range(0, len(lengths), _CHUNK)]
-        in_reach, stuck, clear = (np.concatenate([c[k] for c in chunks]) for k in range(3))
-        longest, every = lengths.max(axis=1)[:, None], lengths.sum(axis=1)[:, None]
-        reached = (radii[:-1] >= 2 * longest - every - 1e-9) & (radii[1:] <= every + 1e-9)
+        chunks = [
+            self._analyse_chunk(lengths[start : start + _CHUNK_DESIGNS], radii, angles)
+            for start in range(0, len(lengths), _CHUNK_DESIGNS)
+        ]
+        in_reach, stuck, clear = (np.concatenate([chunk[start] for chunk in chunks]) for start in range(3))
+        longest, total = lengths.max(axis=1)[:, None], lengths.sum(axis=1)[:, None]
+        reached = (radii[:-1] >= 2 * longest - total - 1e-9) & (radii[1:] <= total + 1e-9)
         return Radial(radii=radii, in_reach=in_reach, stuck=stuck, clear=clear > 0, reached=reached)
 
-    def _radial(self, lengths: Array, radii: Array, angles: int) -> tuple[Array, Array, Array]:
-        parts = [self._joint(_Shapes.of(self, lengths, i, angles), radii, angles) for i in range(3)]
-        in_reach, stuck, clear = (np.stack([p[k] for p in parts], axis=1) for k in range(3))
+    def _analyse_chunk(self, lengths: Array, radii: Array, angles: int) -> tuple[Array, Array, Array]:
+        parts = [self._analyse_lock(_RestShapes.build(self, lengths, joint, angles), radii, angles) for joint in range(3)]
+        in_reach, stuck, clear = (np.stack([part[k] for part in parts], axis=1) for k in range(3))
         return in_reach, stuck, clear
 
-    def _joint(self, shapes: _Shapes, radii: Array, angles: int) -> tuple[Array, Array, Array]:
-        """In reach, stuck and clear (D, K) of one locked joint."""
-        clear = ~shapes.touched(radii)
+    def _analyse_lock(self, shapes: _RestShapes, radii: Array, angles: int) -> tuple[Array, Array, Array]:
+        """Return in-reach and stuck fractions and the clear flags (D, K) of one locked joint."""
+        clear = ~shapes.find_sink_rings(radii)
         in_reach, stuck = np.zeros((2, len(shapes.lengths), radii.size - 1))
-        for k, (low, high) in enumerate(pairwise(radii.tolist())):
-            _, reach, held = self._held(shapes, (low + high) / 2, angles)
-            in_reach[:, k], stuck[:, k] = reach.mean(axis=1), held.mean(axis=1)
+        for index, (inner, outer) in enumerate(pairwise(radii.tolist())):
+            _, in_reach_at, stuck_at = self._find_stuck_angles(shapes, (inner + outer) / 2, angles)
+            in_reach[:, index], stuck[:, index] = in_reach_at.mean(axis=1), stuck_at.mean(axis=1)
             if shapes.joint == 0 and not self._damping:
-                for r in (low, high):
-                    locked = _cells(angles)
-                    trapped = self._trapped(shapes.lengths, r, locked) & shapes.within_first(r, locked)
-                    clear[:, k] &= ~trapped.any(axis=1)
-            clear[:, k] &= ~held.any(axis=1)
+                for radius in (inner, outer):
+                    locked = _make_lock_angles(angles)
+                    trapped = self._find_traps(shapes.lengths, radius, locked) & shapes.are_in_reach_first(radius, locked)
+                    clear[:, index] &= ~trapped.any(axis=1)
+            clear[:, index] &= ~stuck_at.any(axis=1)
         return in_reach, stuck, clear.astype(float)
 
-    def _held(self, shapes: _Shapes, r: float, angles: int) -> tuple[Array, Flags, Flags]:
-        """Locked angles (A,); (D, A) where targets at distance r are in reach, and where the arm can get stuck besides."""
+    def _find_stuck_angles(self, shapes: _RestShapes, r: float, angles: int) -> tuple[Array, Flags, Flags]:
+        """Return the locked angles (A,), and (D, A) where targets at distance r are in reach, and where the arm can also get
+        stuck.
+        """
         if shapes.joint:
-            reach = shapes.within(r)
-            return shapes.angle, reach, shapes.held(r).any(axis=(1, 2)) & reach
-        locked = _cells(angles)
-        reach, held = shapes.within_first(r, locked), shapes.held_first(r, locked.size)
+            in_reach = shapes.are_in_reach(r)
+            return shapes.angle, in_reach, shapes.have_sinks(r).any(axis=(1, 2)) & in_reach
+        locked = _make_lock_angles(angles)
+        in_reach, is_stuck = shapes.are_in_reach_first(r, locked), shapes.have_sinks_first(r, locked.size)
         if not self._damping:
-            held |= self._trapped(shapes.lengths, r, locked)
-        return locked, reach, held & reach
+            is_stuck |= self._find_traps(shapes.lengths, r, locked)
+        return locked, in_reach, is_stuck & in_reach
 
-    def locked(self, lengths: Array, r: float, angles: int = ANGLES) -> list[tuple[Array, Flags, Flags]]:
-        """What locks at every angle leave of the targets at one distance, for one design.
+    def analyse_distance(self, lengths: Array, r: float, angles: int = ANGLE_COUNT) -> list[tuple[Array, Flags, Flags]]:
+        """Return the effect of locks at every angle on the targets at one distance, for one design.
 
         Args:
             lengths: (3,) of the links, above 0, m.
@@ -181,200 +190,221 @@ class PlanarRest:
             3 in half a turn, as the other half is the mirror image); (A,) where the target is in reach; (A,) where it is, and
             the arm can get stuck.
         """
-        found = [self._held(_Shapes.of(self, lengths[None], i, angles), r, angles) for i in range(3)]
-        return [(at, reach[0], held[0]) for at, reach, held in found]
+        results = [
+            self._find_stuck_angles(_RestShapes.build(self, lengths[None], joint, angles), r, angles) for joint in range(3)
+        ]
+        return [(angle, in_reach[0], is_stuck[0]) for angle, in_reach, is_stuck in results]
 
-    def _trapped(self, lengths: Array, r: float, locked: Array) -> Flags:
-        """(D, A) whether a singular trap draws the arm in, with joint 1 at angles (A,) from the direction to the target."""
+    def _find_traps(self, lengths: Array, r: float, locked: Array) -> Flags:
+        """Return (D, A) whether a singular trap attracts the arm, with joint 1 at angles (A,) from the direction to
+        the target.
+        """
         first, second, third = lengths.T
-        a1, a2, a3 = self._a
-        out = np.zeros((len(lengths), locked.size), dtype=bool)
-        for s2 in (1, -1):
-            for s3 in (1, -1):
-                c2, c3 = s2 * second + s3 * third, s3 * third
+        a1, a2, a3 = self._joint_weights
+        trapped = np.zeros((len(lengths), locked.size), dtype=bool)
+        for sign2 in (1, -1):
+            for sign3 in (1, -1):
+                c2, c3 = sign2 * second + sign3 * third, sign3 * third
                 c1 = first + c2  # the end effector, along link 1
                 norm = np.maximum(a1 * c1**2 + a2 * c2**2 + a3 * c3**2, 1e-300)
                 # Sideways the joints move the end effector by c; along the links by -B d, less what goes with c.
                 b = -np.array([[c2, c3], [c3, c3]])
-                off = np.array([[1 - c2 * (a1 * c1 + a2 * c2) / norm, -c2 * a3 * c3 / norm]])
-                off = np.concatenate([off, [[-c3 * (a1 * c1 + a2 * c2) / norm, 1 - c3 * a3 * c3 / norm]]])
-                m = np.einsum("i,ijd,jkd->ikd", np.array([a2, a3]), off, b)
+                projection = np.array([[1 - c2 * (a1 * c1 + a2 * c2) / norm, -c2 * a3 * c3 / norm]])
+                projection = np.concatenate([projection, [[-c3 * (a1 * c1 + a2 * c2) / norm, 1 - c3 * a3 * c3 / norm]]])
+                m = np.einsum("i,ijd,jkd->ikd", np.array([a2, a3]), projection, b)
                 trace, det = m[0, 0] + m[1, 1], m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
                 pull = r * np.cos(locked) - c1[:, None]
                 # With the end effector on the first joint the determinant is 0, and such points were seen to trap too.
-                out |= (det > -ZERO_BAND * trace**2)[:, None] & (pull * trace[:, None] < 0)
-        return out
+                trapped |= (det > -ZERO_BAND * trace**2)[:, None] & (pull * trace[:, None] < 0)
+        return trapped
 
 
 @dataclass(frozen=True, eq=False)
-class _Shapes:
-    """Shapes of rest of D designs with one joint locked, at S values of the angle run through, on 2 branches.
+class _RestShapes:
+    """Rest shapes of D designs with one joint locked, at S values of the swept angle, on 2 branches.
 
     Attributes:
         lengths: (D, 3).
         joint: The locked one, from 0.
         angle: (S,) the angle run through; for joints 2 and 3 it is the locked one.
-        tool, along: (D, 2, S, 2) the tool point and the direction b, link 1 along x.
+        tool, direction: (D, 2, S, 2) the tool point and the direction b, link 1 along x.
         trace: Two (D, 2, S): of M0 and of M1.
         det: Three (D, 2, S): of 1, lambda and lambda^2.
-        reach: Two (D, 2, S): from the end effector to the middle about which the two links turn that are left, its product with
-            b and its square.
-        low, high: (D, 2, S) between which distances from the middle they reach.
+        reach_terms: Two (D, 2, S): from the end effector to the middle about which the two links turn that are left, its
+            product with b and its square.
+        lower, upper: (D, 2, S) between which distances from the middle they reach.
     """
 
     lengths: Array
     joint: int
     angle: Array
     tool: Array
-    along: Array
+    direction: Array
     trace: tuple[Array, Array]
     det: tuple[Array, Array, Array]
-    reach: tuple[Array, Array]
-    low: Array
-    high: Array
+    reach_terms: tuple[Array, Array]
+    lower: Array
+    upper: Array
 
     @classmethod
-    def of(cls, rest: PlanarRest, lengths: Array, joint: int, angles: int) -> _Shapes:
-        jacobian, slopes = rest._kernels
-        joints, count = rest._joints, len(lengths)
+    def build(cls, planar_rest: PlanarStationarySets, lengths: Array, joint: int, angles: int) -> _RestShapes:
+        shape_kernel, linear_kernel = planar_rest._kernels
+        joints, count = planar_rest._design_joints, len(lengths)
         # The other half turn is the mirror image.
         angle = (np.arange(angles) + 0.5) / angles * np.pi
-        healthy = [k for k in range(3) if k != joint]
+        healthy = [index for index in range(3) if index != joint]
 
-        def at(solved: Array | float) -> Array:
+        def make_configurations(solved: Array | float) -> Array:
             q = np.zeros((count, angles, joints.whole.n))
             q[..., joints.varied] = lengths[:, None]
-            q[..., joints.moving[_RUN[joint]]] = angle
-            q[..., joints.moving[_SOLVED[joint]]] = solved
+            q[..., joints.moving[_SWEPT_JOINTS[joint]]] = angle
+            q[..., joints.moving[_SOLVED_JOINTS[joint]]] = solved
             return q.reshape(-1, joints.whole.n)
 
-        def across(solved: float) -> Array:
-            j, _ = jacobian(at(solved))
+        def healthy_determinant(solved: float) -> Array:
+            j, _ = shape_kernel(make_configurations(solved))
             return np.asarray(np.linalg.det(j[:, :, healthy]).reshape(count, angles))
 
         # The determinant of the healthy columns is a sine of the angle that is solved for: two values tell its zeros.
-        zero = np.arctan2(-across(0.0), across(np.pi / 2))
+        root_angle = np.arctan2(-healthy_determinant(0.0), healthy_determinant(np.pi / 2))
         branches = []
-        for turn in (0.0, np.pi):
-            q = at(zero + turn)
-            j, tool = jacobian(q)
-            columns = j[:, :, healthy]
+        for half_turn in (0.0, np.pi):
+            q = make_configurations(root_angle + half_turn)
+            jacobian, tool = shape_kernel(q)
+            columns = jacobian[:, :, healthy]
             longer = columns[np.arange(len(q)), :, np.argmax(np.linalg.norm(columns, axis=1), axis=1)]
-            u = np.stack([-longer[:, 1], longer[:, 0]], axis=1)
-            u /= np.linalg.norm(u, axis=1, keepdims=True)
-            b = np.einsum("nij,j,nkj,nk->ni", j, rest._a, j, u) + rest._damping * u
+            normal = np.stack([-longer[:, 1], longer[:, 0]], axis=1)
+            normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+            b = (
+                np.einsum("nij,j,nkj,nk->ni", jacobian, planar_rest._joint_weights, jacobian, normal)
+                + planar_rest._damping * normal
+            )
             b /= np.linalg.norm(b, axis=1, keepdims=True)
-            by_q, by_hand = slopes(q, b)
-            m0, m1 = (m[:, healthy][:, :, healthy] for m in (by_hand, by_q))
+            by_q, by_error = linear_kernel(q, b)
+            m0, m1 = (m[:, healthy][:, :, healthy] for m in (by_error, by_q))
             d0, d2 = np.linalg.det(m0), np.linalg.det(m1)
-            one = (tool, b, np.trace(m0, 0, 1, 2), np.trace(m1, 0, 1, 2), d0, np.linalg.det(m0 + m1) - d0 - d2, d2)
-            branches.append([x.reshape(count, angles, *x.shape[1:]) for x in one])
-        tool, along, t0, t1, d0, d1, d2 = (np.stack([b[k] for b in branches], axis=1) for k in range(7))
-        first, second, third = (lengths[:, k, None, None] for k in range(3))
-        centre = np.zeros_like(tool)
+            branch = (tool, b, np.trace(m0, 0, 1, 2), np.trace(m1, 0, 1, 2), d0, np.linalg.det(m0 + m1) - d0 - d2, d2)
+            branches.append([values.reshape(count, angles, *values.shape[1:]) for values in branch])
+        tool, direction, t0, t1, d0, d1, d2 = (np.stack([b[index] for b in branches], axis=1) for index in range(7))
+        first, second, third = (lengths[:, index, None, None] for index in range(3))
+        center = np.zeros_like(tool)
         if joint == 0:
-            centre[..., 0] = first
-            one_link, other = second, third
+            center[..., 0] = first
+            one_link, other_link = second, third
         elif joint == 1:
-            one_link, other = np.abs(first + second * np.exp(1j * angle)), third
+            one_link, other_link = np.abs(first + second * np.exp(1j * angle)), third
         else:
-            one_link, other = first, np.abs(second + third * np.exp(1j * angle))
-        low, high = (np.broadcast_to(x, tool.shape[:3]) for x in (np.abs(one_link - other), one_link + other))
-        away = tool - centre
-        reach = (away * along).sum(-1), (away**2).sum(-1)
-        return cls(lengths, joint, angle, tool, along, (t0, t1), (d0, d1, d2), reach, low, high)
+            one_link, other_link = first, np.abs(second + third * np.exp(1j * angle))
+        lower, upper = (
+            np.broadcast_to(values, tool.shape[:3]) for values in (np.abs(one_link - other_link), one_link + other_link)
+        )
+        offset = tool - center
+        reach_terms = (offset * direction).sum(-1), (offset**2).sum(-1)
+        return cls(lengths, joint, angle, tool, direction, (t0, t1), (d0, d1, d2), reach_terms, lower, upper)
 
-    def sinks(self, far: Array) -> Flags:
-        """(D, 2, S) whether the stationary point is a sink whose target is ``far`` (D, 2, S) along b, and is in reach."""
+    def are_sinks(self, offsets: Array) -> Flags:
+        """Return (D, 2, S) whether the stationary point is a sink whose target is ``offsets`` (D, 2, S) along b, and is in
+        reach.
+        """
         with np.errstate(invalid="ignore"):
-            trace = self.trace[0] + far * self.trace[1]
-            det = self.det[0] + far * (self.det[1] + far * self.det[2])
+            trace = self.trace[0] + offsets * self.trace[1]
+            det = self.det[0] + offsets * (self.det[1] + offsets * self.det[2])
             slowest = (trace + np.sqrt(np.maximum(trace**2 - 4 * det, 0.0))) / 2
-            distance = self.reach[1] + far * (2 * self.reach[0] + far)
-            sink = (trace < 0) & (slowest < -ZERO_BAND * np.maximum(1.0, np.abs(trace)))
-            return np.asarray(sink & (distance >= self.low**2) & (distance <= self.high**2))
+            distance = self.reach_terms[1] + offsets * (2 * self.reach_terms[0] + offsets)
+            is_sink = (trace < 0) & (slowest < -ZERO_BAND * np.maximum(1.0, np.abs(trace)))
+            return np.asarray(is_sink & (distance >= self.lower**2) & (distance <= self.upper**2))
 
     @cached_property
-    def _line(self) -> tuple[Array, Array]:
-        middle = (self.tool * self.along).sum(-1)
-        return middle, middle**2 - (self.tool**2).sum(-1)
+    def _line_terms(self) -> tuple[Array, Array]:
+        projection = (self.tool * self.direction).sum(-1)
+        return projection, projection**2 - (self.tool**2).sum(-1)
 
-    def _far(self, r: float) -> Array:
-        """(D, 2, 2, S) the two ways along b to a target at distance r; NaN where there is none."""
-        middle, least = self._line
+    def _find_target_offsets(self, r: float) -> Array:
+        """Return both distances (D, 2, 2, S) along b to a target at distance r; NaN where there is none."""
+        projection, root_offset = self._line_terms
         with np.errstate(invalid="ignore"):
-            root = np.sqrt(least + r * r)
-        return np.stack([-middle - root, -middle + root], axis=2)
+            half_chord = np.sqrt(root_offset + r * r)
+        return np.stack([-projection - half_chord, -projection + half_chord], axis=2)
 
-    def held(self, r: float) -> Flags:
-        """(D, 2, 2, S) whether there is a sink for targets at distance r, on each branch and either way."""
-        far = self._far(r)
-        return np.stack([self.sinks(far[:, :, k]) for k in range(2)], axis=2)
+    def have_sinks(self, r: float) -> Flags:
+        """Return (D, 2, 2, S) whether there is a sink for targets at distance r, on each branch and in both directions."""
+        offsets = self._find_target_offsets(r)
+        return np.stack([self.are_sinks(offsets[:, :, side]) for side in range(2)], axis=2)
 
-    def within(self, r: float) -> Flags:
-        """(D, S) whether targets at distance r are in reach with joint 2 or 3 locked at the angles run through."""
-        return np.asarray((self.low[:, 0] <= r) & (r <= self.high[:, 0]))
+    def are_in_reach(self, r: float) -> Flags:
+        """Return (D, S) whether targets at distance r are in reach with joint 2 or 3 locked at the swept angles."""
+        return np.asarray((self.lower[:, 0] <= r) & (r <= self.upper[:, 0]))
 
-    def within_first(self, r: float, locked: Array) -> Flags:
-        """(D, A) likewise with joint 1 locked at angles (A,) from the direction to the target."""
-        away = np.abs(r * np.exp(1j * locked) - self.lengths[:, :1])
-        return np.asarray((self.low[:, 0, :1] <= away) & (away <= self.high[:, 0, :1]))
+    def are_in_reach_first(self, r: float, locked: Array) -> Flags:
+        """Return (D, A) whether targets at distance r are in reach with joint 1 locked at angles (A,) from the direction to the
+        target.
+        """
+        distance = np.abs(r * np.exp(1j * locked) - self.lengths[:, :1])
+        return np.asarray((self.lower[:, 0, :1] <= distance) & (distance <= self.upper[:, 0, :1]))
 
-    def held_first(self, r: float, cells: int) -> Flags:
-        """(D, cells) at which angles of joint 1 from the direction to a target at distance r there is a sink."""
-        far, held = self._far(r), self.held(r)
-        place = self.tool[:, :, None] + far[..., None] * self.along[:, :, None]
+    def have_sinks_first(self, r: float, cells: int) -> Flags:
+        """Return (D, cells) whether there is a sink, by the angle of joint 1 from the direction to a target at distance r."""
+        offsets, has_sink = self._find_target_offsets(r), self.have_sinks(r)
+        position = self.tool[:, :, None] + offsets[..., None] * self.direction[:, :, None]
         # Where along the circle the curve is, in cells; from one point to the next it covers what lies between.
-        at = (np.arctan2(-place[..., 1], place[..., 0]) % TURN) / TURN * cells
-        step = (np.diff(at, axis=-1) + cells / 2) % cells - cells / 2
-        both = held[..., :-1] & held[..., 1:] & (np.abs(step) < cells / 8)
-        start = np.where(step < 0, at[..., :-1] + step, at[..., :-1]) + 2 * cells
+        cell_position = (np.arctan2(-position[..., 1], position[..., 0]) % FULL_TURN_RAD) / FULL_TURN_RAD * cells
+        step = (np.diff(cell_position, axis=-1) + cells / 2) % cells - cells / 2
+        both = has_sink[..., :-1] & has_sink[..., 1:] & (np.abs(step) < cells / 8)
+        start = np.where(step < 0, cell_position[..., :-1] + step, cell_position[..., :-1]) + 2 * cells
         first, last = (
             np.floor(np.where(both, start, 0)).astype(int),
             np.floor(np.where(both, start + np.abs(step), 0)).astype(int),
         )
-        edges = np.zeros((len(far), 5 * cells))
-        design = np.broadcast_to(np.arange(len(far))[:, None, None, None], both.shape)
+        edges = np.zeros((len(offsets), 5 * cells))
+        design = np.broadcast_to(np.arange(len(offsets))[:, None, None, None], both.shape)
         np.add.at(edges, (design[both], first[both]), 1)
         np.add.at(edges, (design[both], last[both] + 1), -1)
-        covered: Flags = np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(far), 5, cells).any(axis=1))
+        covered: Flags = np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(offsets), 5, cells).any(axis=1))
         return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
-    def touched(self, radii: Array) -> Flags:
-        """(D, K) whether any target in a ring has a sink within its reach: by intervals of lambda, exact at each shape."""
-        xb, xx = (self.tool * self.along).sum(-1), (self.tool**2).sum(-1)
-        yb, yy = self.reach
-        one = np.ones_like(xb)
+    def find_sink_rings(self, radii: Array) -> Flags:
+        """Return (D, K) whether any target in a ring has a sink within its reach, by intervals of lambda, exact at
+        each shape.
+        """
+        xb, xx = (self.tool * self.direction).sum(-1), (self.tool**2).sum(-1)
+        yb, yy = self.reach_terms
+        ones = np.ones_like(xb)
         with np.errstate(divide="ignore", invalid="ignore"):
-            ends = [*_roots(self.det[2], self.det[1], self.det[0]), -self.trace[0] / self.trace[1], -xb, 0 * xb]
-            for border in (self.low, self.high):
-                ends += _roots(one, 2 * yb, yy - border**2)
+            ends = [*_solve_quadratic(self.det[2], self.det[1], self.det[0]), -self.trace[0] / self.trace[1], -xb, 0 * xb]
+            for border in (self.lower, self.upper):
+                ends += _solve_quadratic(ones, 2 * yb, yy - border**2)
         cuts = np.sort(np.stack(ends, axis=-1), axis=-1)  # NaN last
         middle = (cuts[..., 1:] + cuts[..., :-1]) / 2
-        held = np.stack([self.sinks(middle[..., k]) for k in range(middle.shape[-1])], axis=-1)
+        has_sink = np.stack([self.are_sinks(middle[..., index]) for index in range(middle.shape[-1])], axis=-1)
         distance = np.sqrt(np.maximum(xx[..., None] + cuts * (2 * xb[..., None] + cuts), 0.0))
-        near, far = np.minimum(distance[..., 1:], distance[..., :-1]), np.maximum(distance[..., 1:], distance[..., :-1])
-        held &= far - near > _TINY * self.lengths.sum(axis=1)[:, None, None, None]
+        nearest, farthest = np.minimum(distance[..., 1:], distance[..., :-1]), np.maximum(distance[..., 1:], distance[..., :-1])
+        has_sink &= farthest - nearest > _MIN_INTERVAL_FRACTION * self.lengths.sum(axis=1)[:, None, None, None]
         # Between two neighbouring shapes the interval moves: what both have covers what lies between.
-        both = held[:, :, 1:] & held[:, :, :-1]
+        both_sinks = has_sink[:, :, 1:] & has_sink[:, :, :-1]
         pairs = [
-            (near, far, held),
-            (np.minimum(near[:, :, 1:], near[:, :, :-1]), np.maximum(far[:, :, 1:], far[:, :, :-1]), both),
+            (nearest, farthest, has_sink),
+            (
+                np.minimum(nearest[:, :, 1:], nearest[:, :, :-1]),
+                np.maximum(farthest[:, :, 1:], farthest[:, :, :-1]),
+                both_sinks,
+            ),
         ]
-        out = np.zeros((len(xb), radii.size + 1))
-        for low, high, wanted in pairs:
-            design = np.broadcast_to(np.arange(len(xb))[:, None, None, None], wanted.shape)[wanted]
-            np.add.at(out, (design, np.searchsorted(radii, low[wanted], side="right")), 1)
-            np.add.at(out, (design, np.minimum(np.searchsorted(radii, high[wanted], side="left") + 1, radii.size)), -1)
-        return np.asarray(np.cumsum(out, axis=1)[:, 1:-1] > 0.5)
+        changes = np.zeros((len(xb), radii.size + 1))
+        for lower, upper, selected in pairs:
+            design = np.broadcast_to(np.arange(len(xb))[:, None, None, None], selected.shape)[selected]
+            np.add.at(changes, (design, np.searchsorted(radii, lower[selected], side="right")), 1)
+            np.add.at(changes, (design, np.minimum(np.searchsorted(radii, upper[selected], side="left") + 1, radii.size)), -1)
+        return np.asarray(np.cumsum(changes, axis=1)[:, 1:-1] > 0.5)
 
 
-def _cells(angles: int) -> Array:
-    """Angles at which joint 1 locks, over a whole turn: that of the target can change quickly along a curve."""
-    return np.asarray((np.arange(6 * angles) + 0.5) / (6 * angles) * TURN)
+def _make_lock_angles(angles: int) -> Array:
+    """Return the angles at which joint 1 locks, over a full turn; the grid is fine because the target angle can change quickly
+    along a curve.
+    """
+    return np.asarray((np.arange(6 * angles) + 0.5) / (6 * angles) * FULL_TURN_RAD)
 
 
-def _roots(a: Array, b: Array, c: Array) -> list[Array]:
-    """The two roots of ``a x^2 + b x + c``; NaN where there are none."""
+def _solve_quadratic(a: Array, b: Array, c: Array) -> list[Array]:
+    """Return the two roots of ``a x^2 + b x + c``; NaN where there are none."""
     q = -0.5 * (b + np.where(b >= 0, 1.0, -1.0) * np.sqrt(b * b - 4 * a * c))
     return [q / a, c / q]

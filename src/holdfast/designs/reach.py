@@ -1,4 +1,6 @@
-"""How far designs reach: the largest distance of the tool point from the arm's base, within the joint limits, and its slope."""
+"""Compute the reach of designs, the largest distance of the tool point from the arm's base within the joint limits, and its
+gradient.
+"""
 
 from __future__ import annotations
 
@@ -12,18 +14,18 @@ from holdfast.designs.family import Family
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.linalg import dot
+from holdfast.kernels.recall import cached_kernel
+from holdfast.linalg import dot_product
 
 Array = NDArray[np.float64]
 
-_STARTS = 16
-_SWEEPS = 400
-_STILL = 1e-22  # squared change of the joints, rad or m, at which a row is done
+_START_COUNT = 16
+_MAX_SWEEPS = 400
+_CONVERGED_CHANGE = 1e-22  # squared change of the joints, rad or m, at which a row is done
 
 
-class Reaches:
-    """Reaches of all designs of a family, compiled once.
+class ReachEvaluator:
+    """Evaluator of the reach of all designs of a family, compiled once.
 
     Joint by joint the squared distance is a cosine of a revolute joint and a parabola of a sliding one, so the best value of a
     joint with the others held still has a closed form, within limits too. Sweeps over the joints only ever raise the distance.
@@ -35,96 +37,111 @@ class Reaches:
 
     def __init__(self, family: Family, seed: int = 0) -> None:
         self._family = family
-        self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,))).random((_STARTS, family.arm.n))
+        self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,))).random((_START_COUNT, family.arm.n))
 
     def __call__(self, values: Array, limits: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Reach (D,), m, and its gradient (D, k) by the designs.
+        """Return the reach (D,), m, and its gradient (D, k) by the designs.
 
         Args:
             values: (D, k).
             limits: Finite limits (D, n) to begin between, :meth:`holdfast.designs.Evaluator.finite_limits`.
         """
-        d, n = len(values), self._family.arm.n
-        low, high = limits
-        q = (low[:, None] + self._pool * (high - low)[:, None]).reshape(-1, n)
-        x = np.repeat(values, _STARTS, axis=0)
-        q = self._sweep.run(q, x, _STILL, _SWEEPS).state
-        found = self._distance.rows(q, x)
-        best = found[:, 0].reshape(d, _STARTS).argmax(axis=1) + np.arange(d) * _STARTS
-        return found[best, 0], found[best, 1 : 1 + len(self._family.space.parameters)] + self._by_limits(
-            values, q[best], found[best, 1 + len(self._family.space.parameters) :]
+        design_count, n = len(values), self._family.arm.n
+        lower, upper = limits
+        q = (lower[:, None] + self._pool * (upper - lower)[:, None]).reshape(-1, n)
+        designs = np.repeat(values, _START_COUNT, axis=0)
+        q = self._sweep_kernel.run(q, designs, _CONVERGED_CHANGE, _MAX_SWEEPS).state
+        outputs = self._distance_kernel.rows(q, designs)
+        best = outputs[:, 0].reshape(design_count, _START_COUNT).argmax(axis=1) + np.arange(design_count) * _START_COUNT
+        return outputs[best, 0], outputs[best, 1 : 1 + len(self._family.space.parameters)] + self._compute_limit_gradient(
+            values, q[best], outputs[best, 1 + len(self._family.space.parameters) :]
         )
 
-    def _by_limits(self, values: Array, q: Array, slope: Array) -> Array:
-        """What limits that are parameters add: a joint that is pushed against its limit follows it."""
-        low, high = self._family.limits(values)
-        added = np.zeros_like(values)
-        for i, p in enumerate(self._family.space.parameters):
-            if p.row is not None and p.kind == "lower":
-                added[:, i] = np.where((q[:, p.row] <= low[:, p.row]) & (slope[:, p.row] < 0), slope[:, p.row], 0.0)
-            elif p.row is not None and p.kind == "upper":
-                added[:, i] = np.where((q[:, p.row] >= high[:, p.row]) & (slope[:, p.row] > 0), slope[:, p.row], 0.0)
-        return added
+    def _compute_limit_gradient(self, values: Array, q: Array, gradient: Array) -> Array:
+        """Return the contribution of varied limits: a joint that is pushed against its limit follows the limit."""
+        lower, upper = self._family.limits(values)
+        contribution = np.zeros_like(values)
+        for index, parameter in enumerate(self._family.space.parameters):
+            if parameter.row is not None and parameter.kind == "lower":
+                contribution[:, index] = np.where(
+                    (q[:, parameter.row] <= lower[:, parameter.row]) & (gradient[:, parameter.row] < 0),
+                    gradient[:, parameter.row],
+                    0.0,
+                )
+            elif parameter.row is not None and parameter.kind == "upper":
+                contribution[:, index] = np.where(
+                    (q[:, parameter.row] >= upper[:, parameter.row]) & (gradient[:, parameter.row] > 0),
+                    gradient[:, parameter.row],
+                    0.0,
+                )
+        return contribution
 
     @cached_property
-    @recalled
-    def _distance(self) -> Kernel:
-        """(q, x) to the distance, its gradient by the design, and by the joints."""
+    @cached_kernel
+    def _distance_kernel(self) -> Kernel:
+        """(q, x) to the distance, its gradient by the design, and its gradient by the joints."""
         q = kinematics.joint_symbols(self._family.arm)
-        distance = ca.norm_2(self._from_base(q)[0])
-        slopes = [ca.gradient(distance, self._family.x), ca.gradient(distance, q)]
-        return Kernel("reach of designs", [q, self._family.x], [ca.vertcat(distance, *slopes)])
+        distance = ca.norm_2(self._trace_from_base(q)[0])
+        gradients = [ca.gradient(distance, self._family.x), ca.gradient(distance, q)]
+        return Kernel("reach of designs", [q, self._family.x], [ca.vertcat(distance, *gradients)])
 
-    def _from_base(self, q: SX) -> tuple[SX, list[SX], list[SX]]:
-        """Tool point, axes and points on them, seen from the base."""
-        c = kinematics.chain(self._family.arm, q)
-        base = kinematics.constant(self._family.arm.base[:3, 3])
-        return c.position - base, c.axes, [x - base for x in c.points]
+    def _trace_from_base(self, q: SX) -> tuple[SX, list[SX], list[SX]]:
+        """Return the tool point, the axes, and the points on the axes relative to the base."""
+        chain = kinematics.kinematic_chain(self._family.arm, q)
+        base = kinematics.constant_matrix(self._family.arm.base[:3, 3])
+        return chain.position - base, chain.axes, [x - base for x in chain.points]
 
     @cached_property
-    @recalled
-    def _sweep(self) -> Loop:
+    @cached_kernel
+    def _sweep_kernel(self) -> Loop:
         arm = self._family.arm
-        start = kinematics.joint_symbols(arm)
-        q = ca.vertsplit(start)
-        for k, joint in enumerate(arm.joints):
-            tool, axes, points = self._from_base(ca.vertcat(*q))
-            low, high = arm.lower[k], arm.upper[k]
-            z, p = axes[k], points[k]
+        start_q = kinematics.joint_symbols(arm)
+        q = ca.vertsplit(start_q)
+        for index, joint in enumerate(arm.joints):
+            tool, axes, points = self._trace_from_base(ca.vertcat(*q))
+            lower, upper = arm.lower[index], arm.upper[index]
+            axis, point = axes[index], points[index]
             if joint.prismatic:
                 # A parabola that opens upwards: the farther end is best; without limits there is no farthest point.
-                ends = [(x - q[k]) for x in (low, high)]
-                far = [2 * step * ca.dot(z, tool) + step * step for step in ends]
-                q[k] = ca.if_else(far[0] > far[1], low, high)
+                end_steps = [(x - q[index]) for x in (lower, upper)]
+                gains = [2 * change * ca.dot(axis, tool) + change * change for change in end_steps]
+                q[index] = ca.if_else(gains[0] > gains[1], lower, upper)
                 continue
-            arm_from_axis = tool - p
-            across = arm_from_axis - z * ca.dot(z, arm_from_axis)
-            c, s = ca.dot(p, across), ca.dot(p, ca.cross(z, across))  # |tool|^2 = const + 2 (c cos + s sin)(turn)
-            flat = c * c + s * s > 1e-24
-            turn = ca.if_else(flat, ca.atan2(ca.if_else(flat, s, 0.0), ca.if_else(flat, c, 1.0)), 0.0)
-            q[k] = self._within(q[k], turn, c, s, low, high)
-        step = [x - y for x, y in zip(q, ca.vertsplit(start), strict=True)]
-        return Loop("sweep of reach", start, [self._family.x], next_state=ca.vertcat(*q), residual=dot(step, step))
+            arm_from_axis = tool - point
+            perpendicular = arm_from_axis - axis * ca.dot(axis, arm_from_axis)
+            cosine_part, sine_part = (
+                ca.dot(point, perpendicular),
+                ca.dot(point, ca.cross(axis, perpendicular)),
+            )  # |tool|^2 = const + 2 (c cos + s sin)(turn)
+            is_defined = cosine_part * cosine_part + sine_part * sine_part > 1e-24
+            rotation = ca.if_else(
+                is_defined, ca.atan2(ca.if_else(is_defined, sine_part, 0.0), ca.if_else(is_defined, cosine_part, 1.0)), 0.0
+            )
+            q[index] = self._choose_angle(q[index], rotation, cosine_part, sine_part, lower, upper)
+        change = [x - y for x, y in zip(q, ca.vertsplit(start_q), strict=True)]
+        return Loop(
+            "sweep of reach", start_q, [self._family.x], next_state=ca.vertcat(*q), residual=dot_product(change, change)
+        )
 
     @staticmethod
-    def _within(now: SX, turn: SX, c: SX, s: SX, low: SX, high: SX) -> SX:
-        """The best angle of a joint within its limits, if the best turn from here without limits is ``turn``."""
-        if not kinematics.limited(low) and not kinematics.limited(high):
-            return now + turn
+    def _choose_angle(current: SX, rotation: SX, cosine_part: SX, sine_part: SX, lower: SX, upper: SX) -> SX:
+        """Return the best angle of a joint within its limits, if ``rotation`` is the best rotation from here without limits."""
+        if not kinematics.is_limited(lower) and not kinematics.is_limited(upper):
+            return current + rotation
 
-        def worth(angle: SX) -> SX:
-            return c * ca.cos(angle - now) + s * ca.sin(angle - now)
+        def compute_gain(angle: SX) -> SX:
+            return cosine_part * ca.cos(angle - current) + sine_part * ca.sin(angle - current)
 
-        best, most = now, worth(now)
-        whole = 2 * np.pi
-        for angle in (low, high, now + turn, now + turn + whole, now + turn - whole):
-            if not kinematics.limited(angle):
+        best, best_gain = current, compute_gain(current)
+        full_turn = 2 * np.pi
+        for angle in (lower, upper, current + rotation, current + rotation + full_turn, current + rotation - full_turn):
+            if not kinematics.is_limited(angle):
                 continue
             inside = ca.SX(1)
-            if kinematics.limited(low):
-                inside = ca.logic_and(inside, angle >= low)
-            if kinematics.limited(high):
-                inside = ca.logic_and(inside, angle <= high)
-            better = ca.logic_and(inside, worth(angle) > most)
-            best, most = ca.if_else(better, angle, best), ca.if_else(better, worth(angle), most)
+            if kinematics.is_limited(lower):
+                inside = ca.logic_and(inside, angle >= lower)
+            if kinematics.is_limited(upper):
+                inside = ca.logic_and(inside, angle <= upper)
+            better = ca.logic_and(inside, compute_gain(angle) > best_gain)
+            best, best_gain = ca.if_else(better, angle, best), ca.if_else(better, compute_gain(angle), best_gain)
         return best

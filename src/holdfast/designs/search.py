@@ -1,4 +1,4 @@
-"""The search: designs spread over the space, then climbs with exact gradients, then a check on fresh poses."""
+"""Search of designs: designs spread over the space, local searches with exact gradients, and a check on held-out poses."""
 
 from __future__ import annotations
 
@@ -10,39 +10,39 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.arms.serial import to_dict
-from holdfast.designs.choice import best_design
-from holdfast.designs.designs import Check, Checked, Designs
+from holdfast.designs.choice import choose_best_design
+from holdfast.designs.designs import Designs, HeldOutCheck, HeldOutResult
 from holdfast.designs.evaluation import Evaluated, Evaluator
 from holdfast.designs.family import Family
 from holdfast.designs.gradient import sensitivity
-from holdfast.designs.quantile import guaranteed, shares
-from holdfast.designs.reach import Reaches
+from holdfast.designs.quantile import compute_lower_quantile, compute_quantile_weights
+from holdfast.designs.reach import ReachEvaluator
 from holdfast.designs.space import DesignSpace, Vary, design_space
-from holdfast.engine.memory import Memory, Parts
+from holdfast.engine.memory import Parts, SearchMemory
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec
 from holdfast.indices.own_file import plan_entries
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.regions.region import Region, default_region
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
-_FIRST = 64  # designs that grow from one another; all later ones begin from the nearest of these
-_CHUNK = 128
-_NEGLIGIBLE = 1e-7  # share of a pose in the smooth quantile below which its gradient is not asked for
-_ITERATIONS = 30  # of a climb
-_TRAIL = 12  # designs of a climb that the next ones may begin from
-_CLIMB_FRESH = 2  # random starts of each pose in every step of a climb
-_CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
+_FIRST_DESIGNS = 64  # designs that grow from one another; all later ones begin from the nearest of these
+_CHUNK_DESIGNS = 128
+_NEGLIGIBLE_WEIGHT = 1e-7  # share of a pose in the smooth quantile below which its gradient is not asked for
+_MAX_ITERATIONS = 30  # of a climb
+_TRAIL_DESIGNS = 12  # designs of a climb that the next ones may begin from
+_RANDOM_STARTS_PER_STEP = 2  # random starts of each pose in every step of a climb
+_DESIGNS_PER_LOCAL_SEARCH = 32  # designs that a climb counts as, for the progress
 
 
-@checked
-@says("searching designs")
+@check_arguments
+@reports_progress("searching designs")
 def design(
     arm: Arm,
     vary: Vary,
@@ -55,8 +55,8 @@ def design(
     length: float | None = None,
     poses: int = 256,
     designs: int = 512,
-    climbs: int = 8,
-    fresh: int = 2000,
+    local_searches: int = 8,
+    check_poses: int = 2000,
     seed: int = 0,
     store: str | Path | None = None,
     progress: Progress | None = None,
@@ -80,8 +80,8 @@ def design(
         length: Characteristic length of the task, m.
         poses: Poses on which designs are compared.
         designs: Designs spread over the bounds.
-        climbs: Climbs; the first half for the greatest value, the others for a given reach each, along the front.
-        fresh: Poses of the final check.
+        local_searches: Climbs; the first half for the greatest value, the others for a given reach each, along the front.
+        check_poses: Poses of the final check.
         seed: The same seed gives the same result, whatever the number of threads.
         store: Folder from which a stopped search resumes.
         progress: Called with (done, in all), in designs.
@@ -96,252 +96,280 @@ def design(
 
     Source: Abdi et al. 2012, section IV, for the distribution; Harrell and Davis 1982 for the smooth quantile of the climbs.
     """
-    begin = time.monotonic()
+    start_time = time.monotonic()
     if not 0 < level < 1:
         raise InputError(f"level is {level:g}; it must be between 0 and 1, for example 0.95")
-    for what, count, least in (("poses", poses, 1), ("designs", designs, 1), ("climbs", climbs, 0), ("fresh", fresh, 1)):
-        if count < least:
-            raise InputError(f"{what} is {count}; it must be {least} or more")
+    for option, count, minimum in (
+        ("poses", poses, 1),
+        ("designs", designs, 1),
+        ("climbs", local_searches, 0),
+        ("fresh", check_poses, 1),
+    ):
+        if count < minimum:
+            raise InputError(f"{option} is {count}; it must be {minimum} or more")
     space = design_space(arm, vary)
     region = default_region(arm) if region is None else region
     family = Family(space, objective, task, failures=failures, length=length)
-    search = _Search(family, region, level, poses, seed)
+    search = _DesignSearch(family, region, level, poses, seed)
     plan = {
         "kind": "design",
         "arm": to_dict(arm),
-        "vary": [p.written for p in space.parameters],
+        "vary": [parameter.option_text for parameter in space.parameters],
         **plan_entries(family.index),
         "task": [family.task.rows.tolist(), family.task.frame, family.task.length],
-        "failures": [list(f) for f in family.index.failures],
+        "failures": [list(columns) for columns in family.index.failures],
         "region": region.to_dict(),
         "level": level,
         "poses": poses,
         "designs": designs,
-        "climbs": climbs,
-        "fresh": fresh,
+        "climbs": local_searches,
+        "fresh": check_poses,
         "seed": seed,
     }
     if store is not None and not region.storable:
         raise InputError(
             f"region '{region.name}' has a function of your own, which a folder cannot hold; search without a store"
         )
-    memory = None if store is None else Memory(store, plan)
+    memory = None if store is None else SearchMemory(store, plan)
 
-    def part(name: str, make: Callable[[], Parts]) -> Parts:
-        return make() if memory is None else memory.part(name, make)
+    def recall_part(name: str, make: Callable[[], Parts]) -> Parts:
+        return make() if memory is None else memory.recall_or_compute(name, make)
 
-    total, done = designs + 1 + climbs * _CLIMB_WORTH, 0
+    total, finished = designs + 1 + local_searches * _DESIGNS_PER_LOCAL_SEARCH, 0
 
     def advance(count: int) -> None:
-        nonlocal done
-        done += count
+        nonlocal finished
+        finished += count
         if progress is not None:
-            progress(done, total)
+            progress(finished, total)
 
     values = np.concatenate([space.start[None], space.draw(designs, seed)])
-    found = []
-    for number, start in enumerate([0, *range(_FIRST, len(values), _CHUNK)]):
-        chunk = values[start : _FIRST if start == 0 else start + _CHUNK]
-        found.append(part(f"screen {number}", lambda c=chunk: search.screened(c)))  # type: ignore[misc]
-        if start == 0:
-            search.begin_near(values[:_FIRST])
+    chunks = []
+    for number, first in enumerate([0, *range(_FIRST_DESIGNS, len(values), _CHUNK_DESIGNS)]):
+        chunk = values[first : _FIRST_DESIGNS if first == 0 else first + _CHUNK_DESIGNS]
+        chunks.append(recall_part(f"screen {number}", lambda c=chunk: search.evaluate_designs(c)))  # type: ignore[misc]
+        if first == 0:
+            search.set_neighbours(values[:_FIRST_DESIGNS])
         advance(len(chunk))
-    table = {name: np.concatenate([f[name] for f in found]) for name in found[0]}
-    ends = []
-    for number, (begun, far) in enumerate(_beginnings(table["smooth"], table["reach"], values, space, climbs)):
-        ends.append(part(f"climb {number + 1}", lambda b=begun, r=far: {"values": search.climb(values[b], r)})["values"])  # type: ignore[misc]
-        advance(_CLIMB_WORTH)
-    ended = np.array([space.start, *ends])
-    deep = part("deep", lambda: search.deepened(ended))
+    screened = {name: np.concatenate([columns[name] for columns in chunks]) for name in chunks[0]}
+    local_optima = []
+    for number, (start_number, least_reach) in enumerate(
+        _choose_local_starts(screened["smooth"], screened["reach"], values, space, local_searches)
+    ):
+        local_optima.append(
+            recall_part(
+                f"climb {number + 1}",
+                lambda b=start_number, r=least_reach: {"values": search.search_locally(values[b], r)},  # type: ignore[misc]
+            )["values"]
+        )
+        advance(_DESIGNS_PER_LOCAL_SEARCH)
+    deepened_values = np.array([space.start, *local_optima])
+    deepened = recall_part("deep", lambda: search.evaluate_thoroughly(deepened_values))
     # The given arm takes the place it had, looked at as closely as the ends of the climbs.
-    merged = {name: np.concatenate([deep[name][:1], table[name][1:], deep[name][1:]]) for name in table}
-    every = np.concatenate([values, ended[1:]])
-    best = best_design(merged["guaranteed"], merged["reach"])
-    checks = part(f"check {best}", lambda: search.fresh(every[[0, best]], fresh))
-    given, chosen = (
-        Checked.of(checks["value"][i], checks["reached"][i], checks["weights"], level=level, heaviest=region.heaviest)
-        for i in (0, 1)
+    merged = {name: np.concatenate([deepened[name][:1], screened[name][1:], deepened[name][1:]]) for name in screened}
+    all_values = np.concatenate([values, deepened_values[1:]])
+    best = choose_best_design(merged["guaranteed"], merged["reach"])
+    checks = recall_part(f"check {best}", lambda: search.evaluate_held_out(all_values[[0, best]], check_poses))
+    baseline, chosen = (
+        HeldOutResult.of(
+            checks["value"][position], checks["reached"][position], checks["weights"], level=level, heaviest=region.heaviest
+        )
+        for position in (0, 1)
     )
     return Designs(
         space=space,
-        values=every,
+        values=all_values,
         guaranteed=merged["guaranteed"],
         reach=merged["reach"],
         reached=merged["reached"],
-        front=pareto(merged["reach"], merged["guaranteed"]),
+        front=find_pareto_front(merged["reach"], merged["guaranteed"]),
         best=best,
-        checked=Check(given, chosen, float(merged["guaranteed"][best] - chosen.guaranteed.value)),
+        checked=HeldOutCheck(baseline, chosen, float(merged["guaranteed"][best] - chosen.guaranteed.value)),
         index=family.numeric_index,
         region=region,
         level=level,
         poses=poses,
         screened=designs,
-        climbs=len(ends),
+        climbs=len(local_optima),
         seed=seed,
-        seconds=time.monotonic() - begin,
-        method=search.method(designs, len(ends), fresh),
+        seconds=time.monotonic() - start_time,
+        method=search.describe_method(designs, len(local_optima), check_poses),
     )
 
 
-def pareto(reach: Array, value: Array) -> NDArray[np.intp]:
-    """Numbers of the designs that no other beats in both, by reach from the shortest."""
+def find_pareto_front(reach: Array, value: Array) -> NDArray[np.intp]:
+    """Return the numbers of the designs that no other beats in both reach and value, from the shortest reach."""
     order = np.lexsort((-value, -reach))  # from the farthest reach; of equal reach the best value first
-    front, top = [], -np.inf
-    for i in order:
-        if value[i] > top:
-            front.append(int(i))
-            top = value[i]
+    front, best_value = [], -np.inf
+    for number in order:
+        if value[number] > best_value:
+            front.append(int(number))
+            best_value = value[number]
     return np.array(front[::-1], dtype=np.intp)
 
 
-def region_poses(region: Region, count: int, seed: int) -> tuple[Array, Array | None]:
-    """The poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all count alike.
+def sample_comparison_poses(region: Region, count: int, seed: int) -> tuple[Array, Array | None]:
+    """Return the poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all count alike.
 
     Low-discrepancy points where the region is a box, else random ones.
 
     Raises:
         InputError: A region of joints.
     """
-    return drawn_poses(region, count, seed, "sobol" if region.kind == "box" else "random")
+    return sample_poses(region, count, seed, "sobol" if region.kind == "box" else "random")
 
 
-def drawn_poses(region: Region, count: int, seed: int, sampling: Any = "random") -> tuple[Array, Array | None]:
-    """Poses (P, 4, 4) and their weights (P,), or None if all count alike."""
+def sample_poses(region: Region, count: int, seed: int, sampling: Any = "random") -> tuple[Array, Array | None]:
+    """Return poses (P, 4, 4) of a region and their weights (P,), or None if all count alike."""
     if region.kind == "joints":
         raise InputError("a region of joints fixes the configurations, so designs have no poses to reach; give a box of poses")
     samples: list[Array] = []
     blocks = region.blocks(0, seed, sampling, count=count)
-    while sum(len(s) for s in samples) < count:
+    while sum(len(sample) for sample in samples) < count:
         samples.append(next(blocks))
-    s = np.concatenate(samples)[:count]
-    return region.poses(s), region.weights(s) if region.weighted(count) else None
+    sample = np.concatenate(samples)[:count]
+    return region.poses(sample), region.weights(sample) if region.weighted(count) else None
 
 
-def _beginnings(smooth: Array, reach: Array, values: Array, space: DesignSpace, climbs: int) -> list[tuple[int, float]]:
-    """Where to climb from and the least reach to keep: the best designs that are apart, then the best beyond each reach."""
-    unit = (values - space.lower) / (space.upper - space.lower)
+def _choose_local_starts(
+    smooth: Array, reach: Array, values: Array, space: DesignSpace, local_searches: int
+) -> list[tuple[int, float]]:
+    """Return the starts of the local searches, each with the least reach to keep: the best distinct designs, then the best
+    beyond each reach.
+    """
+    fractions = (values - space.lower) / (space.upper - space.lower)
     order = np.argsort(-smooth, kind="stable")
-    apart: list[int] = []
-    for far in (0.5, 0.0):  # of a side of the unit cube, in the mean square
-        for i in order:
-            if len(apart) == -(-climbs // 2):
+    distinct: list[int] = []
+    for distance in (0.5, 0.0):  # of a side of the unit cube, in the mean square
+        for number in order:
+            if len(distinct) == -(-local_searches // 2):
                 break
-            if i not in apart and all(np.sqrt(np.mean((unit[i] - unit[k]) ** 2)) >= far / 2 for k in apart):
-                apart.append(int(i))
-    found = [(i, -np.inf) for i in apart]
-    more = climbs - len(found)
-    if more > 0:
-        low, high = float(reach[order[0]]), float(reach.max())
-        for least in np.linspace(low, high, more + 2)[1:-1]:
-            able = np.flatnonzero(reach >= least)
-            found.append((int(able[np.argmax(smooth[able])]), float(least)))
-    return found
+            if number not in distinct and all(
+                np.sqrt(np.mean((fractions[number] - fractions[other]) ** 2)) >= distance / 2 for other in distinct
+            ):
+                distinct.append(int(number))
+    starts = [(number, -np.inf) for number in distinct]
+    missing = local_searches - len(starts)
+    if missing > 0:
+        shortest, longest = float(reach[order[0]]), float(reach.max())
+        for least_reach in np.linspace(shortest, longest, missing + 2)[1:-1]:
+            eligible = np.flatnonzero(reach >= least_reach)
+            starts.append((int(eligible[np.argmax(smooth[eligible])]), float(least_reach)))
+    return starts
 
 
-class _Search:
-    """Designs of a family at the poses of a region, and what they are worth."""
+class _DesignSearch:
+    """Evaluation and local search of designs of a family at the poses of a region."""
 
     def __init__(self, family: Family, region: Region, level: float, poses: int, seed: int) -> None:
         self.family, self.region, self.level, self.seed = family, region, level, seed
-        drawn, self._weights = region_poses(region, poses, seed)
-        self.evaluator = Evaluator(family, drawn, seed)
-        self._reaches = Reaches(family, seed)
-        self._begin: Array | None = None
-        self._first: Evaluated | None = None
+        sampled_poses, self._weights = sample_comparison_poses(region, poses, seed)
+        self.evaluator = Evaluator(family, sampled_poses, seed)
+        self._reach_evaluator = ReachEvaluator(family, seed)
+        self._first_values: Array | None = None
+        self._first_evaluated: Evaluated | None = None
 
-    def begin_near(self, values: Array) -> None:
-        """Later designs begin from the configurations of these."""
-        self._begin = values
+    def set_neighbours(self, values: Array) -> None:
+        """Let later designs begin from the configurations of these designs."""
+        self._first_values = values
 
     @property
-    def _near(self) -> Evaluated | None:
-        """The designs from which others begin; computed once more where a folder, which holds no configurations, went on."""
-        if self._first is None and self._begin is not None:
-            self._first = self.evaluator(self._begin)
-        return None if self._begin is None else self._first
+    def _neighbours(self) -> Evaluated | None:
+        """Designs from which others begin; computed again after resuming from a folder, which stores no configurations."""
+        if self._first_evaluated is None and self._first_values is not None:
+            self._first_evaluated = self.evaluator(self._first_values)
+        return None if self._first_values is None else self._first_evaluated
 
-    def screened(self, values: Array) -> Parts:
-        """What designs are worth."""
-        found = self.evaluator(values, self._near)
-        if self._begin is None:
-            self._first = found
-        return self._facts(found)
+    def evaluate_designs(self, values: Array) -> Parts:
+        """Return the measures of designs."""
+        evaluated = self.evaluator(values, self._neighbours)
+        if self._first_values is None:
+            self._first_evaluated = evaluated
+        return self._summarise(evaluated)
 
-    def _facts(self, found: Evaluated) -> Parts:
-        extended = found.extended
+    def _summarise(self, evaluated: Evaluated) -> Parts:
+        extended = evaluated.signed_index
         weights = np.ones(extended.shape[1]) if self._weights is None else self._weights
         return {
-            "smooth": (shares(extended, self.level, self._weights) * extended).sum(axis=1),
-            "guaranteed": guaranteed(found.value, self.level, self._weights),
-            "reached": found.reached @ weights / weights.sum(),
-            "reach": self._reaches(found.values, self.evaluator.finite_limits(found.values))[0],
+            "smooth": (compute_quantile_weights(extended, self.level, self._weights) * extended).sum(axis=1),
+            "guaranteed": compute_lower_quantile(evaluated.value, self.level, self._weights),
+            "reached": evaluated.reached @ weights / weights.sum(),
+            "reach": self._reach_evaluator(evaluated.values, self.evaluator.finite_limits(evaluated.values))[0],
         }
 
-    def climb(self, start: Array, least: float) -> Array:
-        """From a design to the best one near it whose reach is at least so long, (k,)."""
+    def search_locally(self, start: Array, least_reach: float) -> Array:
+        """Return the best design (k,) near a start whose reach is at least ``least_reach``."""
         from scipy.optimize import minimize
 
         space = self.family.space
         width = space.upper - space.lower
-        trail: list[Evaluated] = [self.evaluator(start[None], self._near)]
-        seen: dict[bytes, tuple[float, Array, float, Array]] = {}
-        tried: list[tuple[float, float, Array]] = []
+        trail: list[Evaluated] = [self.evaluator(start[None], self._neighbours)]
+        point_cache: dict[bytes, tuple[float, Array, float, Array]] = {}
+        trials: list[tuple[float, float, Array]] = []
 
-        def look(u: Array) -> tuple[float, Array, float, Array]:
-            """Smooth guaranteed value and reach with their gradients in the unit cube."""
+        def evaluate_point(u: Array) -> tuple[float, Array, float, Array]:
+            """Return the smooth quantile and the reach with their gradients, at a point of the unit cube."""
             key = u.tobytes()
-            if key not in seen:
-                x = np.clip(space.lower + u * width, space.lower, space.upper)
-                found = self.evaluator(x[None], Evaluated.joined(trail[:1] + trail[1:][-_TRAIL:]), _CLIMB_FRESH)
-                trail.append(found)
-                value, slope = self.smooth(found)
-                reach, by_design = self._reaches(x[None], self.evaluator.finite_limits(x[None]))
-                seen[key] = value, slope * width, float(reach[0]), by_design[0] * width
-                tried.append((value, float(reach[0]), x))
-            return seen[key]
+            if key not in point_cache:
+                trial_values = np.clip(space.lower + u * width, space.lower, space.upper)
+                evaluated = self.evaluator(
+                    trial_values[None], Evaluated.concatenate(trail[:1] + trail[1:][-_TRAIL_DESIGNS:]), _RANDOM_STARTS_PER_STEP
+                )
+                trail.append(evaluated)
+                value, gradient = self.evaluate_smooth_quantile(evaluated)
+                reach, by_design = self._reach_evaluator(trial_values[None], self.evaluator.finite_limits(trial_values[None]))
+                point_cache[key] = value, gradient * width, float(reach[0]), by_design[0] * width
+                trials.append((value, float(reach[0]), trial_values))
+            return point_cache[key]
 
-        long_enough: Any = {"type": "ineq", "fun": lambda u: look(u)[2] - least, "jac": lambda u: look(u)[3]}
+        long_enough: Any = {
+            "type": "ineq",
+            "fun": lambda u: evaluate_point(u)[2] - least_reach,
+            "jac": lambda u: evaluate_point(u)[3],
+        }
         minimize(  # type: ignore[call-overload]
-            lambda u: -look(u)[0],
+            lambda u: -evaluate_point(u)[0],
             np.clip((start - space.lower) / width, 0.0, 1.0),
-            jac=lambda u: -look(u)[1],
+            jac=lambda u: -evaluate_point(u)[1],
             bounds=[(0.0, 1.0)] * len(width),
-            constraints=[long_enough] if np.isfinite(least) else [],
+            constraints=[long_enough] if np.isfinite(least_reach) else [],
             method="SLSQP",
-            options={"maxiter": _ITERATIONS, "ftol": 1e-6},
+            options={"maxiter": _MAX_ITERATIONS, "ftol": 1e-6},
         )
-        kept = [(value, x) for value, reach, x in tried if reach >= least - 1e-6]
-        return max(kept, key=lambda entry: entry[0])[1] if kept else start
+        feasible = [(value, design_values) for value, reach, design_values in trials if reach >= least_reach - 1e-6]
+        return max(feasible, key=lambda entry: entry[0])[1] if feasible else start
 
-    def smooth(self, found: Evaluated) -> tuple[float, Array]:
-        """The smooth guaranteed value of one design, and its exact gradient (k,)."""
-        extended = found.extended[0]
-        share = shares(extended[None], self.level, self._weights)[0]
-        rows = np.flatnonzero(share > _NEGLIGIBLE)
-        slopes = sensitivity(self.evaluator, found, rows)
-        extended[rows] = slopes.value
-        share = shares(extended[None], self.level, self._weights)[0]
-        return float(share @ extended), share[rows] @ slopes.gradient
+    def evaluate_smooth_quantile(self, evaluated: Evaluated) -> tuple[float, Array]:
+        """Return the smooth quantile of one design, and its exact gradient (k,)."""
+        extended = evaluated.signed_index[0]
+        weights = compute_quantile_weights(extended[None], self.level, self._weights)[0]
+        rows = np.flatnonzero(weights > _NEGLIGIBLE_WEIGHT)
+        sensitivities = sensitivity(self.evaluator, evaluated, rows)
+        extended[rows] = sensitivities.value
+        weights = compute_quantile_weights(extended[None], self.level, self._weights)[0]
+        return float(weights @ extended), weights[rows] @ sensitivities.gradient
 
-    def deepened(self, values: Array) -> Parts:
-        """What designs are worth, each searched from as many random starts as :func:`holdfast.optimise` takes."""
-        near = self.evaluator(values, self._near)
-        return self._facts(self.evaluator(values, near, self.evaluator.starts))
+    def evaluate_thoroughly(self, values: Array) -> Parts:
+        """Return the measures of designs, each searched from as many random starts as :func:`holdfast.optimise` uses."""
+        neighbours = self.evaluator(values, self._neighbours)
+        return self._summarise(self.evaluator(values, neighbours, self.evaluator.starts))
 
-    def fresh(self, values: Array, count: int) -> Parts:
-        """Designs on poses that played no part, from random starts alone: index (D, P), reached (D, P), weights (P,) if any."""
+    def evaluate_held_out(self, values: Array, count: int) -> Parts:
+        """Evaluate designs on held-out poses, from random starts alone: index (D, P), reached (D, P), and weights
+        (P,) if any.
+        """
         seed = int(np.random.SeedSequence(self.seed, spawn_key=(6,)).generate_state(1)[0])
-        poses, weights = drawn_poses(self.region, count, seed, "random")
+        poses, weights = sample_poses(self.region, count, seed, "random")
         evaluator = Evaluator(self.family, poses, seed)
-        found = Evaluated.joined([evaluator(v[None]) for v in values])
+        evaluated = Evaluated.concatenate([evaluator(design_values[None]) for design_values in values])
         return {
-            "value": found.value,
-            "reached": found.reached,
+            "value": evaluated.value,
+            "reached": evaluated.reached,
             "weights": np.empty(0) if weights is None else weights,
         }
 
-    def method(self, designs: int, climbs: int, fresh: int) -> list[tuple[str, str]]:
-        """How it was computed, for reports."""
+    def describe_method(self, designs: int, local_searches: int, check_poses: int) -> list[tuple[str, str]]:
+        """Return the method of the computation, for reports."""
         return [
             ("Designs", f"the given arm and {designs:,} scrambled Sobol points within the bounds, one compiled kernel for all"),
             (
@@ -351,13 +379,14 @@ class _Search:
             ),
             (
                 "Climbs",
-                f"{climbs}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with exact "
+                f"{local_searches}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, "
+                f"with exact "
                 "gradients; half of them for the greatest value, half for the greatest beyond a given reach",
             ),
             (
                 "Poses that are not reached",
                 "count as 0; in the climbs as less than 0, by 1 per metre and radian of the nearest miss",
             ),
-            ("Check", f"{fresh:,} fresh random poses; interval of the quantile by order statistics"),
+            ("Check", f"{check_poses:,} fresh random poses; interval of the quantile by order statistics"),
             ("Not looked at", "whether links run through one another, and what they weigh"),
         ]

@@ -1,4 +1,4 @@
-"""The space of a search: which numbers of an arm vary, and between which bounds."""
+"""Space of a search: the numbers of an arm that vary, and their bounds."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 
-OF_ROW = ("a", "alpha", "d", "theta", "lower", "upper")
-OF_TOOL = ("x", "y", "z", "roll", "pitch", "yaw")
-_ANGLES = ("alpha", "theta", "roll", "pitch", "yaw")
-_EXAMPLE = "a3 (also alpha, d, theta, lower and upper of a row) or tool.z (also x, y, roll, pitch and yaw)"
-_UNITS = {"m": (1.0, "m"), "mm": (1e-3, "m"), "rad": (1.0, "rad"), "deg": (np.pi / 180, "rad")}
+ROW_PARAMETERS = ("a", "alpha", "d", "theta", "lower", "upper")
+TOOL_PARAMETERS = ("x", "y", "z", "roll", "pitch", "yaw")
+_ANGLE_KINDS = ("alpha", "theta", "roll", "pitch", "yaw")
+_PARAMETER_EXAMPLES = "a3 (also alpha, d, theta, lower and upper of a row) or tool.z (also x, y, roll, pitch and yaw)"
+_UNIT_FACTORS = {"m": (1.0, "m"), "mm": (1e-3, "m"), "rad": (1.0, "rad"), "deg": (np.pi / 180, "rad")}
 
 
 @dataclass(frozen=True)
-class Parameter:
-    """One number of an arm that a search may change.
+class DesignParameter:
+    """Number of an arm that a search may change.
 
     Attributes:
         name: ``a3``, ``alpha3``, ``d3``, ``theta3`` (row 3 of the arm's standard Denavit-Hartenberg table, rows counted from
@@ -45,51 +45,53 @@ class Parameter:
     unit: Literal["rad", "m"] | None = None
 
     def __post_init__(self) -> None:
-        kind, _ = _parts(self.name)
+        kind, _ = _parse_parameter_name(self.name)
         if self.unit is None:
-            object.__setattr__(self, "unit", "rad" if kind in (*_ANGLES, "lower", "upper") else "m")
-        low, high = float(self.lower), float(self.upper)
-        if not (np.isfinite(low) and np.isfinite(high)):
-            raise InputError(f"bounds of {self.name} are {low:g} and {high:g}; they must be finite numbers")
-        if low > high:
-            raise InputError(f"bounds of {self.name} are reversed: {self.text(low)} is above {self.text(high)}; swap them")
-        if low == high:
+            object.__setattr__(self, "unit", "rad" if kind in (*_ANGLE_KINDS, "lower", "upper") else "m")
+        lower, upper = float(self.lower), float(self.upper)
+        if not (np.isfinite(lower) and np.isfinite(upper)):
+            raise InputError(f"bounds of {self.name} are {lower:g} and {upper:g}; they must be finite numbers")
+        if lower > upper:
+            raise InputError(f"bounds of {self.name} are reversed: {self.text(lower)} is above {self.text(upper)}; swap them")
+        if lower == upper:
             raise InputError(
-                f"both bounds of {self.name} are {self.text(low)}; give it room, or leave it out: then it stays as it is"
+                f"both bounds of {self.name} are {self.text(lower)}; give it room, or leave it out: then it stays as it is"
             )
-        object.__setattr__(self, "lower", low)
-        object.__setattr__(self, "upper", high)
+        object.__setattr__(self, "lower", lower)
+        object.__setattr__(self, "upper", upper)
 
     @property
     def kind(self) -> str:
-        """What it is of a row or of the tool: ``a``, ``alpha``, ``d``, ``theta``, ``lower``, ``upper``, ``x``, ..., ``yaw``."""
-        return _parts(self.name)[0]
+        """Kind of the number in a row or in the tool: ``a``, ``alpha``, ``d``, ``theta``, ``lower``, ``upper``, ``x``, ...,
+        ``yaw``.
+        """
+        return _parse_parameter_name(self.name)[0]
 
     @property
     def row(self) -> int | None:
-        """Index from 0 of its row; None for the tool."""
-        return _parts(self.name)[1]
+        """Index of the row from 0; None for the tool."""
+        return _parse_parameter_name(self.name)[1]
 
     @property
-    def shown(self) -> tuple[float, str]:
-        """Factor and unit in which people read it: (1, "m") or (180/pi, "deg")."""
+    def display_unit(self) -> tuple[float, str]:
+        """Factor and unit for display: (1, "m") or (180/pi, "deg")."""
         return (1.0, "m") if self.unit == "m" else (180 / np.pi, "deg")
 
     def text(self, value: float) -> str:
-        """A value as people read it, as ``0.45 m`` or ``-90 deg``."""
-        factor, unit = self.shown
+        """Return a value for display, such as ``0.45 m`` or ``-90 deg``."""
+        factor, unit = self.display_unit
         return f"{value * factor:.6g} {unit}"
 
     @property
-    def written(self) -> str:
-        """As ``--vary`` takes it: ``alpha4=-90..90deg``."""
-        factor, unit = self.shown
+    def option_text(self) -> str:
+        """Text that ``--vary`` reads, such as ``alpha4=-90..90deg``."""
+        factor, unit = self.display_unit
         return f"{self.name}={self.lower * factor:.10g}..{self.upper * factor:.10g}{unit}"
 
 
 @dataclass(frozen=True, eq=False)
 class DesignSpace:
-    """An arm and the numbers of it that vary. A design is a vector (k,), one value per parameter, rad or m.
+    """Arm and its varied numbers. A design is a vector (k,), one value per parameter, rad or m.
 
     Attributes:
         arm: The given arm. Its own values must lie within the bounds, so that before and after can be compared.
@@ -101,55 +103,61 @@ class DesignSpace:
     """
 
     arm: Arm
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[DesignParameter, ...]
 
     def __post_init__(self) -> None:
         if not self.parameters:
-            raise InputError(f"nothing of '{self.arm.name}' is to be varied; give at least one of {_EXAMPLE}")
-        names = [p.name for p in self.parameters]
+            raise InputError(f"nothing of '{self.arm.name}' is to be varied; give at least one of {_PARAMETER_EXAMPLES}")
+        names = [parameter.name for parameter in self.parameters]
         for name in names:
             if names.count(name) > 1:
                 raise InputError(f"{name} is to be varied twice; give its bounds once")
-        object.__setattr__(self, "parameters", tuple(self._in_unit(p) for p in self.parameters))
-        for p, value in zip(self.parameters, self.start, strict=True):
-            if not p.lower <= value <= p.upper:
+        object.__setattr__(self, "parameters", tuple(self._add_unit(parameter) for parameter in self.parameters))
+        for parameter, value in zip(self.parameters, self.start, strict=True):
+            if not parameter.lower <= value <= parameter.upper:
                 raise InputError(
-                    f"{p.name} of '{self.arm.name}' is {p.text(value)}, outside the bounds {p.text(p.lower)} to "
-                    f"{p.text(p.upper)}; widen them, so that the arm can be compared with what is found"
+                    f"{parameter.name} of '{self.arm.name}' is {parameter.text(value)}, outside the bounds "
+                    f"{parameter.text(parameter.lower)} to "
+                    f"{parameter.text(parameter.upper)}; widen them, so that the arm can be compared with what is found"
                 )
         self._check_limits()
 
-    def _in_unit(self, p: Parameter) -> Parameter:
-        """The parameter with its unit, once it is clear that the arm has it."""
-        if p.row is None:
-            return p
-        if p.row >= self.arm.n:
+    def _add_unit(self, parameter: DesignParameter) -> DesignParameter:
+        """Return the parameter with its unit, after checking that the arm has it."""
+        if parameter.row is None:
+            return parameter
+        if parameter.row >= self.arm.n:
             raise InputError(
-                f"{p.name}: '{self.arm.name}' has no row {p.row + 1}; its Denavit-Hartenberg table has rows 1 to {self.arm.n}"
+                f"{parameter.name}: '{self.arm.name}' has no row {parameter.row + 1}; its Denavit-Hartenberg table has "
+                f"rows 1 to {self.arm.n}"
             )
-        if p.kind not in ("lower", "upper"):
-            return p
-        joint = self.arm.joints[p.row]
-        if not np.isfinite(getattr(joint, p.kind)):
+        if parameter.kind not in ("lower", "upper"):
+            return parameter
+        joint = self.arm.joints[parameter.row]
+        if not np.isfinite(getattr(joint, parameter.kind)):
             raise InputError(
-                f"{p.name}: joint '{joint.name}' of '{self.arm.name}' has no {p.kind} limit; give it one in the arm's file "
+                f"{parameter.name}: joint '{joint.name}' of '{self.arm.name}' has no {parameter.kind} limit; give it one "
+                f"in the arm's file "
                 "before it can be varied"
             )
-        return replace(p, unit="m" if joint.prismatic else "rad")
+        return replace(parameter, unit="m" if joint.prismatic else "rad")
 
     def _check_limits(self) -> None:
-        low, high = self.arm.lower.copy(), self.arm.upper.copy()
-        for p in self.parameters:
-            if p.kind == "lower" and p.row is not None:
-                low[p.row] = p.upper
-            elif p.kind == "upper" and p.row is not None:
-                high[p.row] = p.lower
-        for k in {p.row for p in self.parameters if p.kind in ("lower", "upper") and p.row is not None}:
-            if low[k] >= high[k]:
-                factor, unit = self.arm.joints[k].shown
+        lower, upper = self.arm.lower.copy(), self.arm.upper.copy()
+        for parameter in self.parameters:
+            if parameter.kind == "lower" and parameter.row is not None:
+                lower[parameter.row] = parameter.upper
+            elif parameter.kind == "upper" and parameter.row is not None:
+                upper[parameter.row] = parameter.lower
+        for joint in {
+            parameter.row for parameter in self.parameters if parameter.kind in ("lower", "upper") and parameter.row is not None
+        }:
+            if lower[joint] >= upper[joint]:
+                factor, unit = self.arm.joints[joint].shown
                 raise InputError(
-                    f"the limits of joint '{self.arm.joints[k].name}' can cross: lower{k + 1} may be as high as "
-                    f"{low[k] * factor:.6g} {unit} and upper{k + 1} as low as {high[k] * factor:.6g} {unit}; keep the bounds "
+                    f"the limits of joint '{self.arm.joints[joint].name}' can cross: lower{joint + 1} may be as high as "
+                    f"{lower[joint] * factor:.6g} {unit} and upper{joint + 1} as low as {upper[joint] * factor:.6g} "
+                    f"{unit}; keep the bounds "
                     "apart"
                 )
 
@@ -157,67 +165,75 @@ class DesignSpace:
 
     @cached_property
     def table(self) -> DHTable:
-        """The given arm's standard Denavit-Hartenberg table."""
+        """Standard Denavit-Hartenberg table of the baseline arm."""
         return dh_table(self.arm)
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the parameters."""
-        return tuple(p.name for p in self.parameters)
+        return tuple(parameter.name for parameter in self.parameters)
 
     @cached_property
     def lower(self) -> Array:
         """(k,) lower bounds, rad or m."""
-        return np.array([p.lower for p in self.parameters])
+        return np.array([parameter.lower for parameter in self.parameters])
 
     @cached_property
     def upper(self) -> Array:
         """(k,) upper bounds, rad or m."""
-        return np.array([p.upper for p in self.parameters])
+        return np.array([parameter.upper for parameter in self.parameters])
 
     @cached_property
     def start(self) -> Array:
-        """(k,) values of the given arm; an angle by the turn that lies within its bounds."""
-        out = []
-        rpy = dict(zip(OF_TOOL[3:], _rpy(self.table.tool[:3, :3]), strict=True))
-        for p in self.parameters:
-            if p.row is not None:
-                value = float(getattr(self.table.rows[p.row], p.kind))
-            elif p.kind in rpy:
-                value = rpy[p.kind]
+        """(k,) values of the baseline arm; an angle is given by the equivalent angle within its bounds."""
+        values = []
+        rpy = dict(zip(TOOL_PARAMETERS[3:], _compute_roll_pitch_yaw(self.table.tool[:3, :3]), strict=True))
+        for parameter in self.parameters:
+            if parameter.row is not None:
+                value = float(getattr(self.table.rows[parameter.row], parameter.kind))
+            elif parameter.kind in rpy:
+                value = rpy[parameter.kind]
             else:
-                value = float(self.table.tool[OF_TOOL.index(p.kind), 3])
-            if p.kind in _ANGLES:
-                value = next((x for x in (value, value + 2 * np.pi, value - 2 * np.pi) if p.lower <= x <= p.upper), value)
-            out.append(value)
-        return np.array(out)
+                value = float(self.table.tool[TOOL_PARAMETERS.index(parameter.kind), 3])
+            if parameter.kind in _ANGLE_KINDS:
+                value = next(
+                    (
+                        candidate
+                        for candidate in (value, value + 2 * np.pi, value - 2 * np.pi)
+                        if parameter.lower <= candidate <= parameter.upper
+                    ),
+                    value,
+                )
+            values.append(value)
+        return np.array(values)
 
     def check(self, values: ArrayLike) -> Array:
-        """Designs as float64, (k,) or (D, k).
+        """Return designs as float64, (k,) or (D, k).
 
         Raises:
             InputError: Wrong number of values, not numbers, or a value outside its bounds.
         """
         try:
-            a = np.asarray(values, dtype=np.float64)
+            designs = np.asarray(values, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InputError(f"a design must be {len(self.parameters)} numbers, {', '.join(self.names)}") from error
-        if a.ndim not in (1, 2) or a.shape[-1] != len(self.parameters):
-            got = a.shape[-1] if a.ndim else 0
-            raise InputError(f"a design has {got} values; it must have {len(self.parameters)}, {', '.join(self.names)}")
+        if designs.ndim not in (1, 2) or designs.shape[-1] != len(self.parameters):
+            value_count = designs.shape[-1] if designs.ndim else 0
+            raise InputError(f"a design has {value_count} values; it must have {len(self.parameters)}, {', '.join(self.names)}")
         # Bounds that went through degrees may differ in the last digit.
-        slack = 1e-12 * np.maximum(1.0, np.abs(a))
-        inside = (a >= self.lower - slack) & (a <= self.upper + slack)
+        slack = 1e-12 * np.maximum(1.0, np.abs(designs))
+        inside = (designs >= self.lower - slack) & (designs <= self.upper + slack)
         if not inside.all():
-            where = tuple(np.argwhere(~inside)[0])
-            p = self.parameters[where[-1]]
+            position = tuple(np.argwhere(~inside)[0])
+            parameter = self.parameters[position[-1]]
             raise InputError(
-                f"{p.name} is {p.text(float(a[where]))}; it must lie within its bounds, {p.text(p.lower)} to {p.text(p.upper)}"
+                f"{parameter.name} is {parameter.text(float(designs[position]))}; it must lie within its bounds, "
+                f"{parameter.text(parameter.lower)} to {parameter.text(parameter.upper)}"
             )
-        return a
+        return designs
 
     def table_of(self, values: ArrayLike) -> DHTable:
-        """The table of a design (k,).
+        """Return the Denavit-Hartenberg table of a design (k,).
 
         Raises:
             InputError: As :meth:`check`.
@@ -226,22 +242,22 @@ class DesignSpace:
         if design.ndim != 1:
             raise InputError(f"one design is ({len(self.parameters)},) numbers; this is an array of shape {design.shape}")
         rows, tool = list(self.table.rows), self.table.tool.copy()
-        rpy = dict(zip(OF_TOOL[3:], _rpy(tool[:3, :3]), strict=True))
-        turned = False
-        for p, value in zip(self.parameters, design.tolist(), strict=True):
-            if p.row is not None:
-                change: dict[str, Any] = {p.kind: value}
-                rows[p.row] = replace(rows[p.row], **change)
-            elif p.kind in rpy:
-                rpy[p.kind], turned = value, True
+        rpy = dict(zip(TOOL_PARAMETERS[3:], _compute_roll_pitch_yaw(tool[:3, :3]), strict=True))
+        is_rotated = False
+        for parameter, value in zip(self.parameters, design.tolist(), strict=True):
+            if parameter.row is not None:
+                change: dict[str, Any] = {parameter.kind: value}
+                rows[parameter.row] = replace(rows[parameter.row], **change)
+            elif parameter.kind in rpy:
+                rpy[parameter.kind], is_rotated = value, True
             else:
-                tool[OF_TOOL.index(p.kind), 3] = value
-        if turned:
-            tool[:3, :3] = rpy_rotation([rpy[x] for x in OF_TOOL[3:]])
+                tool[TOOL_PARAMETERS.index(parameter.kind), 3] = value
+        if is_rotated:
+            tool[:3, :3] = rpy_rotation([rpy[kind] for kind in TOOL_PARAMETERS[3:]])
         return DHTable(tuple(rows), self.table.base, tool)
 
     def arm_of(self, values: ArrayLike, name: str | None = None) -> Arm:
-        """The arm of a design (k,): geometry, limits, gravity, and the masses that are known.
+        """Return the arm of a design (k,): geometry, limits, gravity, and the known masses.
 
         A link of which neither ``a``, ``alpha`` nor ``d`` is varied is the given arm's, and so is the payload. The mass of a
         link of another shape is not known: None.
@@ -254,40 +270,49 @@ class DesignSpace:
             InputError: As :meth:`check`.
         """
         table = self.table_of(values)
-        told = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.parameters, np.asarray(values).tolist(), strict=True))
-        made = table.arm(
-            name=name or f"{self.arm.name}-design", gravity=self.arm.gravity, source=f"design of {self.arm.name}: {told}"
+        values_text = ", ".join(
+            f"{parameter.name} {parameter.text(value)}"
+            for parameter, value in zip(self.parameters, np.asarray(values).tolist(), strict=True)
         )
-        reshaped = {p.row for p in self.parameters if p.kind in ("a", "alpha", "d")}
-        moved, payload = self._bodies
-        links = tuple(None if k in reshaped else link for k, link in enumerate(moved))
-        return replace(made, links=links).with_payload(payload)
+        new_arm = table.arm(
+            name=name or f"{self.arm.name}-design", gravity=self.arm.gravity, source=f"design of {self.arm.name}: {values_text}"
+        )
+        reshaped = {parameter.row for parameter in self.parameters if parameter.kind in ("a", "alpha", "d")}
+        bodies, payload = self._link_bodies
+        links = tuple(None if index in reshaped else link for index, link in enumerate(bodies))
+        return replace(new_arm, links=links).with_payload(payload)
 
     @cached_property
-    def _bodies(self) -> tuple[list[Link | None], Link | None]:
-        """The given arm's links, each in the moving frame of its joint of the table, and its payload in the last row's."""
-        same = self.table.arm()
-        frames = [np.linalg.inv(a) @ b for a, b in zip(same.frames_at_zero[:-1], self.arm.frames_at_zero[:-1], strict=True)]
+    def _link_bodies(self) -> tuple[list[Link | None], Link | None]:
+        """Links of the baseline arm, each in the moving frame of its joint of the table, and the payload in the frame of the
+        last row.
+        """
+        table_arm = self.table.arm()
+        frames = [
+            np.linalg.inv(a) @ b for a, b in zip(table_arm.frames_at_zero[:-1], self.arm.frames_at_zero[:-1], strict=True)
+        ]
         links = [None if link is None else link.moved(frame) for link, frame in zip(self.arm.links, frames, strict=True)]
-        held = self.arm.payload
-        return links, None if held is None else held.moved(np.linalg.inv(same.flange) @ frames[-1])
+        payload = self.arm.payload
+        return links, None if payload is None else payload.moved(np.linalg.inv(table_arm.flange) @ frames[-1])
 
     def draw(self, count: int, seed: int = 0) -> Array:
-        """Designs spread over the bounds, (count, k): a scrambled Sobol sequence; more of them begin with the same ones."""
+        """Return designs (count, k) spread over the bounds, from a scrambled Sobol sequence; a larger count begins with the
+        same designs.
+        """
         from scipy.stats import qmc
 
         if count < 1:
             raise InputError(f"{count} designs cannot be drawn; draw at least 1")
         engine = qmc.Sobol(len(self.parameters), scramble=True, rng=np.random.default_rng(seed))
-        unit = engine.random_base2(max(0, int(np.ceil(np.log2(count)))))[:count]
-        return np.asarray(self.lower + unit * (self.upper - self.lower))
+        fractions = engine.random_base2(max(0, int(np.ceil(np.log2(count)))))[:count]
+        return np.asarray(self.lower + fractions * (self.upper - self.lower))
 
 
-Vary = DesignSpace | Iterable["Parameter | str"] | Mapping[str, Any]
+Vary = DesignSpace | Iterable["DesignParameter | str"] | Mapping[str, Any]
 
 
 def design_space(arm: Arm, vary: Vary) -> DesignSpace:
-    """The space that ``vary`` describes.
+    """Return the space that ``vary`` describes.
 
     Args:
         arm: The given arm.
@@ -300,15 +325,15 @@ def design_space(arm: Arm, vary: Vary) -> DesignSpace:
     if isinstance(vary, DesignSpace):
         return vary
     if isinstance(vary, Mapping):
-        return DesignSpace(arm, tuple(_bounded(name, bounds) for name, bounds in vary.items()))
-    listed = [vary] if isinstance(vary, str) else list(vary)
-    if not all(isinstance(x, (str, Parameter)) for x in listed):
+        return DesignSpace(arm, tuple(_make_parameter(name, bounds) for name, bounds in vary.items()))
+    entries = [vary] if isinstance(vary, str) else list(vary)
+    if not all(isinstance(entry, (str, DesignParameter)) for entry in entries):
         raise InputError(f"vary is {vary!r}; give names with bounds, parameters, or texts such as 'a3=0.2..0.6'")
-    return DesignSpace(arm, tuple(x if isinstance(x, Parameter) else parse_vary(x, arm) for x in listed))
+    return DesignSpace(arm, tuple(entry if isinstance(entry, DesignParameter) else parse_vary(entry, arm) for entry in entries))
 
 
-def parse_vary(text: str, arm: Arm, option: str = "--vary") -> Parameter:
-    """``a3=0.2..0.6``, ``d1=300..400mm``, ``alpha4=-90..90deg`` or ``lower2=-1.5..-0.5rad`` as a parameter.
+def parse_vary(text: str, arm: Arm, option: str = "--vary") -> DesignParameter:
+    """Parse ``a3=0.2..0.6``, ``d1=300..400mm``, ``alpha4=-90..90deg`` or ``lower2=-1.5..-0.5rad`` as a parameter.
 
     Lengths are metres if they have no unit; angles must have theirs.
 
@@ -320,63 +345,70 @@ def parse_vary(text: str, arm: Arm, option: str = "--vary") -> Parameter:
     Raises:
         InputError: What is wrong with the text.
     """
-    name, equals, bounds = (x.strip() for x in text.partition("="))
-    low, dots, rest = (x.strip() for x in bounds.partition(".."))
+    name, equals, bounds = (piece.strip() for piece in text.partition("="))
+    lower_text, dots, upper_text = (piece.strip() for piece in bounds.partition(".."))
     if not (equals and dots):
         raise InputError(f"{option} '{text}' cannot be read; write NAME=LOWER..UPPER, as a3=0.2..0.6 or alpha4=-90..90deg")
-    kind, row = _parts(name, f"{option} ")
-    sliding = row is not None and row < arm.n and arm.joints[row].prismatic
-    wanted = "rad" if kind in _ANGLES or (kind in ("lower", "upper") and not sliding) else "m"
-    low_number, low_unit = _quantity(low, option, text)
-    high_number, high_unit = _quantity(rest, option, text)
-    unit = high_unit or ("m" if wanted == "m" else "")
+    kind, row = _parse_parameter_name(name, f"{option} ")
+    is_prismatic = row is not None and row < arm.n and arm.joints[row].prismatic
+    expected_unit = "rad" if kind in _ANGLE_KINDS or (kind in ("lower", "upper") and not is_prismatic) else "m"
+    lower_number, lower_unit = _parse_quantity(lower_text, option, text)
+    upper_number, upper_unit = _parse_quantity(upper_text, option, text)
+    unit = upper_unit or ("m" if expected_unit == "m" else "")
     if not unit:
         raise InputError(
-            f"{option} '{text}': bounds of an angle need their unit; write {name}={low}..{rest}deg, or rad for radians"
+            f"{option} '{text}': bounds of an angle need their unit; write {name}={lower_text}..{upper_text}deg, or rad "
+            f"for radians"
         )
-    if low_unit not in ("", unit):
-        raise InputError(f"{option} '{text}' has two units, {low_unit} and {unit}; give both bounds in one, {unit} at the end")
-    factor, measured = _UNITS[unit]
-    if measured != wanted:
-        fit = "m or mm" if wanted == "m" else "deg or rad"
-        raise InputError(f"{option} '{text}': {name} is {'a length' if wanted == 'm' else 'an angle'}; give {fit}, not {unit}")
-    return Parameter(name, low_number * factor, high_number * factor, unit="m" if wanted == "m" else "rad")
+    if lower_unit not in ("", unit):
+        raise InputError(
+            f"{option} '{text}' has two units, {lower_unit} and {unit}; give both bounds in one, {unit} at the end"
+        )
+    factor, base_unit = _UNIT_FACTORS[unit]
+    if base_unit != expected_unit:
+        valid_units = "m or mm" if expected_unit == "m" else "deg or rad"
+        raise InputError(
+            f"{option} '{text}': {name} is {'a length' if expected_unit == 'm' else 'an angle'}; give {valid_units}, not {unit}"
+        )
+    return DesignParameter(name, lower_number * factor, upper_number * factor, unit="m" if expected_unit == "m" else "rad")
 
 
-def _quantity(text: str, option: str, whole: str) -> tuple[float, str]:
-    found = re.fullmatch(r"(.*?[\d.])\s*([a-zA-Z]*)", text)
+def _parse_quantity(text: str, option: str, full_text: str) -> tuple[float, str]:
+    match = re.fullmatch(r"(.*?[\d.])\s*([a-zA-Z]*)", text)
     try:
-        value = float(found[1]) if found else float("nan")
+        value = float(match[1]) if match else float("nan")
     except ValueError:
         value = float("nan")
-    if found is None or not np.isfinite(value):
-        raise InputError(f"{option} '{whole}': '{text}' is not a number with its unit; write it as 0.2, 200mm or 90deg")
-    if found[2] and found[2] not in _UNITS:
-        raise InputError(f"{option} '{whole}': the unit '{found[2]}' is not known; use m, mm, deg or rad")
-    return value, found[2]
+    if match is None or not np.isfinite(value):
+        raise InputError(f"{option} '{full_text}': '{text}' is not a number with its unit; write it as 0.2, 200mm or 90deg")
+    if match[2] and match[2] not in _UNIT_FACTORS:
+        raise InputError(f"{option} '{full_text}': the unit '{match[2]}' is not known; use m, mm, deg or rad")
+    return value, match[2]
 
 
-def _bounded(name: str, bounds: Any) -> Parameter:
+def _make_parameter(name: str, bounds: Any) -> DesignParameter:
     try:
-        low, high = (float(x) for x in bounds)
+        lower, upper = (float(x) for x in bounds)
     except (TypeError, ValueError) as error:
         raise InputError(f"bounds of {name} are {bounds!r}; they must be two numbers, (lower, upper), rad or m") from error
-    return Parameter(name, low, high)
+    return DesignParameter(name, lower, upper)
 
 
-def _parts(name: str, before: str = "") -> tuple[str, int | None]:
-    """What a name says: kind and row from 0, or kind and None for the tool."""
-    found = re.fullmatch(rf"({'|'.join(OF_ROW)})([1-9]\d*)", name)
-    if found:
-        return found[1], int(found[2]) - 1
-    place, _, kind = name.partition(".")
-    if place == "tool" and kind in OF_TOOL:
+def _parse_parameter_name(name: str, prefix: str = "") -> tuple[str, int | None]:
+    """Parse the name of a parameter into kind and row from 0, or kind and None for the tool."""
+    match = re.fullmatch(rf"({'|'.join(ROW_PARAMETERS)})([1-9]\d*)", name)
+    if match:
+        return match[1], int(match[2]) - 1
+    owner, _, kind = name.partition(".")
+    if owner == "tool" and kind in TOOL_PARAMETERS:
         return kind, None
-    raise InputError(f"{before}'{name}' is not a parameter of an arm; write {_EXAMPLE}")
+    raise InputError(f"{prefix}'{name}' is not a parameter of an arm; write {_PARAMETER_EXAMPLES}")
 
 
-def _rpy(rotation: Array) -> tuple[float, float, float]:
-    """Roll, pitch and yaw, rad; where pitch is a right angle yaw is 0, as only roll and yaw together are known."""
+def _compute_roll_pitch_yaw(rotation: Array) -> tuple[float, float, float]:
+    """Return roll, pitch, and yaw, rad; at a pitch of 90 deg only the combination of roll and yaw is determined,
+    and yaw is 0.
+    """
     pitch = np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0]))
     if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-12:
         return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), float(pitch), 0.0

@@ -1,4 +1,4 @@
-"""A monitor that notices a joint fault while the arm moves, names the joint, and says what it could not tell."""
+"""Monitor that detects a joint fault while the arm moves, isolates the joint, and reports inconclusive cases."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""What a record showed, and what it could not show."""
+"""Result of a diagnosis: the fault that a recording shows, and the inconclusive joints."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import numpy as np
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.gaps import STALE
-from holdfast.diagnosis.kinds import Verdict
-from holdfast.diagnosis.signals import Scaled, Signals
+from holdfast.diagnosis.gaps import MAX_BRIDGED_GAP_S
+from holdfast.diagnosis.kinds import FaultVerdict
+from holdfast.diagnosis.signals import ScaledResiduals, Signals
 from holdfast.faults.log import Log
 from holdfast.result import Result
 from holdfast.words import format_seconds
 
-_ENOUGH = 2.0  # of its tracking bound: a reference that moves by less shows no lock
-_FASTER = 1.1  # than in calibration
-_LEVELS = {"torque": "torques", "tracking": "joint sensors", "tool": "the measured tool pose"}
-_KINDS = {
+_MIN_TRAVEL_FACTOR = 2.0  # of its tracking bound: a reference that moves by less shows no lock
+_MAX_SPEED_FACTOR = 1.1  # than in calibration
+_LEVEL_NAMES = {"torque": "torques", "tracking": "joint sensors", "tool": "the measured tool pose"}
+_KIND_PHRASES = {
     "locked": "is locked",
     "standstill": "does not move: locked, or free-swinging and held by friction",
     "limp": "swings free: its motor gives no torque",
@@ -34,7 +34,7 @@ _KINDS = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Diagnosis(Result):
-    """What :func:`holdfast.diagnosis.diagnose` found in a record.
+    """Result of :func:`holdfast.diagnosis.diagnose` for a recording.
 
     Attributes:
         arm: The arm.
@@ -49,57 +49,78 @@ class Diagnosis(Result):
     log: Log
     bounds: Bounds
     signals: Signals
-    scaled: Scaled
-    verdict: Verdict
+    scaled: ScaledResiduals
+    verdict: FaultVerdict
 
     @cached_property
-    def untold(self) -> tuple[str, ...]:
-        """Joints that were not asked to move enough to tell whether they are locked: by less than twice their bound."""
+    def inconclusive(self) -> tuple[str, ...]:
+        """Joints whose reference moves by less than twice their tracking bound, so that a lock could not be detected."""
         travel = np.fmax.reduce(self.log.q_ref) - np.fmin.reduce(self.log.q_ref)
-        few = ~(travel >= _ENOUGH * self.bounds.tracking)
-        return tuple(name for name, little in zip(self.arm.joint_names, few, strict=True) if little)
+        moves_too_little = ~(travel >= _MIN_TRAVEL_FACTOR * self.bounds.tracking)
+        return tuple(
+            name for name, is_inconclusive in zip(self.arm.joint_names, moves_too_little, strict=True) if is_inconclusive
+        )
 
     @cached_property
     def beyond(self) -> tuple[str, ...]:
-        """Joints that were asked to move more than 10 % faster than in calibration: the bounds do not hold for them."""
-        speed = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
-        fast = speed > _FASTER * self.bounds.speed + 1e-9
-        return tuple(name for name, faster in zip(self.arm.joint_names, fast, strict=True) if faster)
+        """Joints whose reference is more than 10 % faster than in calibration, so that the bounds are not valid for them."""
+        max_speeds = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
+        is_too_fast = max_speeds > _MAX_SPEED_FACTOR * self.bounds.speed + 1e-9
+        return tuple(name for name, is_beyond in zip(self.arm.joint_names, is_too_fast, strict=True) if is_beyond)
 
     @cached_property
     def gaps(self) -> tuple[tuple[float, float], ...]:
-        """From when to when, s, nothing was looked at: the record has no numbers of the joints for more than 50 ms."""
-        told = self.log.t[self.signals.seen]
-        ends = [self.log.t[0], *told, self.log.t[-1]]
-        return tuple((float(a), float(b)) for a, b in pairwise(ends) if b - a > STALE + 1.5 * self.signals.dt)
+        """Start and end, s, of the intervals of more than 50 ms without joint measurements, in which nothing was monitored."""
+        measured_times = self.log.t[self.signals.seen]
+        times = [self.log.t[0], *measured_times, self.log.t[-1]]
+        return tuple(
+            (float(gap_start), float(gap_end))
+            for gap_start, gap_end in pairwise(times)
+            if gap_end - gap_start > MAX_BRIDGED_GAP_S + 1.5 * self.signals.dt
+        )
 
     @property
     def off(self) -> tuple[str, ...]:
-        """What is not watched, because the record or the bounds do not have it."""
+        """Signals that are not monitored, because the recording or the bounds lack them."""
         bounds = self.bounds
-        known = {"torque": bool(np.isfinite(bounds.torque).all()), "tool": bool(np.isfinite(bounds.position))}
-        return tuple(_LEVELS[name] for name, there in known.items() if not there or name not in self.signals.levels)
+        has_bound = {"torque": bool(np.isfinite(bounds.torque).all()), "tool": bool(np.isfinite(bounds.position))}
+        return tuple(
+            _LEVEL_NAMES[name]
+            for name, is_available in has_bound.items()
+            if not is_available or name not in self.signals.levels
+        )
 
     def describe(self) -> list[str]:
-        """The fault or that none was seen, the reasons, and what could not be told."""
-        v = self.verdict
-        if not v.alarm:
+        """Describe the fault, or that none was detected, with the reasons and the inconclusive joints."""
+        verdict = self.verdict
+        if not verdict.alarm:
             lines = [f"no fault seen in {self.log.duration:.4g} s"]
-        elif v.kind == "contact":
-            blame = f", or {v.suspect} has a fault: it alone is above its bound" if v.suspect else "; no joint is to blame"
-            lines = [f"alarm at {format_seconds(v.time)}: something pushed the arm{blame}"]
+        elif verdict.kind == "contact":
+            blame_text = (
+                f", or {verdict.suspect} has a fault: it alone is above its bound"
+                if verdict.suspect
+                else "; no joint is to blame"
+            )
+            lines = [f"alarm at {format_seconds(verdict.time)}: something pushed the arm{blame_text}"]
         else:
-            lost = f" (it gives {1 - v.loss:.0%} of its torque, ± {v.uncertainty:.0%})" if v.kind == "weak" else ""
-            lines = [f"alarm at {format_seconds(v.time)}: {v.joint or 'a joint that is not known'} {_KINDS[v.kind]}{lost}"]
-        lines += list(v.evidence)
-        others = [kind for kind in v.candidates if kind != v.kind]
-        if others:
-            lines.append(f"it may also be: {', '.join(others)}")
-        if self.untold:
-            lines.append(f"these joints did not move enough to tell: {', '.join(self.untold)}")
+            loss_text = (
+                f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
+                if verdict.kind == "weak"
+                else ""
+            )
+            lines = [
+                f"alarm at {format_seconds(verdict.time)}: {verdict.joint or 'a joint that is not known'} "
+                f"{_KIND_PHRASES[verdict.kind]}{loss_text}"
+            ]
+        lines += list(verdict.evidence)
+        other_kinds = [kind for kind in verdict.candidates if kind != verdict.kind]
+        if other_kinds:
+            lines.append(f"it may also be: {', '.join(other_kinds)}")
+        if self.inconclusive:
+            lines.append(f"these joints did not move enough to tell: {', '.join(self.inconclusive)}")
         if self.gaps:
-            long = sum(end - start for start, end in self.gaps)
-            lines.append(f"nothing was looked at for {long:.4g} s: there the record has no numbers of the joints")
+            unmonitored = sum(gap_end - gap_start for gap_start, gap_end in self.gaps)
+            lines.append(f"nothing was looked at for {unmonitored:.4g} s: there the record has no numbers of the joints")
         if self.off:
             lines.append(f"not watched: {', '.join(self.off)}")
         if self.beyond:

@@ -1,4 +1,4 @@
-"""Bounds of the residuals of a healthy arm, calibrated from its records, with the rate of false alarms that follows."""
+"""Bounds of the residuals of a healthy arm, calibrated from its recordings, with the resulting rate of false alarms."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
-from holdfast.diagnosis.fitting import fitted, scaled
+from holdfast.diagnosis.fitting import fit_masses_and_friction, scale_masses
 from holdfast.diagnosis.plausibility import prepare_log, require_explained, require_following
-from holdfast.diagnosis.signals import LIMITS, signals_of
+from holdfast.diagnosis.signals import EXCESS_LIMITS_S, compute_signals
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 from holdfast.files.digest import seal_document
-from holdfast.files.output import replaced
+from holdfast.files.output import replace_file
 from holdfast.files.sealed import read_sealed
-from holdfast.notice import each, says
+from holdfast.notice import reports_progress, track
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-FACTOR, ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors alone
-OFF_RATE = 0.01  # of the rate: so much may a record differ from its bounds
-_HOUR = 3600.0
-_UNSEALED_FORMAT, _FORMAT = 1, 2  # the first has no digest
+BOUND_FACTOR, BOUND_FACTOR_SENSORS_ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors alone
+RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
+_SECONDS_PER_HOUR = 3600.0
+_UNSEALED_FORMAT, _SEALED_FORMAT = 1, 2  # the first has no digest
 _JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
-_LARGEST_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
+_MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Bounds(Result):
-    """How large residuals of a healthy arm were.
+    """Largest residuals of a healthy arm.
 
     Attributes:
         fingerprint: Of the arm.
@@ -74,7 +74,7 @@ class Bounds(Result):
     alarms: int | None
 
     def false_alarms(self) -> tuple[float, float] | None:
-        """False alarms per hour, and the upper limit of their rate with a confidence of 95 %; None if it was not counted.
+        """Return the false alarms per hour, and the 95 % upper confidence limit of their rate; None if they were not counted.
 
         The limit is ``chi2_0.95(2 k + 2) / (2 H)`` for k alarms in H hours: 3.0/H for none. It is of this arm and this kind of
         motion, and no lower rate may be claimed.
@@ -95,24 +95,24 @@ class Bounds(Result):
         """
         with np.errstate(divide="ignore"):
             time_to_bound = self.tracking / (self.speed / 2)
-        return np.asarray(time_to_bound + np.sqrt(2 * LIMITS["tracking"] * time_to_bound))
+        return np.asarray(time_to_bound + np.sqrt(2 * EXCESS_LIMITS_S["tracking"] * time_to_bound))
 
     def body(self, arm: Arm) -> Arm:
-        """The arm with the masses that its torques are compared with."""
-        return scaled(arm, self.scales)
+        """Return the arm with the link masses that the bounds assume."""
+        return scale_masses(arm, self.scales)
 
     def describe(self) -> list[str]:
-        """The hours, the rate of false alarms, and what is watched."""
+        """Describe the hours of calibration, the rate of false alarms, and the monitored signals."""
         lines = [
             f"bounds of {self.logs} record{'s' * (self.logs != 1)}, {self.hours:.3g} h of healthy motion at {self.rate:.4g} Hz"
         ]
-        told = self.false_alarms()
-        if told is None:
+        false_alarm_rates = self.false_alarms()
+        if false_alarm_rates is None:
             lines.append("false alarms: unknown; calibrate with two records or more")
         else:
             lines.append(
                 f"false alarms: {self.alarms} where each record is watched with the bounds of the others; with 95 % confidence "
-                f"fewer than {told[1]:.3g} an hour, for this arm and motion as it was recorded"
+                f"fewer than {false_alarm_rates[1]:.3g} an hour, for this arm and motion as it was recorded"
             )
         if (self.speed > 0).any():
             delays = self.lock_delays()
@@ -122,11 +122,13 @@ class Bounds(Result):
                 f"most {1e3 * delays[slowest]:.0f} ms ({self.joints[slowest]}); its torque usually shows it earlier"
             )
         if (self.scales != 1).any():
-            low, high = self.scales.min(), self.scales.max()
-            lines.append(f"friction and masses are fitted to the records, masses {low:.2f} to {high:.2f} times the arm's")
+            smallest, largest = self.scales.min(), self.scales.max()
+            lines.append(
+                f"friction and masses are fitted to the records, masses {smallest:.2f} to {largest:.2f} times the arm's"
+            )
         missing = [] if np.isfinite(self.torque).all() else ["torques"]
         missing += [] if np.isfinite(self.position) else ["the measured tool pose"]
-        return lines + [f"not watched: {what} (not in the records)" for what in missing]
+        return lines + [f"not watched: {signal} (not in the records)" for signal in missing]
 
     def to_json(self, file: str | Path) -> Path:
         """Write the file that :func:`holdfast.diagnosis.load` reads.
@@ -134,26 +136,26 @@ class Bounds(Result):
         Raises:
             StoreError: It cannot be written.
         """
-        data: dict[str, Any] = {"format": _FORMAT}
+        data: dict[str, Any] = {"format": _SEALED_FORMAT}
         for name, value in vars(self).items():
             if isinstance(value, np.ndarray):
-                data[name] = [x if np.isfinite(x) else None for x in value.tolist()]
+                data[name] = [number if np.isfinite(number) else None for number in value.tolist()]
             else:
                 data[name] = None if value == np.inf else value
-        replaced(Path(file), seal_document(data), "bounds")
+        replace_file(Path(file), seal_document(data), "bounds")
         return Path(file)
 
     def require_sound(self) -> None:
-        """Refuse bounds with which a monitor would detect nothing or everything.
+        """Raise an error for bounds with which a monitor would detect nothing or everything.
 
         Raises:
             InputError: A value of the wrong length or size; the message names it.
         """
-        n = len(self.joints)
+        joint_count = len(self.joints)
         vectors = {name: getattr(self, name) for name in _JOINT_VECTORS}
         for name, value in vectors.items():
-            if value.shape != (n,):
-                raise InputError(f"{name} has shape {value.shape}; it must be ({n},), one value for each joint")
+            if value.shape != (joint_count,):
+                raise InputError(f"{name} has shape {value.shape}; it must be ({joint_count},), one value for each joint")
         measured = {"torque": self.torque, "change": self.change, "tracking": self.tracking, "scales": self.scales}
         if np.isinf(self.torque).all() and np.isinf(self.change).all():
             del measured["torque"], measured["change"]
@@ -169,36 +171,36 @@ class Bounds(Result):
             raise InputError(f"it counts {self.alarms} false alarms in {self.logs} logs; both are numbers of 0 or more")
 
     def require(self, arm: Arm, rate: float) -> None:
-        """Refuse another arm or another rate.
+        """Raise an error if the bounds belong to another arm or to another sample rate.
 
         Raises:
             InputError: It is another one.
         """
         if arm.fingerprint != self.fingerprint:
             raise InputError(f"the bounds are of another arm than '{arm.name}'; calibrate with records of this one")
-        if abs(rate / self.rate - 1) > OFF_RATE:
+        if abs(rate / self.rate - 1) > RATE_TOLERANCE:
             raise InputError(
                 f"the record has {rate:.4g} samples a second and the bounds {self.rate:.4g}; use records of one rate"
             )
 
 
 def load(file: str | Path) -> Bounds:
-    """Bounds from a file of :meth:`Bounds.to_json`.
+    """Read bounds from a file of :meth:`Bounds.to_json`.
 
     Raises:
         InputError: Unreadable, or no such file.
     """
     try:
-        data = read_sealed(file, _FORMAT)
-        if data.pop("format") not in (_FORMAT, _UNSEALED_FORMAT):
+        data = read_sealed(file, _SEALED_FORMAT)
+        if data.pop("format") not in (_SEALED_FORMAT, _UNSEALED_FORMAT):
             raise ValueError
         if "scales" not in data:  # files of earlier versions
             data["scales"] = [1.0] * len(data["joints"])
         data.setdefault("change", data["torque"])
         for name in _JOINT_VECTORS:
-            data[name] = np.array([_number(x) for x in data[name]], dtype=np.float64)
+            data[name] = np.array([_read_number(number) for number in data[name]], dtype=np.float64)
         for name in ("position", "angle", "rate", "factor", "hours"):
-            data[name] = _number(data[name])
+            data[name] = _read_number(data[name])
         for name in ("logs", "alarms"):
             if not (isinstance(data[name], int) or (name == "alarms" and data[name] is None)):
                 raise ValueError
@@ -215,21 +217,21 @@ def load(file: str | Path) -> Bounds:
         raise InputError(f"bounds '{file}': it is no file of bounds; make one with holdfast calibrate") from error
 
 
-def _number(value: Any) -> float:
-    """Return a number of the file, of which null stands for infinity."""
+def _read_number(value: Any) -> float:
+    """Return a number of the file, in which null stands for infinity."""
     if isinstance(value, bool) or not isinstance(value, int | float | None):
         raise ValueError
     return np.inf if value is None else float(value)
 
 
-def _require_between(name: str, value: Array, least: float, wanted: str) -> None:
-    wrong = np.flatnonzero(~((value >= least) & (value <= _LARGEST_VALUE)))
+def _require_between(name: str, value: Array, minimum: float, requirement: str) -> None:
+    wrong = np.flatnonzero(~((value >= minimum) & (value <= _MAX_VALUE)))
     if wrong.size:
-        raise InputError(f"{name} is {value[wrong[0]]:g}; it must be {wanted} and at most {_LARGEST_VALUE:g}")
+        raise InputError(f"{name} is {value[wrong[0]]:g}; it must be {requirement} and at most {_MAX_VALUE:g}")
 
 
-@checked
-@says("calibrating")
+@check_arguments
+@reports_progress("calibrating")
 def calibrate(
     arm: Arm,
     logs: Sequence[Log],
@@ -239,7 +241,7 @@ def calibrate(
     viscous: ArrayLike | None = None,
     fit: bool = False,
 ) -> Bounds:
-    """Bounds from records of a healthy arm, and how often they would have alarmed.
+    """Calibrate bounds from recordings of a healthy arm, and count how often these recordings would have raised an alarm.
 
     The bound of each residual is the largest that any record has, times ``factor``. For the false alarms each record is
     watched with the bounds of all others.
@@ -266,41 +268,55 @@ def calibrate(
     if not logs:
         raise InputError("there is no record to calibrate with; give records of healthy motion")
     if factor is None:
-        factor = FACTOR if any(log.tau is not None for log in logs) else ALONE
+        factor = BOUND_FACTOR if any(log.tau is not None for log in logs) else BOUND_FACTOR_SENSORS_ALONE
     if not factor >= 1:
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
-    dry = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
-    wet = np.array([j.friction for j in arm.joints]) if viscous is None else np.broadcast_to(np.asarray(viscous), (arm.n,))
+    coulomb_friction = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
+    viscous_friction = (
+        np.array([joint.friction for joint in arm.joints])
+        if viscous is None
+        else np.broadcast_to(np.asarray(viscous), (arm.n,))
+    )
     logs = [prepare_log(arm, log) for log in logs]
     rate = logs[0].rate
     for log in logs:
-        if abs(log.rate / rate - 1) > OFF_RATE:
+        if abs(log.rate / rate - 1) > RATE_TOLERANCE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
     require_following(arm, logs)
-    require_explained(arm, logs, coulomb=dry, viscous=wet)
+    require_explained(arm, logs, coulomb=coulomb_friction, viscous=viscous_friction)
     scales = np.ones(arm.n)
     if fit:
-        scales, dry, wet = fitted(arm, logs, dry, wet)
-    body = scaled(arm, scales)
-    found = [signals_of(arm, log, coulomb=dry, viscous=wet, body=body) for log in each("records", logs)]
-    largest = [np.array([s.largest(name) for s in found]) for name in ("torque", "tracking", "position", "angle")]
-    if all(np.isnan(s.tracking).all() for s in found):
+        scales, coulomb_friction, viscous_friction = fit_masses_and_friction(arm, logs, coulomb_friction, viscous_friction)
+    fitted_arm = scale_masses(arm, scales)
+    residual_signals = [
+        compute_signals(arm, log, coulomb=coulomb_friction, viscous=viscous_friction, body=fitted_arm)
+        for log in track("records", logs)
+    ]
+    largest = [
+        np.array([log_signals.largest_residual(name) for log_signals in residual_signals])
+        for name in ("torque", "tracking", "position", "angle")
+    ]
+    if all(np.isnan(log_signals.tracking).all() for log_signals in residual_signals):
         raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")
-    same = np.flatnonzero(largest[1].max(axis=0) == 0)
-    if same.size:
+    without_error = np.flatnonzero(largest[1].max(axis=0) == 0)
+    if without_error.size:
         raise InputError(
-            f"'{arm.joint_names[same[0]]}' never departs from its reference in the records; q_ref must be what the servos "
+            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what "
+            f"the servos "
             "were to follow, not what the sensors told"
         )
-    change = factor * np.array([s.largest("change") for s in found]).max(axis=0)
+    change = factor * np.array([log_signals.largest_residual("change") for log_signals in residual_signals]).max(axis=0)
     alarms: int | None = None
     if len(logs) > 1:
         alarms = 0
-        for k, signals in enumerate(found):
-            others = [factor * np.delete(x, k, axis=0).max(axis=0) for x in largest]
-            alarms += signals.scaled(*others).alarm is not None
-    bounds = [factor * x.max(axis=0) for x in largest]
-    hours = sum(log.duration * float(s.seen.mean()) for log, s in zip(logs, found, strict=True)) / _HOUR
+        for index, signals in enumerate(residual_signals):
+            others = [factor * np.delete(residuals, index, axis=0).max(axis=0) for residuals in largest]
+            alarms += signals.scale_by_bounds(*others).alarm is not None
+    bounds = [factor * residuals.max(axis=0) for residuals in largest]
+    hours = (
+        sum(log.duration * float(log_signals.seen.mean()) for log, log_signals in zip(logs, residual_signals, strict=True))
+        / _SECONDS_PER_HOUR
+    )
     return Bounds(
         fingerprint=arm.fingerprint,
         joints=arm.joint_names,
@@ -310,8 +326,8 @@ def calibrate(
         tracking=bounds[1],
         position=float(bounds[2]),
         angle=float(bounds[3]),
-        coulomb=np.array(dry),
-        viscous=np.array(wet, dtype=np.float64),
+        coulomb=np.array(coulomb_friction),
+        viscous=np.array(viscous_friction, dtype=np.float64),
         scales=scales,
         factor=float(factor),
         speed=np.nanmax([np.nanmax(np.abs(np.diff(log.q_ref, axis=0) * rate), axis=0) for log in logs], axis=0),

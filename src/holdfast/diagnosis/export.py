@@ -1,4 +1,4 @@
-"""The monitor as C99 that needs nothing but ``math.h``, for a robot's own controller."""
+"""Export the monitor as C99 code that depends on nothing except ``math.h``, for a robot's own controller."""
 
 from __future__ import annotations
 
@@ -14,32 +14,38 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.control.c_functions import Function, commented, filled, written
-from holdfast.control.export import check_name, quoted, version
+from holdfast.control.c_functions import CFunction, fill_template, write_c_comment, write_c_functions
+from holdfast.control.export import check_name, holdfast_version, quote_c_string
 from holdfast.diagnosis import decision, kinds
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.gaps import STALE, cycles
-from holdfast.diagnosis.observer import BAND, GAIN, LEVEL, SLIP, momentum_terms
+from holdfast.diagnosis.gaps import MAX_BRIDGED_GAP_S, count_cycles
+from holdfast.diagnosis.observer import (
+    FILTER_BANDWIDTH_RAD_S,
+    FRICTION_TRANSITION_RATE,
+    LEVEL_BANDWIDTH_RAD_S,
+    OBSERVER_GAIN_PER_S,
+    momentum_terms,
+)
 from holdfast.diagnosis.sensors import Sensors
-from holdfast.diagnosis.signals import CALM, LIMITS, SLOW
-from holdfast.files.output import put
-from holdfast.kernels.c_backend import number
-from holdfast.kernels.javascript_backend import javascript
-from holdfast.notice import says
+from holdfast.diagnosis.signals import CALM_TIME_S, EXCESS_LIMITS_S, MAX_SLOW_RATE
+from holdfast.files.output import write_files
+from holdfast.kernels.c_backend import c_number
+from holdfast.kernels.javascript_backend import write_javascript
+from holdfast.notice import reports_progress
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
 # As the enum in C has them.
-_KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
+_KIND_WORDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
 
 
 @dataclass(frozen=True, kw_only=True)
 class ExportedMonitor(Result):
-    """The files of a monitor.
+    """Files of an exported monitor.
 
     Attributes:
         arm: The arm.
@@ -59,18 +65,18 @@ class ExportedMonitor(Result):
         return iter((self.source, self.header, self.example))
 
     def describe(self) -> list[str]:
-        """What was written where."""
+        """Describe which files were written."""
         source, *others = self
         return [f"monitor of {self.arm.title}: wrote {source} and {', '.join(file.name for file in others)}"]
 
     def to_dict(self) -> dict[str, Any]:
-        """The arm, the digest and the files."""
+        """Return the arm, the digest, and the files."""
         files = zip(("source", "header", "example"), map(str, self), strict=True)
         return {**self.arm.entry(), "digest": self.digest, **dict(files)}
 
 
-@checked
-@says("writing down the monitor")
+@check_arguments
+@reports_progress("writing down the monitor")
 def export_c(
     arm: Arm, bounds: Bounds, folder: str | Path, *, name: str = "monitor", sensors: Sensors | None = None
 ) -> ExportedMonitor:
@@ -93,85 +99,99 @@ def export_c(
     """
     bounds.require(arm, bounds.rate)
     check_name(name)
-    known = sensors or Sensors()
-    digest = _digest(bounds, known)
-    words = {"NAME": name, "GUARD": name.upper(), "COUNT": str(arm.n)}
-    words |= {"VERSION": version(), "FINGERPRINT": arm.fingerprint, "DIGEST": digest, "RATE_HZ": repr(bounds.rate)}
-    constants = {**words, **_constants(arm, bounds, known)}
-    about = _about(arm, bounds, name, digest)
-    text_of = partial(filled, "holdfast.diagnosis", "c")
+    sensor_accuracy = sensors or Sensors()
+    digest = _monitor_digest(bounds, sensor_accuracy)
+    replacements = {"NAME": name, "GUARD": name.upper(), "COUNT": str(arm.n)}
+    replacements |= {
+        "VERSION": holdfast_version(),
+        "FINGERPRINT": arm.fingerprint,
+        "DIGEST": digest,
+        "RATE_HZ": repr(bounds.rate),
+    }
+    constants = {**replacements, **_c_constants(arm, bounds, sensor_accuracy)}
+    heading = _heading_comment(arm, bounds, name, digest)
+    text_of = partial(fill_template, "holdfast.diagnosis", "c")
     texts = {
-        f"{name}.c": f'{about}\n#include "{name}.h"\n\n#include <math.h>\n\n{_graph(arm, bounds, known, name)}\n'
-        + text_of("arithmetic.c", words)
+        f"{name}.c": f'{heading}\n#include "{name}.h"\n\n#include '
+        f"<math.h>\n\n{_model_source(arm, bounds, sensor_accuracy, name)}\n"
+        + text_of("arithmetic.c", replacements)
         + "\n"
         + text_of("monitor.c", constants),
-        f"{name}.h": f"{about}\n" + text_of("monitor.h", constants),
-        f"{name}_example.c": text_of("monitor_example.c", words),
+        f"{name}.h": f"{heading}\n" + text_of("monitor.h", constants),
+        f"{name}_example.c": text_of("monitor_example.c", replacements),
     }
-    source, header, example = put(folder, texts)
+    source, header, example = write_files(folder, texts)
     return ExportedMonitor(arm=arm, source=source, header=header, example=example, digest=digest)
 
 
-def _digest(bounds: Bounds, sensors: Sensors) -> str:
-    """Of all numbers that the monitor has, in their order."""
+def _monitor_digest(bounds: Bounds, sensors: Sensors) -> str:
+    """Return the digest of all numbers that the monitor contains, in their order."""
     data = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(bounds).items()}
     return hashlib.sha256(json.dumps([data, vars(sensors)], sort_keys=True).encode()).hexdigest()
 
 
-def _constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
-    """What the text leaves open, as C writes it."""
-    dt = 1 / bounds.rate
-    times = {"SPLIT": decision.ISOLATE, "LAST": decision.ISOLATE + decision.CLASSIFY, "AGAIN": decision.AGAIN}
-    times |= {"ENDS": decision.WATCHED, "CALM": CALM, "LONGEST": STALE}
+def _c_constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
+    """Return the values of the placeholders in the source text, in the notation of C."""
+    period = 1 / bounds.rate
+    durations = {
+        "SPLIT": decision.ISOLATION_TIME_S,
+        "LAST": decision.ISOLATION_TIME_S + decision.CLASSIFICATION_TIME_S,
+        "AGAIN": decision.SENSOR_REVISION_TIME_S,
+    }
+    durations |= {"ENDS": decision.POSE_MONITORING_TIME_S, "CALM": CALM_TIME_S, "LONGEST": MAX_BRIDGED_GAP_S}
     values = {
-        "DT": dt,
-        "BAND": min(1.0, BAND * dt),
-        "LOW": min(1.0, GAIN * dt),
-        "KEEP": 1 - GAIN * dt,
-        "LEVEL": min(1.0, LEVEL * dt),
-        "GAIN": GAIN,
-        "SLIP": SLIP,
-        "SLOW": SLOW,
+        "DT": period,
+        "BAND": min(1.0, FILTER_BANDWIDTH_RAD_S * period),
+        "LOW": min(1.0, OBSERVER_GAIN_PER_S * period),
+        "KEEP": 1 - OBSERVER_GAIN_PER_S * period,
+        "LEVEL": min(1.0, LEVEL_BANDWIDTH_RAD_S * period),
+        "GAIN": OBSERVER_GAIN_PER_S,
+        "SLIP": FRICTION_TRANSITION_RATE,
+        "SLOW": MAX_SLOW_RATE,
         "POSITION": bounds.position,
         "ANGLE": bounds.angle,
-        "LIMIT_Z": LIMITS["torque"],
-        "LIMIT_Y": LIMITS["tracking"],
-        "LIMIT_W": LIMITS["tool"],
-        "NOISE": kinds.NOISY * sensors.joint,
-        "LEAST": kinds.CARRIED[0],
-        "MOST": kinds.CARRIED[1],
+        "LIMIT_Z": EXCESS_LIMITS_S["torque"],
+        "LIMIT_Y": EXCESS_LIMITS_S["tracking"],
+        "LIMIT_W": EXCESS_LIMITS_S["tool"],
+        "NOISE": kinds.NOISE_FACTOR * sensors.joint,
+        "LEAST": kinds.FRICTION_LOSS_RANGE[0],
+        "MOST": kinds.FRICTION_LOSS_RANGE[1],
     }
     values |= {name: getattr(decision, name) for name in ("UNSURE", "SUSPECT", "WORSE", "PUSHED")}
     thresholds = ("SCALE", "STILL", "PART", "TIMES", "ALL", "MORE", "AWAY", "LOST", "GROWN", "DRIVEN")
     values |= {name: getattr(kinds, name) for name in thresholds}
-    named = {name: str(cycles(seconds, dt)) for name, seconds in times.items()}
-    named |= {name: number(value) for name, value in values.items()}
+    literals = {name: str(count_cycles(seconds, period)) for name, seconds in durations.items()}
+    literals |= {name: c_number(value) for name, value in values.items()}
     torques = str(int(np.isfinite(bounds.torque).all()))
-    named_kinds = ", ".join(map(quoted, _KINDS))
-    words = {"WITH_TORQUES": torques, "KIND_WORDS": named_kinds, "LATE_CYCLES": str(round(sensors.latency * bounds.rate))}
-    return {**words, **{f"CONST_{name}": value for name, value in named.items()}}
+    named_kinds = ", ".join(map(quote_c_string, _KIND_WORDS))
+    replacements = {
+        "WITH_TORQUES": torques,
+        "KIND_WORDS": named_kinds,
+        "LATE_CYCLES": str(round(sensors.latency * bounds.rate)),
+    }
+    return {**replacements, **{f"CONST_{name}": value for name, value in literals.items()}}
 
 
-def _array(name: str, values: Array) -> str:
-    return f"static const double {name}[{len(values)}] = {{{', '.join(map(number, values))}}};\n"
+def _c_array(name: str, values: Array) -> str:
+    return f"static const double {name}[{len(values)}] = {{{', '.join(map(c_number, values))}}};\n"
 
 
-def _functions(arm: Arm, bounds: Bounds) -> dict[str, Function]:
-    """What is computed of the arm's equations, by the graph that the Python monitor has."""
+def _model_functions(arm: Arm, bounds: Bounds) -> dict[str, CFunction]:
+    """Return the functions of the arm's equations, from the same graph as the Python monitor."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
-    moving, _ = kinematics.frames(arm, kinematics.joint_steps(arm, q))
-    ends = [*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1)]  # of links, from the tool
-    there = {"there": [pose[:3, :3].T, pose[:3, 3]], "jacobian": [kinematics.jacobian(arm, q)], "ends": ends}
-    functions = {"tool": Function({"q": q}, there)}
+    moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, q))
+    link_ends = [*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1)]  # of links, from the tool
+    tool_outputs = {"there": [pose[:3, :3].T, pose[:3, 3]], "jacobian": [kinematics.world_jacobian(arm, q)], "ends": link_ends}
+    functions = {"tool": CFunction({"q": q}, tool_outputs)}
     if np.isfinite(bounds.torque).all():
         terms = zip(("p", "energy", "gravity"), momentum_terms(bounds.body(arm), q, v), strict=True)
-        functions["momentum"] = Function({"q": q, "v": v}, {term: [x] for term, x in terms})
+        functions["momentum"] = CFunction({"q": q, "v": v}, {term: [term_expression] for term, term_expression in terms})
     return functions
 
 
 def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -> str:
-    """The monitor as a module of JavaScript that exports a class ``Monitor``: the same numbers and the same verdicts.
+    """Return the monitor as a JavaScript module that exports a class ``Monitor``, with the same numbers and verdicts.
 
     ``monitor.step(q, reference, torque, pose)`` takes arrays, the last two or ``null``, and returns the verdict of C's struct:
     ``{alarm, time, joint, kind, loss}``; ``monitor.kind()`` is the word. ``monitor.stale()`` has the words of
@@ -187,57 +207,69 @@ def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -
         ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
     """
     bounds.require(arm, bounds.rate)
-    known = sensors or Sensors()
-    words = {"COUNT": str(arm.n), "RATE_HZ": repr(bounds.rate), "NAME": "monitor", **_constants(arm, bounds, known)}
-    words = {word: text.replace("HUGE_VAL", "Infinity") for word, text in words.items()}
-    programs = [javascript(function.program(call), call) for call, function in _functions(arm, bounds).items()]
+    sensor_accuracy = sensors or Sensors()
+    replacements = {
+        "COUNT": str(arm.n),
+        "RATE_HZ": repr(bounds.rate),
+        "NAME": "monitor",
+        **_c_constants(arm, bounds, sensor_accuracy),
+    }
+    replacements = {word: text.replace("HUGE_VAL", "Infinity") for word, text in replacements.items()}
+    programs = [
+        write_javascript(function.program(function_name), function_name)
+        for function_name, function in _model_functions(arm, bounds).items()
+    ]
     arrays = {
         "torqueBound": bounds.torque,
         "changeBound": bounds.change,
         "trackingBound": bounds.tracking,
-        "weight": _weights(known),
+        "weight": _pose_weights(sensor_accuracy),
         "viscous": bounds.viscous,
         "coulomb": bounds.coulomb,
     }
-    numbers = [f"const {key} = [{', '.join(map(number, values))}];\n" for key, values in arrays.items()]
-    named = f"export const joints = {json.dumps(arm.joint_names)};\n"
-    text = "".join(numbers).replace("HUGE_VAL", "Infinity") + named
+    numbers = [f"const {key} = [{', '.join(map(c_number, values))}];\n" for key, values in arrays.items()]
+    joint_export = f"export const joints = {json.dumps(arm.joint_names)};\n"
+    text = "".join(numbers).replace("HUGE_VAL", "Infinity") + joint_export
     return "\n".join(
         [
-            _about(arm, bounds, "monitor", _digest(bounds, known), "JavaScript, needs nothing"),
+            _heading_comment(arm, bounds, "monitor", _monitor_digest(bounds, sensor_accuracy), "JavaScript, needs nothing"),
             *programs,
             text,
-            filled("holdfast.diagnosis", "c", "monitor.js", words),
+            fill_template("holdfast.diagnosis", "c", "monitor.js", replacements),
         ]
     )
 
 
-def _weights(sensors: Sensors) -> Array:
+def _pose_weights(sensors: Sensors) -> Array:
     return np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
 
 
-def _graph(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
-    """Names, bounds, and what is computed of the arm's equations."""
-    functions = _functions(arm, bounds)
-    text = written(functions)
-    joints = ", ".join(quoted(x) for x in arm.joint_names)
-    text += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
-    text += "".join(_array(f"{x}_bound", getattr(bounds, x)) for x in ("torque", "change", "tracking"))
-    text += _array("weight", _weights(sensors))
-    text += _array("viscous", bounds.viscous) if "momentum" in functions else ""
-    return text + _array("coulomb", bounds.coulomb)
+def _model_source(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
+    """Return names, bounds, and the functions of the arm's equations as C source."""
+    functions = _model_functions(arm, bounds)
+    source = write_c_functions(functions)
+    joints = ", ".join(quote_c_string(quantity) for quantity in arm.joint_names)
+    source += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
+    source += "".join(_c_array(f"{quantity}_bound", getattr(bounds, quantity)) for quantity in ("torque", "change", "tracking"))
+    source += _c_array("weight", _pose_weights(sensors))
+    source += _c_array("viscous", bounds.viscous) if "momentum" in functions else ""
+    return source + _c_array("coulomb", bounds.coulomb)
 
 
-def _about(arm: Arm, bounds: Bounds, name: str, digest: str, needs: str = "C99, needs only math.h") -> str:
-    told = bounds.false_alarms()
-    limit = "unknown" if told is None else f"fewer than {told[1]:.3g} an hour with 95 % confidence, for motion as calibrated"
+def _heading_comment(arm: Arm, bounds: Bounds, name: str, digest: str, needs: str = "C99, needs only math.h") -> str:
+    false_alarm_rates = bounds.false_alarms()
+    limit = (
+        "unknown"
+        if false_alarm_rates is None
+        else f"fewer than {false_alarm_rates[1]:.3g} an hour with 95 % confidence, for motion as calibrated"
+    )
     lines = [
         f"{name}: watches the arm {arm.title} for joint faults, {bounds.rate:g} cycles a second.",
-        f"Made by holdfast {version()} of the arm {arm.fingerprint}",
+        f"Made by holdfast {holdfast_version()} of the arm {arm.fingerprint}",
         f"and the bounds {digest}; {needs}.",
         "",
         f"False alarms: {limit}.",
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
         *(["Compile without -ffast-math."] if "C99" in needs else []),
     ]
-    return commented(lines)
+    return write_c_comment(lines)

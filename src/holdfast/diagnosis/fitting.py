@@ -1,4 +1,4 @@
-"""Masses and friction of one robot, fitted to its records: residuals are linear in them."""
+"""Fit masses and friction of one robot to its recordings; the residuals are linear in them."""
 
 from __future__ import annotations
 
@@ -13,70 +13,91 @@ from numpy.typing import NDArray
 from holdfast.arm.kinematics import joint_symbols
 from holdfast.arm.machine import Link
 from holdfast.arm.model import Arm
-from holdfast.diagnosis.gaps import Stretch, seen, stretches
-from holdfast.diagnosis.observer import GAIN, momentum_terms, residuals
+from holdfast.diagnosis.gaps import LogSegment, complete_rows, log_segments
+from holdfast.diagnosis.observer import OBSERVER_GAIN_PER_S, momentum_terms, observe_residuals
 from holdfast.faults.log import Log
 from holdfast.kernels.kernel import Kernel
 
 Array = NDArray[np.float64]
 
-_MASS = 0.1  # prior deviation of the scale of a link's mass
-_FRICTION, _KEPT = 1.0, 1e-4  # N m (N), N m s/rad (N s/m): prior deviations, and that of what is kept
-_STEP = 0.5  # of a scale: residuals are linear in it, so that any step does
+_MASS_PRIOR_DEVIATION = 0.1  # prior deviation of the scale of a link's mass
+_FRICTION_PRIOR_DEVIATION, _FIXED_FRICTION_DEVIATION = (
+    1.0,
+    1e-4,
+)  # N m (N), N m s/rad (N s/m): prior deviations, and that of what is kept
+_SCALE_STEP = 0.5  # of a scale: residuals are linear in it, so that any step does
 
 
-def scaled(arm: Arm, scales: Array) -> Arm:
-    """The arm with its links' masses and inertias times (n,) scales; itself where all are 1."""
+def scale_masses(arm: Arm, scales: Array) -> Arm:
+    """Return the arm with its links' masses and inertias multiplied by (n,) scales, or the same arm if all scales are 1."""
     if np.all(scales == 1):
         return arm
     links = [
-        None if link is None else Link(link.mass * s, link.com, link.inertia * s, name=link.name)
-        for link, s in zip(arm.links, scales.tolist(), strict=True)
+        None if link is None else Link(link.mass * scale, link.com, link.inertia * scale, name=link.name)
+        for link, scale in zip(arm.links, scales.tolist(), strict=True)
     ]
     return replace(arm, links=tuple(links))
 
 
-def fitted(arm: Arm, logs: Sequence[Log], coulomb: Array, viscous: Array) -> tuple[Array, Array, Array]:
-    """Scales of the links' masses, dry and viscous friction, (n,) each, that explain the residuals of records best.
+def fit_masses_and_friction(arm: Arm, logs: Sequence[Log], coulomb: Array, viscous: Array) -> tuple[Array, Array, Array]:
+    """Fit scales of the links' masses and dry and viscous friction, (n,) each, to the residuals of recordings.
 
     Ridge: masses are believed to 10 %, friction to 1 N m and 1 N m s/rad, and dry friction that is given is kept; residuals
     count once for each time constant of the observer. What gravity and motion do not show stays as it was.
 
     Source: derived here.
     """
-    n, symbols = arm.n, (joint_symbols(arm), ca.SX.sym("v", arm.n))
-    arms = [arm, *(scaled(arm, np.where(np.arange(n) == k, 1 + _STEP, 1.0)) for k in range(n))]
+    joint_count, symbols = arm.n, (joint_symbols(arm), ca.SX.sym("v", arm.n))
+    arms = [
+        arm,
+        *(scale_masses(arm, np.where(np.arange(joint_count) == index, 1 + _SCALE_STEP, 1.0)) for index in range(joint_count)),
+    ]
     # On CasADi's machine: they are called a few times, and never again.
-    plain, *heavier = (
-        Kernel("momentum", symbols, [ca.densify(x) for x in momentum_terms(of, *symbols)], backend="casadi") for of in arms
+    nominal, *heavier = (
+        Kernel("momentum", symbols, [ca.densify(term) for term in momentum_terms(scaled_arm, *symbols)], backend="casadi")
+        for scaled_arm in arms
     )
     # What is given of dry friction tells later whether friction can hold a joint: motion alone may show none of it.
-    prior = np.r_[np.full(n, _MASS), np.where(coulomb > 0, _KEPT, _FRICTION), np.full(n, _FRICTION)]
-    normal, right = np.diag(prior**-2.0), np.zeros(3 * n)
+    prior = np.r_[
+        np.full(joint_count, _MASS_PRIOR_DEVIATION),
+        np.where(coulomb > 0, _FIXED_FRICTION_DEVIATION, _FRICTION_PRIOR_DEVIATION),
+        np.full(joint_count, _FRICTION_PRIOR_DEVIATION),
+    ]
+    normal, right_side = np.diag(prior**-2.0), np.zeros(3 * joint_count)
     deviation: Array | None = None
     for log in logs:
         if log.tau is None:
             continue
-        residual = partial(_sampled, parts=[*stretches(log, seen(log))], rate=log.rate)
-        r = residual(plain, coulomb, viscous)
-        deviation = np.maximum(r.std(axis=0), 1e-6) if deviation is None else deviation
-        columns = np.zeros((*r.shape, 3 * n))
-        for k in range(n):
-            columns[:, :, k] = (residual(heavier[k], coulomb, viscous) - r) / _STEP
+        residual = partial(_sample_residuals, segments=[*log_segments(log, complete_rows(log))], rate=log.rate)
+        nominal_residual = residual(nominal, coulomb, viscous)
+        deviation = np.maximum(nominal_residual.std(axis=0), 1e-6) if deviation is None else deviation
+        columns = np.zeros((*nominal_residual.shape, 3 * joint_count))
+        for index in range(joint_count):
+            columns[:, :, index] = (residual(heavier[index], coulomb, viscous) - nominal_residual) / _SCALE_STEP
         # Friction of a joint is on its own row alone.
-        dry, wet = residual(plain, coulomb + 1, viscous) - r, residual(plain, coulomb, viscous + 1) - r
-        for k in range(n):
-            columns[:, k, n + k], columns[:, k, 2 * n + k] = dry[:, k], wet[:, k]
-        rows = (columns / deviation[:, None]).reshape(-1, 3 * n)
+        dry_friction, viscous_friction = (
+            residual(nominal, coulomb + 1, viscous) - nominal_residual,
+            residual(nominal, coulomb, viscous + 1) - nominal_residual,
+        )
+        for index in range(joint_count):
+            columns[:, index, joint_count + index], columns[:, index, 2 * joint_count + index] = (
+                dry_friction[:, index],
+                viscous_friction[:, index],
+            )
+        rows = (columns / deviation[:, None]).reshape(-1, 3 * joint_count)
         normal += rows.T @ rows
-        right -= rows.T @ (r / deviation).ravel()
-    theta = np.linalg.solve(normal, right)
-    dry, wet = coulomb + theta[n : 2 * n], viscous + theta[2 * n :]
-    return np.asarray(1 + theta[:n]), np.maximum(dry, 0.0), np.maximum(wet, 0.0)
+        right_side -= rows.T @ (nominal_residual / deviation).ravel()
+    solution = np.linalg.solve(normal, right_side)
+    dry_friction, viscous_friction = coulomb + solution[joint_count : 2 * joint_count], viscous + solution[2 * joint_count :]
+    return np.asarray(1 + solution[:joint_count]), np.maximum(dry_friction, 0.0), np.maximum(viscous_friction, 0.0)
 
 
-def _sampled(kernel: Kernel, coulomb: Array, viscous: Array, *, parts: Sequence[Stretch], rate: float) -> Array:
-    """Residuals of a record, one for each time constant of the observer."""
-    of = partial(residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
-    found = [of(part.q, part.tau, settling=part.settling)[0] for part in parts if part.tau is not None]
-    return np.concatenate([r[:: max(1, round(rate / GAIN))] for r in found])
+def _sample_residuals(kernel: Kernel, coulomb: Array, viscous: Array, *, segments: Sequence[LogSegment], rate: float) -> Array:
+    """Return residuals of a recording, one for each time constant of the observer."""
+    residuals_of = partial(observe_residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
+    segment_residuals = [
+        residuals_of(segment.q, segment.tau, settling=segment.settling)[0] for segment in segments if segment.tau is not None
+    ]
+    return np.concatenate(
+        [segment_residual[:: max(1, round(rate / OBSERVER_GAIN_PER_S))] for segment_residual in segment_residuals]
+    )

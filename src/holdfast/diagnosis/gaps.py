@@ -1,4 +1,4 @@
-"""Where a record holds numbers: lines are drawn over short gaps, and in long ones nothing was looked at."""
+"""Gaps in a recording: short ones are interpolated linearly, and long ones are not monitored."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.diagnosis.observer import BAND, low_passed
+from holdfast.diagnosis.observer import FILTER_BANDWIDTH_RAD_S, low_pass
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
 
-STALE = 0.050  # s without a number; over shorter gaps lines are drawn
+MAX_BRIDGED_GAP_S = 0.050  # s without a number; over shorter gaps lines are drawn
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
-    """Rows of a record without a long gap, R of them; lines are drawn over short ones."""
+class LogSegment:
+    """R rows of a recording without a long gap; short gaps are interpolated linearly."""
 
     rows: slice
     q: Array  # (R, n) rad and m
@@ -27,43 +27,43 @@ class Stretch:
     settling: int  # rows until residuals begin: but for the first stretch it begins in the midst of motion
 
 
-def cycles(seconds: float, dt: float) -> int:
-    """So many cycles, at least one."""
+def count_cycles(seconds: float, dt: float) -> int:
+    """Return the number of cycles in a time, at least one."""
     return max(1, round(seconds / dt))
 
 
-def seen(log: Log) -> NDArray[np.bool_]:
-    """(T,) rows whose joints have all of their numbers.
+def complete_rows(log: Log) -> NDArray[np.bool_]:
+    """Return the mask (T,) of the rows in which all joint signals have numbers.
 
     Raises:
         InputError: There are none.
     """
     parts = [part for part in (log.q, log.q_ref, log.tau) if part is not None]
-    there = np.all([np.isfinite(part).all(axis=1) for part in parts], axis=0)
-    if not there.any():
+    is_complete = np.all([np.isfinite(part).all(axis=1) for part in parts], axis=0)
+    if not is_complete.any():
         raise InputError("no row of the record has all numbers of the joints; leave a signal out that is never there")
-    return np.asarray(there)
+    return np.asarray(is_complete)
 
 
-def stretches(log: Log, there: NDArray[np.bool_]) -> Iterator[Stretch]:
-    """The parts of a record between its long gaps; ``there`` are the rows of :func:`seen`."""
-    dt, rows = 1 / log.rate, np.flatnonzero(there)
-    longest = cycles(STALE, dt)
-    for k, part in enumerate(np.split(rows, np.flatnonzero(np.diff(rows) > longest + 1) + 1)):
-        whole = slice(int(part[0]), int(part[-1]) + 1)
-        every = np.arange(whole.start, whole.stop)
-        q = np.stack([np.interp(every, part, column) for column in log.q[part].T], axis=1)
-        tau = None if log.tau is None else _held(log.tau[whole], there[whole], dt)
-        yield Stretch(whole, q, tau, settling=longest + 2 if k else 1)
+def log_segments(log: Log, is_complete: NDArray[np.bool_]) -> Iterator[LogSegment]:
+    """Yield the segments of a recording between its long gaps; ``is_complete`` is the mask of :func:`complete_rows`."""
+    period, rows = 1 / log.rate, np.flatnonzero(is_complete)
+    max_gap = count_cycles(MAX_BRIDGED_GAP_S, period)
+    for index, segment_rows in enumerate(np.split(rows, np.flatnonzero(np.diff(rows) > max_gap + 1) + 1)):
+        row_range = slice(int(segment_rows[0]), int(segment_rows[-1]) + 1)
+        all_rows = np.arange(row_range.start, row_range.stop)
+        q = np.stack([np.interp(all_rows, segment_rows, column) for column in log.q[segment_rows].T], axis=1)
+        tau = None if log.tau is None else _fill_torque_gaps(log.tau[row_range], is_complete[row_range], period)
+        yield LogSegment(row_range, q, tau, settling=max_gap + 2 if index else 1)
 
 
-def _held(tau: Array, there: NDArray[np.bool_], dt: float) -> Array:
-    """Torques that leave their filter as it was in gaps; where they are known all along one, they count by their mean."""
-    whole, level, last = tau.copy(), tau[0], 0
-    edges = np.flatnonzero(np.diff(there)) + 1
+def _fill_torque_gaps(tau: Array, is_known: NDArray[np.bool_], dt: float) -> Array:
+    """Fill gaps in torques with the state of their filter, or with their mean over gaps in which all torques are known."""
+    filled, filter_state, filtered_to = tau.copy(), tau[0], 0
+    edges = np.flatnonzero(np.diff(is_known)) + 1
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
-        level = low_passed(whole[last:start], dt, BAND, level)[-1]
-        missing = whole[start:stop]
-        whole[start:stop] = missing.mean(axis=0) if np.isfinite(missing).all() else level
-        last = start
-    return whole
+        filter_state = low_pass(filled[filtered_to:start], dt, FILTER_BANDWIDTH_RAD_S, filter_state)[-1]
+        missing = filled[start:stop]
+        filled[start:stop] = missing.mean(axis=0) if np.isfinite(missing).all() else filter_state
+        filtered_to = start
+    return filled

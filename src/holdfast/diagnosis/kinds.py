@@ -1,4 +1,4 @@
-"""Verdicts, and what kind of fault one joint has: decided from sums over the cycles that follow the alarm."""
+"""Verdicts, and classification of a joint's fault from sums over the cycles after the alarm."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-STILL, PART, NOISY = 2e-3, 0.15, 12.0  # rad or m; of the reference's travel; deviations of the sensor
-ALL, CARRIED = 0.93, (0.8, 1.2)  # losses: of the whole motor; that friction may hide
+STILL, PART, NOISE_FACTOR = 2e-3, 0.15, 12.0  # rad or m; of the reference's travel; deviations of the sensor
+ALL, FRICTION_LOSS_RANGE = 0.93, (0.8, 1.2)  # losses: of the whole motor; that friction may hide
 MORE = 1.1  # of a motor's torque: no fault of its own takes so much
 TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
 AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none
@@ -19,8 +19,8 @@ DRIVEN = 0.5  # of dry friction: what a joint needs to move as it does; if it dr
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """What a monitor says.
+class FaultVerdict:
+    """Verdict of a monitor.
 
     Attributes:
         alarm: Something is outside its bounds.
@@ -51,8 +51,8 @@ class Verdict:
     evidence: tuple[str, ...] = ()
 
 
-class Kinds:
-    """What a joint does while its motor asks for motion, in sums.
+class FaultClassifier:
+    """Sums over the motion of a joint after the alarm, from which its kind of fault is classified.
 
     Args:
         joint: Its number.
@@ -66,14 +66,14 @@ class Kinds:
     def __init__(
         self, joint: int, *, coulomb: float, bounds: tuple[float, float], largest: float, noise: float, torques: bool
     ) -> None:
-        self.joint, self._coulomb, self._bounds, self._noise, self._torques = joint, coulomb, bounds, noise, torques
-        self._count, self._behind, self._largest, self._sum = 0, 0.0, largest, 0.0
-        self._q, self._reference = [np.inf, -np.inf], [np.inf, -np.inf]
-        self._asked, self._least = 0.0, np.inf
+        self.joint, self._coulomb, self._bounds, self._sensor_noise, self._has_torques = joint, coulomb, bounds, noise, torques
+        self._cycle_count, self._tracking_error, self._healthy_residual, self._torque_sum = 0, 0.0, largest, 0.0
+        self._q_range, self._reference_range = [np.inf, -np.inf], [np.inf, -np.inf]
+        self._max_requested_torque, self._min_gravity_torque = 0.0, np.inf
         self._rr = self._rt = self._rs = self._tt = self._ts = self._ss = 0.0
 
-    def add(self, q: float, reference: float, slip: float, torques: tuple[float, float, float]) -> None:
-        """A cycle.
+    def add_cycle(self, q: float, reference: float, slip: float, torques: tuple[float, float, float]) -> None:
+        """Add the signals of one cycle.
 
         Args:
             q: rad or m.
@@ -81,22 +81,29 @@ class Kinds:
             slip: Sign of the rate, smooth, in which dry friction acts.
             torques: Residual, commanded through both filters of the residual, of gravity; N m or N.
         """
-        r, torque, gravity = torques
-        self._count, self._behind = self._count + 1, abs(reference - q)
-        self._q = [min(self._q[0], q), max(self._q[1], q)]
-        self._reference = [min(self._reference[0], reference), max(self._reference[1], reference)]
-        self._asked, self._least = max(self._asked, abs(torque - gravity)), min(self._least, abs(gravity))
-        self._rr, self._rt, self._rs = self._rr + r * r, self._rt + r * torque, self._rs + r * slip
-        self._tt, self._ss, self._sum = self._tt + torque * torque, self._ss + slip * slip, self._sum + abs(torque)
+        residual, torque, gravity = torques
+        self._cycle_count, self._tracking_error = self._cycle_count + 1, abs(reference - q)
+        self._q_range = [min(self._q_range[0], q), max(self._q_range[1], q)]
+        self._reference_range = [min(self._reference_range[0], reference), max(self._reference_range[1], reference)]
+        self._max_requested_torque, self._min_gravity_torque = (
+            max(self._max_requested_torque, abs(torque - gravity)),
+            min(self._min_gravity_torque, abs(gravity)),
+        )
+        self._rr, self._rt, self._rs = self._rr + residual * residual, self._rt + residual * torque, self._rs + residual * slip
+        self._tt, self._ss, self._torque_sum = (
+            self._tt + torque * torque,
+            self._ss + slip * slip,
+            self._torque_sum + abs(torque),
+        )
         self._ts += torque * slip
 
     @property
-    def lost(self) -> bool:
-        """Whether it is further from its reference than a push moves a joint that has its motor."""
-        return self._behind > LOST * self._bounds[1]
+    def exceeds_push_error(self) -> bool:
+        """True if the joint is farther from its reference than an external force moves a joint with an intact motor."""
+        return self._tracking_error > LOST * self._bounds[1]
 
-    def named(self, unit: str, unless_seen: tuple[str, ...]) -> dict[str, Any]:
-        """Kind, loss, candidates and evidence.
+    def classify(self, unit: str, unless_seen: tuple[str, ...]) -> dict[str, Any]:
+        """Return kind, loss, candidates, and evidence.
 
         A motor can lose all that it is asked for and no more. A joint that follows against its motor, and needs a torque to
         move as it does, has been pushed.
@@ -105,42 +112,50 @@ class Kinds:
             unit: Of the joint.
             unless_seen: What remains possible where the tool's pose is not measured.
         """
-        travel, wanted = (max(high - low, 0.0) for low, high in (self._q, self._reference))
-        still = travel < STILL and travel < PART * wanted + NOISY * self._noise
-        evidence = [f"it moved by {travel:.3g} {unit}, its reference by {wanted:.3g} {unit}"]
+        travel, reference_travel = (max(highest - lowest, 0.0) for lowest, highest in (self._q_range, self._reference_range))
+        is_still = travel < STILL and travel < PART * reference_travel + NOISE_FACTOR * self._sensor_noise
+        evidence = [f"it moved by {travel:.3g} {unit}, its reference by {reference_travel:.3g} {unit}"]
 
-        def verdict(kind: str, candidates: tuple[str, ...], loss: float = np.nan) -> dict[str, Any]:
+        def make_answer(kind: str, candidates: tuple[str, ...], loss: float = np.nan) -> dict[str, Any]:
             if np.isnan(loss):
                 return {"kind": kind, "candidates": candidates, "evidence": tuple(evidence)}
-            off = self._largest * self._sum / self._tt  # of -sum r tau / sum tau^2, where r is off by no more than `largest`
-            more = f"its motor lost {loss:.0%} of its torque, which may be off by {off:.0%}"
-            return {"kind": kind, "loss": loss, "uncertainty": off, "candidates": candidates, "evidence": (*evidence, more)}
+            uncertainty = (
+                self._healthy_residual * self._torque_sum / self._tt
+            )  # of -sum r tau / sum tau^2, where r is off by no more than `largest`
+            loss_text = f"its motor lost {loss:.0%} of its torque, which may be off by {uncertainty:.0%}"
+            return {
+                "kind": kind,
+                "loss": loss,
+                "uncertainty": uncertainty,
+                "candidates": candidates,
+                "evidence": (*evidence, loss_text),
+            }
 
-        if not self._torques:
-            return verdict(*(("locked", ("locked", "standstill", *unless_seen)) if still else ("unknown", ())))
+        if not self._has_torques:
+            return make_answer(*(("locked", ("locked", "standstill", *unless_seen)) if is_still else ("unknown", ())))
         loss = float(np.clip(-self._rt / self._tt, 0.0, 1.3)) if self._tt > 0 else np.nan
         drag = max(0.0, -self._rs / max(self._ss, 1e-12))
-        by_loss = self._rr + 2 * loss * self._rt + loss**2 * self._tt
-        by_drag = self._rr + 2 * drag * self._rs + drag**2 * self._ss
-        if still and self._asked >= TIMES * self._coulomb:
-            if CARRIED[0] < loss < CARRIED[1] and self._least < TIMES * self._coulomb:
+        loss_error = self._rr + 2 * loss * self._rt + loss**2 * self._tt
+        drag_error = self._rr + 2 * drag * self._rs + drag**2 * self._ss
+        if is_still and self._max_requested_torque >= TIMES * self._coulomb:
+            if FRICTION_LOSS_RANGE[0] < loss < FRICTION_LOSS_RANGE[1] and self._min_gravity_torque < TIMES * self._coulomb:
                 evidence.append("friction may hold it: gravity on it is small")
-                return verdict("standstill", ("locked", "limp", *unless_seen), loss)
-            return verdict("locked", ("locked", *unless_seen))
-        if not min(by_loss, by_drag) < 0.5 * self._rr:
-            return verdict("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *unless_seen))
-        follows = self._behind < self._bounds[1]
-        driven = self._rs + self._ts > DRIVEN * self._coulomb * self._ss > 0
-        worse = (by_drag - by_loss) / (self._count * (SCALE * self._bounds[0]) ** 2)
-        if abs(worse) < 1 and (drag <= GROWN * self._coulomb or self._coulomb == 0):
-            alike = "a weak motor, more friction and a push" if follows else "a weak motor and more friction"
-            evidence.append(f"{alike} explain its torque alike")
-            return verdict("sluggish", ("weak", "friction", *["contact"] * follows), loss)
-        if worse < 0:
-            return verdict("friction", ("friction",))
-        if follows and driven and loss > MORE:
+                return make_answer("standstill", ("locked", "limp", *unless_seen), loss)
+            return make_answer("locked", ("locked", *unless_seen))
+        if not min(loss_error, drag_error) < 0.5 * self._rr:
+            return make_answer("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *unless_seen))
+        follows = self._tracking_error < self._bounds[1]
+        is_driven = self._rs + self._ts > DRIVEN * self._coulomb * self._ss > 0
+        drag_disadvantage = (drag_error - loss_error) / (self._cycle_count * (SCALE * self._bounds[0]) ** 2)
+        if abs(drag_disadvantage) < 1 and (drag <= GROWN * self._coulomb or self._coulomb == 0):
+            alternatives = "a weak motor, more friction and a push" if follows else "a weak motor and more friction"
+            evidence.append(f"{alternatives} explain its torque alike")
+            return make_answer("sluggish", ("weak", "friction", *["contact"] * follows), loss)
+        if drag_disadvantage < 0:
+            return make_answer("friction", ("friction",))
+        if follows and is_driven and loss > MORE:
             evidence.append("it follows against its motor: something pushed it")
-            return verdict("contact", ("contact",))
-        if loss > ALL or (loss > CARRIED[0] and self._behind > AWAY * self._bounds[1]):
-            return verdict("limp", ("limp",) if loss > ALL else ("limp", "weak"), loss)
-        return verdict("weak", ("weak",), loss)
+            return make_answer("contact", ("contact",))
+        if loss > ALL or (loss > FRICTION_LOSS_RANGE[0] and self._tracking_error > AWAY * self._bounds[1]):
+            return make_answer("limp", ("limp",) if loss > ALL else ("limp", "weak"), loss)
+        return make_answer("weak", ("weak",), loss)

@@ -1,4 +1,4 @@
-"""The momentum observer: the torque on each joint that the model of the arm does not know.
+"""Momentum observer, which estimates the torque on each joint that the model of the arm does not explain.
 
 With ``p = M(q) v`` and ``dp/dt = tau + dT/dq - g - F(v) + tau_x`` it follows the momentum, and what it must add is the
 residual: ``s' = tau + dT/dq - g - F(v) + r``, ``r = K_O (p - s)``. The jolt of a joint that locks is on its own row alone.
@@ -16,65 +16,69 @@ from numpy.typing import NDArray
 from holdfast.arm import statics
 from holdfast.arm.dynamics import inertial_torques
 from holdfast.arm.kinematics import joint_symbols
-from holdfast.arm.machine import Machine
+from holdfast.arm.machine import ArmData
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 
 Array = NDArray[np.float64]
 
-GAIN = 40.0  # 1/s, K_O
-BAND = 2 * np.pi * 20  # rad/s, of the filter on rates and torques
-LEVEL = 1 / 0.15  # rad/s, of the filter that the level of a residual goes through
-SLIP = 0.02  # rad/s or m/s: dry friction has turned its sign within about so much
+OBSERVER_GAIN_PER_S = 40.0  # 1/s, K_O
+FILTER_BANDWIDTH_RAD_S = 2 * np.pi * 20  # rad/s, of the filter on rates and torques
+LEVEL_BANDWIDTH_RAD_S = 1 / 0.15  # rad/s, of the filter that the level of a residual goes through
+FRICTION_TRANSITION_RATE = 0.02  # rad/s or m/s: dry friction has turned its sign within about so much
 
 
-@recalled
-def momentum_kernel(arm: Machine) -> Kernel:
-    """``(q, v) -> p, dT/dq, g``, each (n,): momentum, what kinetic energy gives, gravity torques; rotors included."""
+@cached_kernel
+def momentum_kernel(arm: ArmData) -> Kernel:
+    """Return the kernel ``(q, v) -> p, dT/dq, g``, each (n,): momentum, gradient of the kinetic energy, gravity torques; rotors
+    included.
+    """
     q, v = joint_symbols(arm), ca.SX.sym("v", arm.n)
-    return Kernel("momentum", [q, v], [ca.densify(x) for x in momentum_terms(arm, q, v)])
+    return Kernel("momentum", [q, v], [ca.densify(term) for term in momentum_terms(arm, q, v)])
 
 
-def momentum_terms(arm: Machine, q: SX, v: SX) -> tuple[SX, SX, SX]:
-    """The outputs of :func:`momentum_kernel` as expressions."""
-    p = inertial_torques(arm, q, ca.SX.zeros(arm.n), v)
-    energy = ca.dot(p, v) / 2
-    gravity = statics.gravity_torques(arm, statics.composite(arm, q))
-    return p, ca.gradient(energy, q), gravity
+def momentum_terms(arm: ArmData, q: SX, v: SX) -> tuple[SX, SX, SX]:
+    """Return the outputs of :func:`momentum_kernel` as expressions."""
+    momentum = inertial_torques(arm, q, ca.SX.zeros(arm.n), v)
+    energy = ca.dot(momentum, v) / 2
+    gravity = statics.gravity_torques(arm, statics.composite_bodies(arm, q))
+    return momentum, ca.gradient(energy, q), gravity
 
 
 def friction_torque(v: Array, coulomb: Array, viscous: Array) -> Array:
-    """What friction is taken for, N m or N: dry of ``coulomb`` and ``viscous`` times the rate, (..., n)."""
-    return np.asarray(coulomb * np.tanh(v / SLIP) + viscous * v)
+    """Return the assumed friction, N m or N: dry friction ``coulomb`` and ``viscous`` times the rate, (..., n)."""
+    return np.asarray(coulomb * np.tanh(v / FRICTION_TRANSITION_RATE) + viscous * v)
 
 
-def low_passed(signal: Array, dt: float, band: float, initial: Array) -> Array:
-    """A signal (T, n) through ``y += min(1, band dt) (x - y)`` from ``initial`` (n,) on."""
+def low_pass(signal: Array, dt: float, band: float, initial: Array) -> Array:
+    """Filter a signal (T, n) by ``y += min(1, band dt) (x - y)`` from ``initial`` (n,) on."""
     from scipy.signal import lfilter
 
-    a = min(1.0, band * dt)
-    out, _ = lfilter([a], [1, a - 1], signal, axis=0, zi=(1 - a) * initial[None])
-    return np.asarray(out)
+    gain = min(1.0, band * dt)
+    filtered, _ = lfilter([gain], [1, gain - 1], signal, axis=0, zi=(1 - gain) * initial[None])
+    return np.asarray(filtered)
 
 
-def level(r: Array, dt: float) -> Array:
-    """(T, n) levels of residuals (T, n), from 0 on: what masses that are off make of them, slow beside a fault or a push."""
-    return low_passed(r, dt, LEVEL, np.zeros(r.shape[1]))
+def residual_level(residual: Array, dt: float) -> Array:
+    """Return the slowly varying levels (T, n) of residuals (T, n), from 0 on, which errors of the masses cause, unlike faults
+    and external forces.
+    """
+    return low_pass(residual, dt, LEVEL_BANDWIDTH_RAD_S, np.zeros(residual.shape[1]))
 
 
 def filtered_rates(q: Array, dt: float, *, moving: bool = False) -> Array:
-    """(T, n) rates of joint values (T, n), from rest, or from the first rate of a joint that is moving."""
-    steps = np.diff(q, axis=0, prepend=q[:1]) / dt
+    """Return filtered rates (T, n) of joint positions (T, n), from rest, or from the first rate of a joint that is moving."""
+    raw_rates = np.diff(q, axis=0, prepend=q[:1]) / dt
     if moving:
-        steps[0] = steps[min(1, len(q) - 1)]
-    return low_passed(steps, dt, BAND, steps[0])
+        raw_rates[0] = raw_rates[min(1, len(q) - 1)]
+    return low_pass(raw_rates, dt, FILTER_BANDWIDTH_RAD_S, raw_rates[0])
 
 
-def residuals(
+def observe_residuals(
     kernel: Kernel, q: Array, tau: Array, *, dt: float, coulomb: Array, viscous: Array, settling: int = 1
 ) -> tuple[Array, Array, Array, Array]:
-    """Residuals, filtered rates, gravity torques, and torques through both filters of a record, (T, n) each.
+    """Return residuals, filtered rates, gravity torques, and torques through both filters of a recording, (T, n) each.
 
     The observer is linear in what the kernel gives, and so a filter: ``r_k = (1 - K dt) r_{k-1} + K (p_k - p_{k-1} - dt u_k)``
     with ``u = tau + dT/dq - g - F``.
@@ -90,15 +94,22 @@ def residuals(
     """
     from scipy.signal import lfilter
 
-    v, torque = filtered_rates(q, dt, moving=settling > 1), low_passed(tau, dt, BAND, tau[0])
-    p, energy, gravity = kernel(q, v)
-    change = np.diff(p, axis=0, prepend=p[:1]) - dt * (torque + energy - gravity - friction_torque(v, coulomb, viscous))
-    change[:settling] = 0.0  # it begins with r = 0
-    return np.asarray(lfilter([GAIN], [1, GAIN * dt - 1], change, axis=0)), v, gravity, low_passed(torque, dt, GAIN, tau[0])
+    rates, torque = filtered_rates(q, dt, moving=settling > 1), low_pass(tau, dt, FILTER_BANDWIDTH_RAD_S, tau[0])
+    momentum, energy, gravity = kernel(q, rates)
+    input_change = np.diff(momentum, axis=0, prepend=momentum[:1]) - dt * (
+        torque + energy - gravity - friction_torque(rates, coulomb, viscous)
+    )
+    input_change[:settling] = 0.0  # it begins with r = 0
+    return (
+        np.asarray(lfilter([OBSERVER_GAIN_PER_S], [1, OBSERVER_GAIN_PER_S * dt - 1], input_change, axis=0)),
+        rates,
+        gravity,
+        low_pass(torque, dt, OBSERVER_GAIN_PER_S, tau[0]),
+    )
 
 
-def excess(z: Array, dt: float | Array) -> Array:
-    """Seconds of excess of a signal (T, ...) above 1: ``G <- max(0, G + (z - 1) dt)``; NaN counts as 1."""
-    step = np.nan_to_num(np.asarray(z) - 1.0, nan=0.0, posinf=0.0) * dt
-    total = np.cumsum(step, axis=0)
+def accumulate_excess(scaled: Array, dt: float | Array) -> Array:
+    """Return the accumulated excess, s, of a signal (T, ...) above 1: ``G <- max(0, G + (z - 1) dt)``; NaN counts as 1."""
+    increments = np.nan_to_num(np.asarray(scaled) - 1.0, nan=0.0, posinf=0.0) * dt
+    total = np.cumsum(increments, axis=0)
     return np.asarray(total - np.minimum(np.minimum.accumulate(total, axis=0), 0.0))

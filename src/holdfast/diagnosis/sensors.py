@@ -1,17 +1,17 @@
-"""How good the sensors of an arm are."""
+"""Accuracy of the sensors of an arm."""
 
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.errors import InputError
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
 class Sensors:
-    """How good the sensors are.
+    """Accuracy of the sensors of an arm.
 
     Attributes:
         position: Standard deviation of the measured tool point, m.

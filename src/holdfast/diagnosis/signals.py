@@ -1,4 +1,6 @@
-"""What is watched of a record: residual torques, tracking, and the measured tool against that of the joints."""
+"""Monitored signals of a recording: residual torques, tracking errors, and the measured tool pose compared with that of the
+joints.
+"""
 
 from __future__ import annotations
 
@@ -10,23 +12,23 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors, rotations_of_quaternions
-from holdfast.diagnosis.gaps import STALE, seen, stretches
-from holdfast.diagnosis.observer import excess, filtered_rates, level, momentum_kernel, residuals
+from holdfast.diagnosis.gaps import MAX_BRIDGED_GAP_S, complete_rows, log_segments
+from holdfast.diagnosis.observer import accumulate_excess, filtered_rates, momentum_kernel, observe_residuals, residual_level
 from holdfast.faults.log import Log
 
 Array = NDArray[np.float64]
 
-LIMITS = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
-SMOOTHED = 5  # samples of the tool's pose
-SLOW, CALM = (
+EXCESS_LIMITS_S = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
+SMOOTHING_SAMPLES = 5  # samples of the tool's pose
+MAX_SLOW_RATE, CALM_TIME_S = (
     0.6,
     0.1,
 )  # rad/s or m/s, s: with joint sensors alone, tracking counts while all references were so slow for so long
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Scaled:
-    """Residuals in units of their bounds, and their seconds of excess.
+class ScaledResiduals:
+    """Residuals in units of their bounds, and their accumulated excess in seconds.
 
     Attributes:
         torque, tracking: (T, n).
@@ -44,7 +46,7 @@ class Scaled:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Signals:
-    """Residuals of a record, T samples of n joints.
+    """Residuals of a recording, T samples of n joints.
 
     Attributes:
         dt: s.
@@ -68,14 +70,15 @@ class Signals:
     asked: Array
     levels: tuple[str, ...]
 
-    def largest(self, name: str) -> Array | float:
-        """Largest size of ``torque``, its ``change`` or ``tracking``, (n,), or of the tool's ``position`` or ``angle``.
+    def largest_residual(self, name: str) -> Array | float:
+        """Return the largest ``torque``, its ``change``, or ``tracking``, (n,), or the largest ``position`` or ``angle`` error
+        of the tool.
 
         Infinite if absent.
         """
         if name == "change":
             torque = self.torque[self.seen]
-            change = torque - level(torque, self.dt)
+            change = torque - residual_level(torque, self.dt)
             return np.asarray(np.abs(change).max(axis=0) if "torque" in self.levels else np.full(change.shape[1], np.inf))
         if name in ("torque", "tracking"):
             values = np.nan_to_num(np.abs(getattr(self, name))).max(axis=0)
@@ -83,34 +86,46 @@ class Signals:
         part = self.tool[:, :3] if name == "position" else self.tool[:, 3:]
         return float(np.nanmax(np.linalg.norm(part, axis=1))) if "tool" in self.levels else np.inf
 
-    def scaled(self, torque: Array, tracking: Array, position: float, angle: float) -> Scaled:
-        """In units of bounds, with what alarms first."""
-        z, y = np.abs(self.torque) / torque, np.abs(self.tracking) / tracking
-        sizes = [np.linalg.norm(self.tool[:, :3], axis=1) / position, np.linalg.norm(self.tool[:, 3:], axis=1) / angle]
-        w = np.maximum(*sizes)
-        over = {"torque": excess(z, self.dt), "tracking": excess(y, self.dt), "tool": self._tool_excess(w)}
-        flags = {name: (over[name].reshape(len(w), -1) > LIMITS[name]).any(axis=1) for name in over if name in self.levels}
-        rows = {name: int(flag.argmax()) for name, flag in flags.items() if flag.any()}
+    def scale_by_bounds(self, torque: Array, tracking: Array, position: float, angle: float) -> ScaledResiduals:
+        """Return the residuals in units of their bounds, with the first alarm."""
+        scaled_torque, scaled_tracking = np.abs(self.torque) / torque, np.abs(self.tracking) / tracking
+        tool_sizes = [np.linalg.norm(self.tool[:, :3], axis=1) / position, np.linalg.norm(self.tool[:, 3:], axis=1) / angle]
+        scaled_tool = np.maximum(*tool_sizes)
+        excess_times = {
+            "torque": accumulate_excess(scaled_torque, self.dt),
+            "tracking": accumulate_excess(scaled_tracking, self.dt),
+            "tool": self._tool_excess(scaled_tool),
+        }
+        is_alarmed = {
+            name: (excess_times[name].reshape(len(scaled_tool), -1) > EXCESS_LIMITS_S[name]).any(axis=1)
+            for name in excess_times
+            if name in self.levels
+        }
+        first_rows = {name: int(level_flags.argmax()) for name, level_flags in is_alarmed.items() if level_flags.any()}
         alarm = None
-        if rows:
-            first = min(rows.values())
-            alarm = first, tuple(name for name, row in rows.items() if row == first)
-        return Scaled(torque=z, tracking=y, tool=w, excess=over, alarm=alarm)
+        if first_rows:
+            first_row = min(first_rows.values())
+            alarm = first_row, tuple(name for name, row in first_rows.items() if row == first_row)
+        return ScaledResiduals(
+            torque=scaled_torque, tracking=scaled_tracking, tool=scaled_tool, excess=excess_times, alarm=alarm
+        )
 
-    def _tool_excess(self, w: Array) -> Array:
-        """Between samples of the pose it stays; each counts for the time since the last one, but for no more than 50 ms."""
-        there = np.flatnonzero(np.isfinite(w))
-        total = np.zeros(len(w))
-        if there.size > 1:
-            steps = np.minimum(np.diff(there, prepend=there[0]) * self.dt, STALE)
-            found = excess(w[there], steps)
-            total = found[np.maximum(np.searchsorted(there, np.arange(len(w)), side="right") - 1, 0)]
-            total[: there[0]] = 0.0
+    def _tool_excess(self, scaled: Array) -> Array:
+        """Accumulate the tool's excess; each pose sample counts for the time since the previous sample, but for at
+        most 50 ms.
+        """
+        sampled_rows = np.flatnonzero(np.isfinite(scaled))
+        total = np.zeros(len(scaled))
+        if sampled_rows.size > 1:
+            durations = np.minimum(np.diff(sampled_rows, prepend=sampled_rows[0]) * self.dt, MAX_BRIDGED_GAP_S)
+            sample_excess = accumulate_excess(scaled[sampled_rows], durations)
+            total = sample_excess[np.maximum(np.searchsorted(sampled_rows, np.arange(len(scaled)), side="right") - 1, 0)]
+            total[: sampled_rows[0]] = 0.0
         return total
 
 
-def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm | None = None) -> Signals:
-    """The residuals of a record.
+def compute_signals(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm | None = None) -> Signals:
+    """Compute the residuals of a recording.
 
     Args:
         arm: The arm.
@@ -123,52 +138,63 @@ def signals_of(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm 
         InputError: A record of another arm, in other units, or without a row that has all of its numbers.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
     """
-    dt, told = 1 / log.rate, seen(log)
-    levels, tracking = ["tracking"], np.where(told[:, None], log.q_ref - log.q, np.nan)
-    r, v, gravity, asked = (np.where(told[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4))
-    of = partial(residuals, dt=dt, coulomb=coulomb, viscous=viscous)
-    for part in stretches(log, told):
-        rows = told[part.rows]
-        if part.tau is None:
-            v[part.rows][rows] = filtered_rates(part.q, dt, moving=part.settling > 1)[rows]
+    period, is_complete = 1 / log.rate, complete_rows(log)
+    levels, tracking = ["tracking"], np.where(is_complete[:, None], log.q_ref - log.q, np.nan)
+    torque_residual, rates, gravity, commanded = (
+        np.where(is_complete[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4)
+    )
+    observe = partial(observe_residuals, dt=period, coulomb=coulomb, viscous=viscous)
+    for segment in log_segments(log, is_complete):
+        complete_part = is_complete[segment.rows]
+        if segment.tau is None:
+            rates[segment.rows][complete_part] = filtered_rates(segment.q, period, moving=segment.settling > 1)[complete_part]
             continue
-        found = of(momentum_kernel(body or arm), part.q, part.tau, settling=part.settling)
-        for whole, values in zip((r, v, gravity, asked), found, strict=True):
-            whole[part.rows][rows] = values[rows]
+        segment_signals = observe(momentum_kernel(body or arm), segment.q, segment.tau, settling=segment.settling)
+        for target, values in zip((torque_residual, rates, gravity, commanded), segment_signals, strict=True):
+            target[segment.rows][complete_part] = values[complete_part]
     if log.tau is not None:
         levels.append("torque")
     else:
-        tracking[~calm(log.q_ref, told, dt)] = np.nan
-    tool = np.full((len(told), 6), np.nan)
+        tracking[~find_calm_rows(log.q_ref, is_complete, period)] = np.nan
+    tool_errors = np.full((len(is_complete), 6), np.nan)
     if log.x is not None and log.quat is not None:
-        there = np.flatnonzero(told & np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
-        if there.size >= SMOOTHED:
-            rotations = rotations_of_quaternions(log.quat[there])
-            tool[there] = _smoothed(tool_residual(arm, log.q[there], log.x[there], rotations))
+        pose_rows = np.flatnonzero(is_complete & np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
+        if pose_rows.size >= SMOOTHING_SAMPLES:
+            rotations = rotations_of_quaternions(log.quat[pose_rows])
+            tool_errors[pose_rows] = _smooth_poses(tool_residual(arm, log.q[pose_rows], log.x[pose_rows], rotations))
             levels.append("tool")
-    parts = {"torque": r, "tracking": tracking, "tool": tool, "v": v, "gravity": gravity, "asked": asked}
-    return Signals(dt=dt, seen=told, **parts, levels=tuple(levels))
+    fields = {
+        "torque": torque_residual,
+        "tracking": tracking,
+        "tool": tool_errors,
+        "v": rates,
+        "gravity": gravity,
+        "asked": commanded,
+    }
+    return Signals(dt=period, seen=is_complete, **fields, levels=tuple(levels))
 
 
 def tool_residual(arm: Arm, q: Array, x: Array, rotations: Array) -> Array:
-    """(N, 6) measured tool poses less those of the joints: ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
+    """Return measured tool poses less those of the joints, (N, 6): ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
     poses = arm.forward_kinematics(q)
-    turns = rotation_vectors(rotations @ poses[:, :3, :3].transpose(0, 2, 1))
-    return np.concatenate([x - poses[:, :3, 3], turns], axis=1)
+    rotation_errors = rotation_vectors(rotations @ poses[:, :3, :3].transpose(0, 2, 1))
+    return np.concatenate([x - poses[:, :3, 3], rotation_errors], axis=1)
 
 
-def calm(reference: Array, told: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
-    """(T,) whether all references (T, n) were slow for a while, of the rows that have them."""
-    rows, slow = np.flatnonzero(told), np.zeros(len(told), dtype=bool)
-    steps = np.abs(np.diff(reference[rows], axis=0, prepend=reference[rows[:1]]))
-    fast = (steps >= SLOW * dt * np.diff(rows, prepend=rows[0] - 1)[:, None]).any(axis=1)
-    slow[rows] = rows - np.maximum.accumulate(np.where(fast, rows, -1)) >= max(1, round(CALM / dt))
-    return slow
+def find_calm_rows(reference: Array, is_complete: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
+    """Return (T,) True where all references (T, n) were slow for a while, counting only the rows that have them."""
+    row_indices, is_calm = np.flatnonzero(is_complete), np.zeros(len(is_complete), dtype=bool)
+    steps = np.abs(np.diff(reference[row_indices], axis=0, prepend=reference[row_indices[:1]]))
+    is_fast = (steps >= MAX_SLOW_RATE * dt * np.diff(row_indices, prepend=row_indices[0] - 1)[:, None]).any(axis=1)
+    is_calm[row_indices] = row_indices - np.maximum.accumulate(np.where(is_fast, row_indices, -1)) >= max(
+        1, round(CALM_TIME_S / dt)
+    )
+    return is_calm
 
 
-def _smoothed(rows: Array) -> Array:
-    """Means of the last samples, fewer at the beginning."""
-    total = np.cumsum(np.vstack([np.zeros(rows.shape[1]), rows]), axis=0)
-    last = np.arange(1, len(rows) + 1)
-    first = np.maximum(last - SMOOTHED, 0)
-    return np.asarray((total[last] - total[first]) / (last - first)[:, None])
+def _smooth_poses(rows: Array) -> Array:
+    """Return means of the last samples, fewer at the beginning."""
+    cumulative = np.cumsum(np.vstack([np.zeros(rows.shape[1]), rows]), axis=0)
+    window_ends = np.arange(1, len(rows) + 1)
+    window_starts = np.maximum(window_ends - SMOOTHING_SAMPLES, 0)
+    return np.asarray((cumulative[window_ends] - cumulative[window_starts]) / (window_ends - window_starts)[:, None])

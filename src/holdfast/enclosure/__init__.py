@@ -1,4 +1,4 @@
-"""Every configuration of a pose within limits, or a proof that there is none: boxes of joints, halved until decided."""
+"""Every configuration of a pose within limits, or a proof that there is none, by branch and bound over joint boxes."""
 
 from holdfast._lazy import offer
 

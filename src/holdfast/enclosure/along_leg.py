@@ -1,4 +1,4 @@
-"""That no motion follows a straight leg of a path: the boxes that may hold configurations do not join its ends."""
+"""Proofs that no motion follows a straight leg of a path: no chain of joint boxes connects its ends."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ import time
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.enclosure.boxes import Blocked, Boxes
-from holdfast.notice import says, working
+from holdfast.enclosure.boxes import Blocked, BoxContractor
+from holdfast.notice import report_work, reports_progress
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: boxes of about this size are joined
-_JOINED = 20_000  # boxes at most
-_NEIGHBOURS = 10_000_000  # of them, all together, at most
-_SLACK = 1e-12
+_BOX_WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: boxes of about this size are joined
+_MAX_JOINED_BOXES = 20_000  # boxes at most
+_MAX_NEIGHBOR_PAIRS = 10_000_000  # of them, all together, at most
+_CONTACT_TOLERANCE = 1e-12
 
 
-@checked
-@says("looking for a way along a leg")
-def parted(
+@check_arguments
+@reports_progress("looking for a way along a leg")
+def prove_leg_impossible(
     arm: Arm,
     task: Task,
     pose: ArrayLike,
@@ -61,37 +61,39 @@ def parted(
 
     Source: derived here; bounds of ``holdfast/enclosure/box_bounds.py``.
     """
-    until, shift = time.perf_counter() + time_limit, np.asarray(way, dtype=np.float64)
-    boxes = Boxes(arm, task, np.asarray(pose, dtype=np.float64), tolerance=tolerance, limits=limits, blocked=blocked, way=shift)
-    size = np.append(np.ones(arm.n), np.linalg.norm(shift))
-    left = np.stack([(boxes.low + boxes.high) / 2, (boxes.high - boxes.low) / 2])[None]
-    with working("halving boxes along the leg") as advance:
-        for width in _WIDTHS:
-            small, stack = [left[:0]], [left]
+    deadline, leg_vector = time.perf_counter() + time_limit, np.asarray(way, dtype=np.float64)
+    contractor = BoxContractor(
+        arm, task, np.asarray(pose, dtype=np.float64), tolerance=tolerance, limits=limits, blocked=blocked, way=leg_vector
+    )
+    weights = np.append(np.ones(arm.n), np.linalg.norm(leg_vector))
+    open_boxes = np.stack([(contractor.low + contractor.high) / 2, (contractor.high - contractor.low) / 2])[None]
+    with report_work("halving boxes along the leg") as advance:
+        for width in _BOX_WIDTHS:
+            small_boxes, stack = [open_boxes[:0]], [open_boxes]
             while stack:
-                if time.perf_counter() > until or boxes.looked_at >= most_boxes:
+                if time.perf_counter() > deadline or contractor.checked >= most_boxes:
                     return None
-                cut = boxes.clear(boxes.cut(boxes.taken(stack)))
-                advance(boxes.looked_at, most_boxes)
-                done = (2 * cut.box[:, 1] * size).max(axis=1, initial=0.0) < width
-                small.append(cut.box[done])
-                more = cut[~done].halved()
-                if len(more):
-                    stack.append(more)
-            left = np.concatenate(small)
-            if len(left) > _JOINED:
+                contracted = contractor.drop_blocked(contractor.contract(contractor.pop_batch(stack)))
+                advance(contractor.checked, most_boxes)
+                is_small = (2 * contracted.box[:, 1] * weights).max(axis=1, initial=0.0) < width
+                small_boxes.append(contracted.box[is_small])
+                halves = contracted[~is_small].bisect()
+                if len(halves):
+                    stack.append(halves)
+            open_boxes = np.concatenate(small_boxes)
+            if len(open_boxes) > _MAX_JOINED_BOXES:
                 return None
-            chained = _through(left)
+            chained = _connected_to_both_ends(open_boxes)
             if chained is None:
                 return None
-            left = left[chained]
-            if not len(left):
-                return boxes.looked_at
+            open_boxes = open_boxes[chained]
+            if not len(open_boxes):
+                return contractor.checked
     return None
 
 
-def _through(boxes: Array) -> Flags | None:
-    """(N,) True for boxes (N, 2, n) in a chain of boxes that touch, from one with the last joint at 0 to one with it at 1.
+def _connected_to_both_ends(boxes: Array) -> Flags | None:
+    """Return (N,) True for boxes (N, 2, n) in a chain of touching boxes from the last joint at 0 to the last joint at 1.
 
     None if too many touch.
     """
@@ -101,15 +103,18 @@ def _through(boxes: Array) -> Flags | None:
 
     if not len(boxes):
         return np.zeros(0, dtype=bool)
-    centre, half = boxes[:, 0], boxes[:, 1]
-    widest = half.max(axis=0) + _SLACK  # of each joint on its own: as near as boxes that touch must be
-    tree, near = cKDTree(centre / widest), 2.0
-    if tree.count_neighbors(tree, near, p=np.inf) > _NEIGHBOURS:
+    centers, half_widths = boxes[:, 0], boxes[:, 1]
+    widest = half_widths.max(axis=0) + _CONTACT_TOLERANCE  # of each joint on its own: as near as boxes that touch must be
+    tree, neighbor_distance = cKDTree(centers / widest), 2.0
+    if tree.count_neighbors(tree, neighbor_distance, p=np.inf) > _MAX_NEIGHBOR_PAIRS:
         return None
-    i, j = tree.query_pairs(near, p=np.inf, output_type="ndarray").T
-    for at, by in zip(centre.T, half.T, strict=True):  # joint by joint: there are many pairs
-        met = np.abs(at[i] - at[j]) <= by[i] + by[j] + _SLACK
-        i, j = i[met], j[met]
-    _, label = connected_components(coo_array((np.ones(len(i)), (i, j)), shape=(len(boxes),) * 2), directed=False)
-    begins, ends = centre[:, -1] - half[:, -1] <= _SLACK, centre[:, -1] + half[:, -1] >= 1 - _SLACK
+    first, second = tree.query_pairs(neighbor_distance, p=np.inf, output_type="ndarray").T
+    for center_values, widths in zip(centers.T, half_widths.T, strict=True):  # joint by joint: there are many pairs
+        touching = np.abs(center_values[first] - center_values[second]) <= widths[first] + widths[second] + _CONTACT_TOLERANCE
+        first, second = first[touching], second[touching]
+    _, label = connected_components(coo_array((np.ones(len(first)), (first, second)), shape=(len(boxes),) * 2), directed=False)
+    begins, ends = (
+        centers[:, -1] - half_widths[:, -1] <= _CONTACT_TOLERANCE,
+        centers[:, -1] + half_widths[:, -1] >= 1 - _CONTACT_TOLERANCE,
+    )
     return np.asarray(np.isin(label, np.intersect1d(label[begins], label[ends])))

@@ -1,4 +1,4 @@
-"""Boxes of joints: looked at many at a time, cut to what they can hold, halved."""
+"""Batches of joint boxes: contracted to the part that can hold solutions, then bisected."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.enclosure.box_bounds import Parts, box_kernel, idle
+from holdfast.enclosure.box_bounds import BoundedTask, box_kernel, is_last_joint_idle
 from holdfast.errors import TaskError
 from holdfast.kernels.kernel import Kernel
 
@@ -19,46 +19,52 @@ Flags = NDArray[np.bool_]
 Blocked = Callable[[Array, Array], Flags]
 """Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
 
-_BATCH = 4096  # boxes looked at together
-_GAIN = 0.6  # of its volume: a box that was cut to less is looked at again before it is halved
-_TILT = 1e-6  # what it does to the bounds is its square
+_BATCH_ROWS = 4096  # boxes looked at together
+_CONTRACTION_RATIO = 0.6  # of its volume: a box that was cut to less is looked at again before it is halved
+_MAX_TILT = 1e-6  # what it does to the bounds is its square
 
 
 @dataclass(frozen=True, eq=False)
-class Cut:
-    """Boxes that are not empty, cut to what they can hold.
+class ContractedBoxes:
+    """Non-empty boxes, contracted to the part that can hold solutions.
 
     Attributes:
         box: (N, 2, n) centres and half widths.
-        before: (N, 2, n) as they were.
+        original: (N, 2, n) as they were.
         inside: (N,) True where what a box can hold lies strictly inside of it.
         volume: (N,) how much of it that is.
-        which: (N,) joint to be halved.
+        widest_joint: (N,) joint to be halved.
     """
 
     box: Array
-    before: Array
+    original: Array
     inside: Flags
     volume: Array
-    which: NDArray[np.intp]
+    widest_joint: NDArray[np.intp]
 
-    def __getitem__(self, some: Flags) -> Cut:
-        return Cut(self.box[some], self.before[some], self.inside[some], self.volume[some], self.which[some])
+    def __getitem__(self, selection: Flags) -> ContractedBoxes:
+        return ContractedBoxes(
+            self.box[selection],
+            self.original[selection],
+            self.inside[selection],
+            self.volume[selection],
+            self.widest_joint[selection],
+        )
 
-    def halved(self) -> Array:
-        """(K, 2, n) what is to be looked at next."""
-        again = self.volume < _GAIN
-        upper = self.box[~again]
-        row, k = np.arange(len(upper)), self.which[~again]
-        upper[row, 1, k] /= 2
+    def bisect(self) -> Array:
+        """Return the boxes (K, 2, n) to check next: contracted ones as they are, the others in two halves."""
+        shrunk = self.volume < _CONTRACTION_RATIO
+        upper = self.box[~shrunk]
+        row, joint_index = np.arange(len(upper)), self.widest_joint[~shrunk]
+        upper[row, 1, joint_index] /= 2
         lower = upper.copy()
-        lower[row, 0, k] -= upper[row, 1, k]
-        upper[row, 0, k] += upper[row, 1, k]
-        return np.concatenate([self.box[again], lower, upper])
+        lower[row, 0, joint_index] -= upper[row, 1, joint_index]
+        upper[row, 0, joint_index] += upper[row, 1, joint_index]
+        return np.concatenate([self.box[shrunk], lower, upper])
 
 
-class Boxes:
-    """What looks at boxes of an arm's joints, for a pose or along a straight way from it.
+class BoxContractor:
+    """Contractor of boxes of an arm's joints, for a pose or along a straight leg from it.
 
     Args:
         arm: The arm.
@@ -71,9 +77,9 @@ class Boxes:
 
     Attributes:
         parts: The task's rows.
-        kernel, given: What tells of boxes, and what it is given beside them.
-        low, high: (n,) of all boxes; a joint that moves no row is in the middle.
-        looked_at, left_out: How many boxes, and how many of them as blocked.
+        kernel, kernel_inputs: What tells of boxes, and what it is given beside them.
+        lower, upper: (n,) of all boxes; a joint that moves no row is in the middle.
+        checked, blocked_count: How many boxes, and how many of them as blocked.
 
     Raises:
         TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
@@ -90,48 +96,54 @@ class Boxes:
         blocked: Blocked | None,
         way: Array | None = None,
     ) -> None:
-        low, high = limits[0].copy(), limits[1].copy()
-        self.parts = parts = Parts.of(arm, task)
+        lower, upper = limits[0].copy(), limits[1].copy()
+        self.parts = parts = BoundedTask.from_task(arm, task)
         if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
-            turned = pose[:3, :3] @ arm.forward_kinematics((low + high) / 2)[:3, :3].T @ parts.normal
-            if np.abs(turned - parts.normal).max() > _TILT:
+            tilted_normal = pose[:3, :3] @ arm.forward_kinematics((lower + upper) / 2)[:3, :3].T @ parts.normal
+            if np.abs(tilted_normal - parts.normal).max() > _MAX_TILT:
                 raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
         self.kernel: Kernel = box_kernel(arm, parts, way is not None)
         counts = len(parts.linear), parts.m - len(parts.linear)
-        missed = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # rows of other frames miss by no more
-        self.given = (pose[:3, 3], pose[:3, :3], missed, *([] if way is None else [way]))
+        row_tolerances = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # rows of other frames miss by no more
+        self.kernel_inputs = (pose[:3, 3], pose[:3, :3], row_tolerances, *([] if way is None else [way]))
         self._n, self._blocked = arm.n, blocked
-        self._unseen = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
-        if idle(arm, parts):
-            self._unseen[-1] = (high[-1] - low[-1]) / 2
-            low[-1] = high[-1] = (low[-1] + high[-1]) / 2
+        self._idle_half_width = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
+        if is_last_joint_idle(arm, parts):
+            self._idle_half_width[-1] = (upper[-1] - lower[-1]) / 2
+            lower[-1] = upper[-1] = (lower[-1] + upper[-1]) / 2
         if way is not None:
-            low, high = np.append(low, 0.0), np.append(high, 1.0)
-        self.low, self.high = low, high
-        self.looked_at = self.left_out = 0
+            lower, upper = np.append(lower, 0.0), np.append(upper, 1.0)
+        self.low, self.high = lower, upper
+        self.checked = self.blocked_count = 0
 
-    def taken(self, stack: list[Array]) -> Array:
-        """The last boxes of a stack, as many as are looked at together."""
+    def pop_batch(self, stack: list[Array]) -> Array:
+        """Remove the last boxes of a stack, up to the size of a batch, and return them."""
         boxes = stack.pop()
-        while len(boxes) < _BATCH and stack:
+        while len(boxes) < _BATCH_ROWS and stack:
             boxes = np.concatenate([stack.pop(), boxes])
-        if len(boxes) > _BATCH:
-            stack.append(boxes[:-_BATCH])
-        return boxes[-_BATCH:]
+        if len(boxes) > _BATCH_ROWS:
+            stack.append(boxes[:-_BATCH_ROWS])
+        return boxes[-_BATCH_ROWS:]
 
-    def cut(self, boxes: Array) -> Cut:
-        """What boxes (N, 2, n) can hold, without those that are empty."""
-        self.looked_at += len(boxes)
+    def contract(self, boxes: Array) -> ContractedBoxes:
+        """Contract boxes (N, 2, n) and leave out those that are empty."""
+        self.checked += len(boxes)
         n = boxes.shape[2]
-        out = self.kernel.rows(boxes[:, 0], boxes[:, 1], *self.given, first=2 * n + 4)
-        left = np.flatnonzero(out[:, 0] <= 0)
-        out = out[left]
-        return Cut(out[:, 1:-3].reshape(-1, 2, n), boxes[left], out[:, -3] < 0, out[:, -2], out[:, -1].astype(np.intp))
+        outputs = self.kernel.rows(boxes[:, 0], boxes[:, 1], *self.kernel_inputs, first=2 * n + 4)
+        nonempty = np.flatnonzero(outputs[:, 0] <= 0)
+        outputs = outputs[nonempty]
+        return ContractedBoxes(
+            outputs[:, 1:-3].reshape(-1, 2, n),
+            boxes[nonempty],
+            outputs[:, -3] < 0,
+            outputs[:, -2],
+            outputs[:, -1].astype(np.intp),
+        )
 
-    def clear(self, cut: Cut) -> Cut:
-        """Without those that are blocked."""
-        if self._blocked is None or not len(cut.box):
-            return cut
-        clear = ~self._blocked(cut.box[:, 0, : self._n], cut.box[:, 1, : self._n] + self._unseen)
-        self.left_out += len(clear) - int(clear.sum())
-        return cut if clear.all() else cut[clear]
+    def drop_blocked(self, contracted: ContractedBoxes) -> ContractedBoxes:
+        """Leave out the boxes that are blocked."""
+        if self._blocked is None or not len(contracted.box):
+            return contracted
+        is_free = ~self._blocked(contracted.box[:, 0, : self._n], contracted.box[:, 1, : self._n] + self._idle_half_width)
+        self.blocked_count += len(is_free) - int(is_free.sum())
+        return contracted if is_free.all() else contracted[is_free]

@@ -10,27 +10,27 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
-from holdfast.enclosure.box_bounds import ROUNDING
-from holdfast.enclosure.boxes import Blocked, Boxes, Cut
+from holdfast.enclosure.box_bounds import ROUNDING_M_RAD
+from holdfast.enclosure.boxes import Blocked, BoxContractor, ContractedBoxes
 from holdfast.errors import InputError
-from holdfast.notice import says, working
+from holdfast.notice import report_work, reports_progress
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-SMALLEST = 1e-6  # rad and m: a box no wider than this is not halved any more
-_NEWTON = 30
-_ALONE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
-_LOOSE = 1e-4  # m and rad: what is met within more fills boxes that are as small as boxes get
-_SAME = 1e-5  # rad and m: solutions nearer than this are one
+MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not halved any more
+_NEWTON_STEPS = 30
+_ISOLATION_SIZE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
+_LOOSE_TOLERANCE = 1e-4  # m and rad: what is met within more fills boxes that are as small as boxes get
+_DUPLICATE_TOLERANCE = 1e-5  # rad and m: solutions nearer than this are one
 
 
-class Finding(IntEnum):
-    """What is known in the end."""
+class SearchOutcome(IntEnum):
+    """Outcome of a search for configurations."""
 
     NONE = 0
     ALL = 1
@@ -39,21 +39,21 @@ class Finding(IntEnum):
 
     @property
     def sentence(self) -> str:
-        """What it means."""
-        return _SENTENCES[self]
+        """Explanation of the outcome."""
+        return _OUTCOME_SENTENCES[self]
 
 
-_SENTENCES = {
-    Finding.NONE: "there is no configuration, proved up to floating point",
-    Finding.ALL: "these are all configurations, proved up to floating point",
-    Finding.SOME: "there are configurations; whether there are others was not asked",
-    Finding.OPEN: "undecided: time or boxes were spent first",
+_OUTCOME_SENTENCES = {
+    SearchOutcome.NONE: "there is no configuration, proved up to floating point",
+    SearchOutcome.ALL: "these are all configurations, proved up to floating point",
+    SearchOutcome.SOME: "there are configurations; whether there are others was not asked",
+    SearchOutcome.OPEN: "undecided: time or boxes were spent first",
 }
 
 
 @dataclass(frozen=True, kw_only=True)
 class Configurations(Result):
-    """What :func:`all_configurations` found.
+    """Configurations and outcome of :func:`all_configurations`.
 
     Attributes:
         arm: The arm.
@@ -74,7 +74,7 @@ class Configurations(Result):
     pose: Array
     lower: Array
     upper: Array
-    finding: Finding
+    finding: SearchOutcome
     q: Array
     boxes: int
     open: int
@@ -83,22 +83,22 @@ class Configurations(Result):
     blocked: int = 0
 
     @property
-    def none(self) -> bool:
-        """Proved: there is no configuration."""
-        return self.finding == Finding.NONE
+    def proved_empty(self) -> bool:
+        """True if it is proved that there is no configuration."""
+        return self.finding == SearchOutcome.NONE
 
     def describe(self) -> list[str]:
-        """A sentence for people."""
-        left = f", {self.open:,} of them left, up to {2 * self.widest:.2g} wide" if self.open else ""
-        without = f", {self.blocked:,} of them blocked and left out" if self.blocked else ""
+        """Describe the result in sentences."""
+        open_phrase = f", {self.open:,} of them left, up to {2 * self.widest:.2g} wide" if self.open else ""
+        blocked_phrase = f", {self.blocked:,} of them blocked and left out" if self.blocked else ""
         return [
             f"{len(self.q)} configurations of '{self.arm.name}', task {self.task.name}: {self.finding.sentence}",
-            f"{self.boxes:,} boxes of joints{without}{left}, {self.seconds:.2g} s",
+            f"{self.boxes:,} boxes of joints{blocked_phrase}{open_phrase}, {self.seconds:.2g} s",
         ]
 
 
-@checked
-@says("looking for every configuration")
+@check_arguments
+@reports_progress("looking for every configuration")
 def all_configurations(
     arm: Arm,
     pose: ArrayLike,
@@ -111,7 +111,7 @@ def all_configurations(
     first: bool = False,
     blocked: Blocked | None = None,
 ) -> Configurations:
-    """Every configuration of a pose within limits, or a proof that there is none.
+    """Find every configuration of a pose within limits, or prove that there is none.
 
     Boxes of joints are cut to what they can hold and halved until none is left but those around configurations. No start, no
     sample and no closed form is needed: what is said to be absent is absent. If more joints move than the task has rows, the
@@ -137,126 +137,134 @@ def all_configurations(
 
     Source: interval Newton methods (Krawczyk 1969); the bounds are ours, derived in ``holdfast/enclosure/box_bounds.py``.
     """
-    rows = as_task(arm, task)
-    wanted = target_pose(rows, pose)
-    low, high = _limits(arm, limits)
+    resolved_task = as_task(arm, task)
+    requested_pose = target_pose(resolved_task, pose)
+    lower, upper = _read_limits(arm, limits)
     allowed = np.broadcast_to(tolerance, 2)
     if not ((allowed >= 0).all() and np.isfinite(allowed).all()) or not time_limit > 0 or most_boxes < 1:
         raise InputError(
             f"tolerance is {tolerance}, time_limit {time_limit:g} and most_boxes {most_boxes}; give a finite tolerance of 0 or "
             "more, a time above 0 and 1 box or more"
         )
-    boxes = Boxes(arm, rows, wanted, tolerance=(float(allowed[0]), float(allowed[1])), limits=(low, high), blocked=blocked)
-    search = _Search(boxes)
-    begin = time.perf_counter()
-    finding = search.run(begin + time_limit, most_boxes, first)
+    contractor = BoxContractor(
+        arm,
+        resolved_task,
+        requested_pose,
+        tolerance=(float(allowed[0]), float(allowed[1])),
+        limits=(lower, upper),
+        blocked=blocked,
+    )
+    search = _BoxSearch(contractor)
+    start_time = time.perf_counter()
+    finding = search.run(start_time + time_limit, most_boxes, first)
     return Configurations(
         arm=arm,
-        task=rows,
-        pose=wanted,
-        lower=low,
-        upper=high,
+        task=resolved_task,
+        pose=requested_pose,
+        lower=lower,
+        upper=upper,
         finding=finding,
-        q=search.found,
-        boxes=boxes.looked_at,
-        open=search.open,
-        widest=search.widest,
-        seconds=time.perf_counter() - begin,
-        blocked=boxes.left_out,
+        q=search.solutions,
+        boxes=contractor.checked,
+        open=search.open_count,
+        widest=search.widest_half_width,
+        seconds=time.perf_counter() - start_time,
+        blocked=contractor.blocked_count,
     )
 
 
-def _limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Array, Array]:
-    whole = finite_limits(arm)
+def _read_limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Array, Array]:
+    arm_limits = finite_limits(arm)
     if limits is None:
-        return whole
-    given = [np.asarray(x, dtype=np.float64) for x in limits]
-    if len(given) != 2 or any(x.shape != (arm.n,) or np.isnan(x).any() for x in given):
+        return arm_limits
+    bounds = [np.asarray(bound, dtype=np.float64) for bound in limits]
+    if len(bounds) != 2 or any(bound.shape != (arm.n,) or np.isnan(bound).any() for bound in bounds):
         raise InputError(f"limits must be two arrays of {arm.n} numbers, lower and upper, without NaN")
-    low, high = (np.where(np.isfinite(x), x, end) for x, end in zip(given, whole, strict=True))
-    upside = np.flatnonzero(low > high)
-    if upside.size:
+    lower, upper = (np.where(np.isfinite(bound), bound, arm_limit) for bound, arm_limit in zip(bounds, arm_limits, strict=True))
+    inverted = np.flatnonzero(lower > upper)
+    if inverted.size:
         raise InputError(
-            f"limits of joint '{arm.joint_names[upside[0]]}' are upside down: {low[upside[0]]:g} to {high[upside[0]]:g}"
+            f"limits of joint '{arm.joint_names[inverted[0]]}' are upside down: {lower[inverted[0]]:g} to "
+            f"{upper[inverted[0]]:g}"
         )
-    return low, high
+    return lower, upper
 
 
-class _Search:
-    """One search: a stack of boxes, the last of which are looked at first."""
+class _BoxSearch:
+    """A search over a stack of boxes that checks the last boxes first."""
 
-    def __init__(self, boxes: Boxes) -> None:
+    def __init__(self, boxes: BoxContractor) -> None:
         self._boxes, self._n = boxes, len(boxes.low)
         self._low, self._high, self._free = boxes.low, boxes.high, boxes.high > boxes.low
-        self._square = int(self._free.sum()) == boxes.parts.m
-        self._more = int(self._free.sum()) > boxes.parts.m
-        self._loose = bool(boxes.given[2].max() > _LOOSE)
+        self._is_square = int(self._free.sum()) == boxes.parts.m
+        self._is_redundant = int(self._free.sum()) > boxes.parts.m
+        self._has_loose_tolerance = bool(boxes.kernel_inputs[2].max() > _LOOSE_TOLERANCE)
         self._stack = [np.stack([(self._low + self._high) / 2, (self._high - self._low) / 2])[None]]
-        self._small: list[Array] = []  # boxes that are not halved any more, (K, 2, n)
-        self.found = np.zeros((0, self._n))
+        self._small_boxes: list[Array] = []  # boxes that are not halved any more, (K, 2, n)
+        self.solutions = np.zeros((0, self._n))
 
     @property
-    def _left(self) -> Array:
-        return np.concatenate([*self._stack, *self._small, np.zeros((0, 2, self._n))])
+    def _open_boxes(self) -> Array:
+        return np.concatenate([*self._stack, *self._small_boxes, np.zeros((0, 2, self._n))])
 
     @property
-    def open(self) -> int:
-        """Boxes that are not decided."""
-        return len(self._left)
+    def open_count(self) -> int:
+        """Number of boxes that are not decided."""
+        return len(self._open_boxes)
 
     @property
-    def widest(self) -> float:
-        """Of these."""
-        return float(self._left[:, 1].max(initial=0.0))
+    def widest_half_width(self) -> float:
+        """Half width of the widest undecided box."""
+        return float(self._open_boxes[:, 1].max(initial=0.0))
 
-    def run(self, until: float, most: int, first: bool) -> Finding:
-        """Look until all is decided, or no more may be done."""
-        ends, boxes = first or self._more, self._boxes
-        with working("halving boxes of joints") as advance:
+    def run(self, deadline: float, max_boxes: int, first: bool) -> SearchOutcome:
+        """Search until all boxes are decided or a limit is reached."""
+        stops_at_first, contractor = first or self._is_redundant, self._boxes
+        with report_work("halving boxes of joints") as advance:
             while self._stack:
-                if time.perf_counter() > until or boxes.looked_at >= most:
-                    return Finding.OPEN
-                self._look(boxes.cut(boxes.taken(self._stack)))
-                advance(boxes.looked_at, most)
-                if ends and len(self.found):
-                    return Finding.SOME
-                if self._small and self._loose:
-                    return Finding.OPEN  # as it would be in the end, after all boxes of that size
-        if self._small:
-            return Finding.OPEN
-        return Finding.ALL if len(self.found) else Finding.NONE
+                if time.perf_counter() > deadline or contractor.checked >= max_boxes:
+                    return SearchOutcome.OPEN
+                self._process_boxes(contractor.contract(contractor.pop_batch(self._stack)))
+                advance(contractor.checked, max_boxes)
+                if stops_at_first and len(self.solutions):
+                    return SearchOutcome.SOME
+                if self._small_boxes and self._has_loose_tolerance:
+                    return SearchOutcome.OPEN  # as it would be in the end, after all boxes of that size
+        if self._small_boxes:
+            return SearchOutcome.OPEN
+        return SearchOutcome.ALL if len(self.solutions) else SearchOutcome.NONE
 
-    def _look(self, cut: Cut) -> None:
-        """What boxes can hold is looked at again, halved, or set aside."""
-        if self._square:
-            held = cut.inside & (cut.before[:, 1].max(axis=1, initial=0.0) < _ALONE)
-            if held.any():
-                self._polish(cut.box[held, 0], cut.before[held])
-                cut = cut[~held]
-        cut = self._boxes.clear(cut)
-        tiny = cut.box[:, 1].max(axis=1, initial=0.0) < SMALLEST
+    def _process_boxes(self, contracted: ContractedBoxes) -> None:
+        """Check contracted boxes again, bisect them, or set them aside."""
+        if self._is_square:
+            holds_solution = contracted.inside & (contracted.original[:, 1].max(axis=1, initial=0.0) < _ISOLATION_SIZE)
+            if holds_solution.any():
+                self._refine_solutions(contracted.box[holds_solution, 0], contracted.original[holds_solution])
+                contracted = contracted[~holds_solution]
+        contracted = self._boxes.drop_blocked(contracted)
+        tiny = contracted.box[:, 1].max(axis=1, initial=0.0) < MIN_BOX_SIZE
         if tiny.any():
-            self._polish(cut.box[tiny, 0], cut.box[tiny])
-            cut = cut[~tiny]
-        more = cut.halved()
-        if len(more):
-            self._stack.append(more)
+            self._refine_solutions(contracted.box[tiny, 0], contracted.box[tiny])
+            contracted = contracted[~tiny]
+        halves = contracted.bisect()
+        if len(halves):
+            self._stack.append(halves)
 
-    def _polish(self, q: Array, boxes: Array) -> None:
-        """Newton's method from q (N, n) in boxes (N, 2, n): where it finds nothing there, the box stays open."""
-        near = np.where(self._free, 1e-4, 0.0)
-        for _ in range(_NEWTON):
-            out = self._boxes.kernel.rows(q, np.broadcast_to(near, q.shape), *self._boxes.given)
-            step = out[:, 2 * self._n + 4 : 3 * self._n + 4]
+    def _refine_solutions(self, q: Array, boxes: Array) -> None:
+        """Refine q (N, n) in boxes (N, 2, n) by Newton's method; a box without a solution stays open."""
+        start_half_width = np.where(self._free, 1e-4, 0.0)
+        for _ in range(_NEWTON_STEPS):
+            outputs = self._boxes.kernel.rows(q, np.broadcast_to(start_half_width, q.shape), *self._boxes.kernel_inputs)
+            step = outputs[:, 2 * self._n + 4 : 3 * self._n + 4]
             q = np.clip(q + step, self._low, self._high)
             if np.abs(step).max() < 1e-13:
                 break
-        errors = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.given)[:, 3 * self._n + 4 :]
-        met = (np.abs(errors) <= self._boxes.given[2] + ROUNDING).all(axis=1)
-        there = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + SMALLEST).all(axis=1)
-        good = there & met
-        for x in q[good]:
-            if not len(self.found) or np.abs(self.found - x).max(axis=1).min() > _SAME:
-                self.found = np.concatenate([self.found, x[None]])
-        if not good.all():
-            self._small.append(boxes[~good])
+        errors = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.kernel_inputs)[:, 3 * self._n + 4 :]
+        within_tolerance = (np.abs(errors) <= self._boxes.kernel_inputs[2] + ROUNDING_M_RAD).all(axis=1)
+        in_box = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + MIN_BOX_SIZE).all(axis=1)
+        is_solution = in_box & within_tolerance
+        for solution in q[is_solution]:
+            if not len(self.solutions) or np.abs(self.solutions - solution).max(axis=1).min() > _DUPLICATE_TOLERANCE:
+                self.solutions = np.concatenate([self.solutions, solution[None]])
+        if not is_solution.all():
+            self._small_boxes.append(boxes[~is_solution])

@@ -1,4 +1,4 @@
-"""Motions along a path that survive the lock of a joint: the best one, and what a given one survives."""
+"""Motions along a path that survive the lock of a joint: the best motion, and the locks that a given motion survives."""
 
 from holdfast._lazy import offer
 

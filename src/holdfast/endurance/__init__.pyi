@@ -1,10 +1,10 @@
-from holdfast.endurance.endurance import Compared as Compared
-from holdfast.endurance.endurance import Endurance as Endurance
-from holdfast.endurance.endurance import Found as Found
-from holdfast.endurance.given import endurance_of as endurance_of
-from holdfast.endurance.injection import Injection as Injection
+from holdfast.endurance.endurance import BaselineMotion as BaselineMotion
+from holdfast.endurance.endurance import LockSurvival as LockSurvival
+from holdfast.endurance.endurance import SearchBounds as SearchBounds
+from holdfast.endurance.given import evaluate_motion as evaluate_motion
+from holdfast.endurance.injection import LockTests as LockTests
 from holdfast.endurance.rates import FailureRates as FailureRates
 from holdfast.endurance.reaching import Approach as Approach
-from holdfast.endurance.reaching import endure_to as endure_to
-from holdfast.endurance.search import endure as endure
+from holdfast.endurance.reaching import plan_motion_to as plan_motion_to
+from holdfast.endurance.search import plan_motion as plan_motion
 from holdfast.endurance.timed_motion import VelocityJump as VelocityJump

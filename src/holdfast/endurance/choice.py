@@ -1,4 +1,4 @@
-"""The motion over the nodes of a path that gathers most: dynamic programming."""
+"""Dynamic program that selects the motion over the nodes of a path with the greatest total gain."""
 
 from __future__ import annotations
 
@@ -10,150 +10,169 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.endurance.grid import Nodes, squared_distances
-from holdfast.notice import each
+from holdfast.endurance.grid import CurveNodes, compute_squared_distances
+from holdfast.notice import track
 from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-_ALIKE = 1e-12  # of all that can be gathered: less is rounding
-_DENSE = 1 << 20  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
+_RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
+_MAX_DENSE_MOVES = (
+    1 << 20
+)  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
 
 
 @dataclass(frozen=True, eq=False)
-class Moves:
-    """The M moves from the nodes of a pose to those of the next that are short enough, in order of where they lead.
+class NodeMoves:
+    """The M moves from the nodes of a pose to those of the next that are short enough, ordered by their targets.
 
     Attributes:
-        to, source: (M,) nodes.
-        far: (M,) squared distances.
-        beyond: (M,) how much farther than allowed a joint goes, rad and m; below 0 where none does.
+        targets, sources: (M,) nodes.
+        squared_distances: (M,) squared distances.
+        excesses: (M,) how much farther than allowed a joint goes, rad and m; below 0 where none does.
     """
 
-    to: Index
-    source: Index
-    far: Array
-    beyond: Array
+    targets: Index
+    sources: Index
+    squared_distances: Array
+    excesses: Array
 
 
-class Front:
-    """The best motions up to a pose, one to each of its nodes; of equals the shortest, by its squared steps.
+class BestPathTable:
+    """Best motions up to a pose, one to each of its nodes; among equals the shortest, by its squared steps.
 
     Attributes:
         gains: (P,) what each node of each pose is worth.
-        extra: How much farther than allowed a joint may go from pose to pose, rad and m.
-        ended: The last pose to which any motion leads, if it is not the last of all.
+        allowed_excess: How much farther than allowed a joint may go from pose to pose, rad and m.
+        last_pose: The last pose to which any motion leads, if it is not the last of all.
     """
 
     def __init__(self, gains: list[Array], extra: float = 0.0) -> None:
-        self.gains, self.extra = gains, extra
-        self.ended: int | None = None
-        self._alike = _ALIKE * sum(float(g.max()) for g in gains)
-        self._total, self._way = gains[0], np.zeros(len(gains[0]))
-        self._came: list[Index] = []
+        self.gains, self.allowed_excess = gains, extra
+        self.last_pose: int | None = None
+        self._tie_tolerance = _RELATIVE_TIE_TOLERANCE * sum(float(gain.max()) for gain in gains)
+        self._totals, self._path_lengths = gains[0], np.zeros(len(gains[0]))
+        self._predecessors: list[Index] = []
 
-    def advance(self, moves: Moves) -> None:
-        """To the next pose."""
-        if self.ended is not None:
+    def advance_to_next_pose(self, moves: NodeMoves) -> None:
+        """Advance the best motions to the next pose."""
+        if self.last_pose is not None:
             return
-        gain = self.gains[len(self._came) + 1]
-        kept = (moves.beyond <= self.extra) & np.isfinite(self._total[moves.source])
-        to, source = moves.to[kept], moves.source[kept]
-        if not to.size:
-            self.ended = len(self._came)
+        node_gains = self.gains[len(self._predecessors) + 1]
+        is_allowed = (moves.excesses <= self.allowed_excess) & np.isfinite(self._totals[moves.sources])
+        targets, sources = moves.targets[is_allowed], moves.sources[is_allowed]
+        if not targets.size:
+            self.last_pose = len(self._predecessors)
             return
-        gathered = self._total[source]
-        most = _largest(gathered, to, len(gain))
-        good = gathered >= most[to] - self._alike
-        to, source = to[good], source[good]
-        price = self._way[source] + moves.far[kept][good]
-        least = -_largest(-price, to, len(gain))
-        came = np.zeros(len(gain), dtype=np.int64)
-        cheapest = np.flatnonzero(price == least[to])[::-1]
-        came[to[cheapest]] = source[cheapest]  # what is written last stays: the first
-        self._total, self._way = most + gain, least
-        self._came.append(came)
+        source_totals = self._totals[sources]
+        best_totals = _max_by_group(source_totals, targets, len(node_gains))
+        is_best = source_totals >= best_totals[targets] - self._tie_tolerance
+        targets, sources = targets[is_best], sources[is_best]
+        lengths = self._path_lengths[sources] + moves.squared_distances[is_allowed][is_best]
+        shortest = -_max_by_group(-lengths, targets, len(node_gains))
+        predecessors = np.zeros(len(node_gains), dtype=np.int64)
+        cheapest = np.flatnonzero(lengths == shortest[targets])[::-1]
+        predecessors[targets[cheapest]] = sources[cheapest]  # what is written last stays: the first
+        self._totals, self._path_lengths = best_totals + node_gains, shortest
+        self._predecessors.append(predecessors)
 
     @property
-    def most(self) -> float:
-        """What the best motion gathers; NaN if none leads to the last pose."""
-        return float(self._total.max()) if self.ended is None else float("nan")
+    def best_total(self) -> float:
+        """Total gain of the best motion; NaN if none leads to the last pose."""
+        return float(self._totals.max()) if self.last_pose is None else float("nan")
 
-    def motion(self) -> Index:
-        """The node of every pose (T,)."""
-        best = np.flatnonzero(self._total >= self._total.max() - self._alike)
-        chosen = [int(best[self._way[best].argmin()])]
-        for source in reversed(self._came):
+    def trace_best_motion(self) -> Index:
+        """Return the node of every pose (T,) along the best motion."""
+        best = np.flatnonzero(self._totals >= self._totals.max() - self._tie_tolerance)
+        chosen = [int(best[self._path_lengths[best].argmin()])]
+        for source in reversed(self._predecessors):
             chosen.append(int(source[chosen[-1]]))
         return np.array(chosen[::-1])
 
 
-def advanced(arm: Arm, nodes: list[Nodes], limit: Array, fronts: Sequence[Front]) -> None:
-    """Brings fronts from the first pose to the last.
+def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: Array, path_tables: Sequence[BestPathTable]) -> None:
+    """Advance tables of best motions from the first pose to the last.
 
     Args:
         arm: The arm.
         nodes: Of each pose.
-        limit: (n,) largest motion of each joint from pose to pose, rad and m; infinite where none is known.
-        fronts: At the first pose.
+        max_steps: (n,) largest motion of each joint from pose to pose, rad and m; infinite where none is known.
+        path_tables: At the first pose.
     """
-    extra = max(front.extra for front in fronts)
-    for a, b in each("poses", list(pairwise(nodes)), whole=True):
-        moves = _moves(arm, b, a, limit, extra)
-        for front in fronts:
-            front.advance(moves)
+    allowed_excess = max(path_table.allowed_excess for path_table in path_tables)
+    for nodes_before, nodes_after in track("poses", list(pairwise(nodes)), whole=True):
+        moves = _find_moves(arm, nodes_after, nodes_before, max_steps, allowed_excess)
+        for path_table in path_tables:
+            path_table.advance_to_next_pose(moves)
 
 
-def _largest(values: Array, group: Index, groups: int) -> Array:
-    """(G,) the largest value of each group (M,), which come in order; -inf of one without any."""
-    most = np.full(groups, -np.inf)
-    if group.size:
-        first = np.flatnonzero(np.diff(group, prepend=-1))
-        most[group[first]] = np.maximum.reduceat(values, first)
-    return most
+def _max_by_group(values: Array, group_indices: Index, group_count: int) -> Array:
+    """Return (G,) the largest value of each group (M,), in sorted order; -inf for an empty group."""
+    maxima = np.full(group_count, -np.inf)
+    if group_indices.size:
+        group_starts = np.flatnonzero(np.diff(group_indices, prepend=-1))
+        maxima[group_indices[group_starts]] = np.maximum.reduceat(values, group_starts)
+    return maxima
 
 
-def _moves(arm: Arm, b: Nodes, a: Nodes, limit: Array, extra: float) -> Moves:
-    """Those from a to b that go no farther than that beyond the limits; of joints without one the whole move must be short."""
-    if len(a.q) * len(b.q) <= _DENSE:
-        squares = squared_distances(b.flat, a.flat)
-        most = _short(a, np.sqrt(squares.min(axis=0)), limit)
-        to, source = (x.ravel() for x in np.indices(squares.shape))
-        far, beyond = squares.ravel(), _beyond(arm, b.q[:, None], a.q[None], limit).ravel()
+def _find_moves(
+    arm: Arm, nodes_after: CurveNodes, nodes_before: CurveNodes, max_steps: Array, allowed_excess: float
+) -> NodeMoves:
+    """Return the moves from ``nodes_before`` to ``nodes_after`` within the limits plus ``allowed_excess``, or short ones
+    without a limit.
+    """
+    if len(nodes_before.q) * len(nodes_after.q) <= _MAX_DENSE_MOVES:
+        node_distances = compute_squared_distances(nodes_after.embedded, nodes_before.embedded)
+        max_length = _bound_move_length(nodes_before, np.sqrt(node_distances.min(axis=0)), max_steps)
+        targets, sources = (indices.ravel() for indices in np.indices(node_distances.shape))
+        move_distances, excesses = (
+            node_distances.ravel(),
+            _measure_excess(arm, nodes_after.q[:, None], nodes_before.q[None], max_steps).ravel(),
+        )
     else:
         from scipy.spatial import KDTree
 
-        most = _short(a, np.asarray(KDTree(b.flat).query(a.flat)[0]), limit)
-        to, source = _within(arm, b.q, a.q, np.where(np.isfinite(limit), limit + extra, np.pi / 2 * most))
-        far, beyond = ((b.flat[to] - a.flat[source]) ** 2).sum(axis=1), _beyond(arm, b.q[to], a.q[source], limit)
-    some = (beyond <= extra) & (far <= most**2)
-    return Moves(to[some], source[some], far[some], beyond[some])
+        max_length = _bound_move_length(
+            nodes_before, np.asarray(KDTree(nodes_after.embedded).query(nodes_before.embedded)[0]), max_steps
+        )
+        targets, sources = _find_close_pairs(
+            arm,
+            nodes_after.q,
+            nodes_before.q,
+            np.where(np.isfinite(max_steps), max_steps + allowed_excess, np.pi / 2 * max_length),
+        )
+        move_distances, excesses = (
+            ((nodes_after.embedded[targets] - nodes_before.embedded[sources]) ** 2).sum(axis=1),
+            _measure_excess(arm, nodes_after.q[targets], nodes_before.q[sources], max_steps),
+        )
+    is_selected = (excesses <= allowed_excess) & (move_distances <= max_length**2)
+    return NodeMoves(targets[is_selected], sources[is_selected], move_distances[is_selected], excesses[is_selected])
 
 
-def _short(a: Nodes, nearest: Array, limit: Array) -> float:
-    """How long a move may be where a joint has no limit; ``nearest`` (P,) is how far the next pose is from each node."""
-    return np.inf if np.isfinite(limit).all() else 3 * a.span + 2 * float(np.median(nearest))
+def _bound_move_length(nodes_before: CurveNodes, nearest: Array, max_steps: Array) -> float:
+    """Return the greatest length of a move of joints without a limit; ``nearest`` (P,) are the distances to the next pose."""
+    return np.inf if np.isfinite(max_steps).all() else 3 * nodes_before.spacing + 2 * float(np.median(nearest))
 
 
-def _beyond(arm: Arm, q: Array, before: Array, limit: Array) -> Array:
-    """(...) how much farther than allowed a joint goes, at most, from ``before`` to q (..., n)."""
-    beyond = np.full(np.broadcast_shapes(q.shape, before.shape)[:-1], -np.inf)
-    for k in np.flatnonzero(np.isfinite(limit)):
-        moved = np.abs(q[..., k] - before[..., k])
-        if joint_space.turning(arm)[k]:
-            moved = np.abs(np.remainder(moved + np.pi, 2 * np.pi) - np.pi)
-        np.maximum(beyond, moved - limit[k], out=beyond)
-    return beyond
+def _measure_excess(arm: Arm, q: Array, before: Array, max_steps: Array) -> Array:
+    """Return (...) the greatest excess over the limits of a joint's motion from ``before`` to q (..., n)."""
+    excesses = np.full(np.broadcast_shapes(q.shape, before.shape)[:-1], -np.inf)
+    for joint_index in np.flatnonzero(np.isfinite(max_steps)):
+        joint_steps = np.abs(q[..., joint_index] - before[..., joint_index])
+        if joint_space.is_unlimited(arm)[joint_index]:
+            joint_steps = np.abs(np.remainder(joint_steps + np.pi, 2 * np.pi) - np.pi)
+        np.maximum(excesses, joint_steps - max_steps[joint_index], out=excesses)
+    return excesses
 
 
-def _within(arm: Arm, b: Array, a: Array, reach: Array) -> tuple[Index, Index]:
-    """Which of b (Q, n) and a (P, n) are apart by no more than ``reach`` (n,) in any joint, in order."""
+def _find_close_pairs(arm: Arm, b: Array, a: Array, reach: Array) -> tuple[Index, Index]:
+    """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``reach`` (n,) in any joint, in order."""
     from scipy.spatial import KDTree
 
-    wide = reach * (1 + 1e-9)
-    boxes = np.where(joint_space.turning(arm), 2 * np.pi * (1 + 1e-12) / wide, 0.0)  # rounding stays inside
-    trees = [KDTree(joint_space.folded(arm, x) / wide, boxsize=boxes) for x in (b, a)]
-    found = trees[0].sparse_distance_matrix(trees[1], 1.0, p=np.inf, output_type="ndarray")
-    order = np.lexsort((found["j"], found["i"]))
-    return found["i"][order], found["j"][order]
+    padded_reach = reach * (1 + 1e-9)
+    boxes = np.where(joint_space.is_unlimited(arm), 2 * np.pi * (1 + 1e-12) / padded_reach, 0.0)  # rounding stays inside
+    trees = [KDTree(joint_space.fold_joints(arm, configurations) / padded_reach, boxsize=boxes) for configurations in (b, a)]
+    pairs = trees[0].sparse_distance_matrix(trees[1], 1.0, p=np.inf, output_type="ndarray")
+    order = np.lexsort((pairs["j"], pairs["i"]))
+    return pairs["i"][order], pairs["j"][order]

@@ -1,4 +1,4 @@
-"""What an arm on its path must meet beside the path's rows: room to what is around it, and rows kept of the tool's pose."""
+"""Conditions of an arm on its path in addition to the task rows: clearance from its surroundings, and tool constraints."""
 
 from __future__ import annotations
 
@@ -15,191 +15,213 @@ from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
-from holdfast.keep.kept import Kept
-from holdfast.keep.manifold import Manifold
+from holdfast.keep.kept import ToolConstraint
+from holdfast.keep.manifold import ConstraintManifold
 from holdfast.paths.timed_path import TimedPath
-from holdfast.solvers.clear_parts import Clear
-from holdfast.solvers.curve_tracing import Tracer
+from holdfast.solvers.clear_parts import CurveConstraint
+from holdfast.solvers.curve_tracing import ManifoldTracer
 from holdfast.solvers.self_motions import SelfMotion
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_LOOKED_AT = 8  # configurations, drawn, at which it is asked whether self-motion changes what is kept
-_SAME = 1e-9  # m and rad per rad
-_STILL = 1e-9  # m and rad
+_SAMPLED_CONFIGURATIONS = 8  # configurations, drawn, at which it is asked whether self-motion changes what is kept
+_UNCHANGED_TOLERANCE = 1e-9  # m and rad per rad
+_STANDSTILL_TOLERANCE = 1e-9  # m and rad
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Conditions:
-    """What is asked of every configuration.
+class MotionConditions:
+    """Conditions on every configuration of a motion.
 
     Attributes:
         arm, task: What moves, and which rows the path sets.
-        room: A clearance and the margin to keep, m; None: nothing is kept clear of.
-        keep: What is kept, through the first pose of the path.
-        given: The parts of these that the rows of the path decide alone.
-        left: The others, which the path leaves to the arm: cones that self-motion can leave.
+        required_clearance: A clearance and the margin to keep, m; None: nothing is kept clear of.
+        constraints: What is kept, through the first pose of the path.
+        set_by_path: The parts of these that the rows of the path decide alone.
+        left_to_arm: The others, which the path leaves to the arm: cones that self-motion can leave.
     """
 
     arm: Arm
     task: Task
-    room: tuple[Clearance, float] | None
-    keep: tuple[Kept, ...]
-    given: tuple[Kept, ...]
-    left: tuple[Kept, ...]
+    required_clearance: tuple[Clearance, float] | None
+    constraints: tuple[ToolConstraint, ...]
+    set_by_path: tuple[ToolConstraint, ...]
+    left_to_arm: tuple[ToolConstraint, ...]
 
     @classmethod
-    def of(cls, arm: Arm, task: Task, room: tuple[Clearance, float] | None, keep: Sequence[Kept]) -> Conditions:
-        """Those of an arm on a path whose rows are the task's.
+    def for_task(
+        cls, arm: Arm, task: Task, required_clearance: tuple[Clearance, float] | None, constraints: Sequence[ToolConstraint]
+    ) -> MotionConditions:
+        """Return the conditions of an arm on a path whose rows are those of the task.
 
         Raises:
             InputError: A row that is kept exactly and that the path leaves free.
         """
-        parts = [part for one in keep for part in _parts(one)]
-        given = tuple(part for part in parts if _set_by_path(arm, task, part))
-        left = tuple(part for part in parts if part not in given)
-        exact = next((part for part in left if len(part.normals) or part.turned or not part.angle), None)
-        if exact is not None:
+        parts = [part for constraint in constraints for part in _split_constraint(constraint)]
+        set_by_path = tuple(part for part in parts if _is_set_by_path(arm, task, part))
+        left_to_arm = tuple(part for part in parts if part not in set_by_path)
+        exact_part = next((part for part in left_to_arm if len(part.normals) or part.turned or not part.angle), None)
+        if exact_part is not None:
             raise InputError(
-                f"the task '{task.name}' leaves free what is to be kept exactly ({exact}): prescribe it by the path and a "
-                "task with more rows, such as pointing or pose" + (", or give an angle" if exact.direction is not None else "")
+                f"the task '{task.name}' leaves free what is to be kept exactly ({exact_part}): prescribe it by the path and a "
+                "task with more rows, such as pointing or pose"
+                + (", or give an angle" if exact_part.direction is not None else "")
             )
-        return cls(arm=arm, task=task, room=room, keep=tuple(keep), given=given, left=left)
+        return cls(
+            arm=arm,
+            task=task,
+            required_clearance=required_clearance,
+            constraints=tuple(constraints),
+            set_by_path=set_by_path,
+            left_to_arm=left_to_arm,
+        )
 
     @property
-    def any(self) -> bool:
-        """Whether anything is asked."""
-        return self.room is not None or bool(self.keep)
+    def is_restrictive(self) -> bool:
+        """True if there is any condition."""
+        return self.required_clearance is not None or bool(self.constraints)
 
     @cached_property
-    def manifold(self) -> Manifold | None:
-        """Of what is left to the arm."""
-        if not self.left:
+    def manifold(self) -> ConstraintManifold | None:
+        """Manifold of the constraints that the path leaves to the arm; None if there are none."""
+        if not self.left_to_arm:
             return None
-        return Manifold(self.arm, self.left, self.arm.upper > self.arm.lower, finite_limits(self.arm))
+        return ConstraintManifold(self.arm, self.left_to_arm, self.arm.upper > self.arm.lower, finite_limits(self.arm))
 
-    def holds(self, q: Array, slack: float = 0.0) -> Flags:
-        """(N,) True where configurations (N, n) on the path have room, up to a slack in m, and keep what it leaves to them."""
-        good = np.ones(len(q), dtype=bool)
-        if self.room is not None:
-            good &= self.room[0].room(q) >= self.room[1] - slack
+    def are_met(self, q: Array, slack: float = 0.0) -> Flags:
+        """Return (N,) True where configurations (N, n) on the path meet the conditions, with a slack of the clearance in m."""
+        is_met = np.ones(len(q), dtype=bool)
+        if self.required_clearance is not None:
+            is_met &= self.required_clearance[0].margin_left(q) >= self.required_clearance[1] - slack
         if self.manifold is not None:
-            good[good] = self.manifold.holds(q[good])
-        return good
+            is_met[is_met] = self.manifold.is_satisfied(q[is_met])
+        return is_met
 
-    def broken(self, q: Array) -> tuple[int, str] | None:
-        """The first of configurations (N, n) that breaks what is kept, and by how much, a phrase."""
-        return _first_trouble(self.keep, self.arm.forward_kinematics(q))
+    def find_violation(self, q: Array) -> tuple[int, str] | None:
+        """Return the first of configurations (N, n) that violates a constraint, and the violation as a phrase."""
+        return _find_first_violation(self.constraints, self.arm.forward_kinematics(q))
 
-    def keeps(self, q: Array) -> Flags:
-        """(N,) True where configurations (N, n) keep what is kept."""
+    def meet_constraints(self, q: Array) -> Flags:
+        """Return (N,) True where configurations (N, n) meet the tool constraints."""
         poses = self.arm.forward_kinematics(q)
-        return np.array([not any(one.trouble(pose[None]) for one in self.keep) for pose in poses], dtype=bool)
+        return np.array(
+            [not any(constraint.trouble(pose[None]) for constraint in self.constraints) for pose in poses], dtype=bool
+        )
 
-    def given_up(self, q: Array) -> tuple[int, str] | None:
-        """As :meth:`broken` of what the path decides alone, of any configurations (T, n) on it."""
-        return _first_trouble(self.given, self.arm.forward_kinematics(q))
+    def find_path_violation(self, q: Array) -> tuple[int, str] | None:
+        """Return the first violation of the constraints that the path alone decides, for any configurations (T, n) on it."""
+        return _find_first_violation(self.set_by_path, self.arm.forward_kinematics(q))
 
-    def why_none(self, found: SelfMotion) -> str:
-        """Why no configuration of a pose is left, a sentence."""
-        if self.manifold is None or found.status != Status.INFEASIBLE:
-            return found.describe()[0]
-        clear = "" if self.room is None else ", clear of what is around it,"
-        return f"no configuration that was found{clear} keeps this: {'; '.join(map(str, self.left))}"
+    def explain_infeasible(self, self_motion: SelfMotion) -> str:
+        """Explain in a sentence why a pose has no configuration."""
+        if self.manifold is None or self_motion.status != Status.INFEASIBLE:
+            return self_motion.describe()[0]
+        clearance_text = "" if self.required_clearance is None else ", clear of what is around it,"
+        return f"no configuration that was found{clearance_text} keeps this: {'; '.join(map(str, self.left_to_arm))}"
 
-    def cut(self, tracer: Tracer, found: SelfMotion) -> SelfMotion:
-        """The parts of curves of configurations that keep what the path leaves to them."""
+    def restrict_curves(self, tracer: ManifoldTracer, self_motion: SelfMotion) -> SelfMotion:
+        """Restrict the curves of configurations to the parts that meet the constraints left to the arm."""
         if self.manifold is None:
-            return found
-        names = [kept.name for kept in self.left]
-        clear = Clear(self.manifold.gaps, self.manifold.changes(np.eye(self.arm.n)).T, names)
-        parts = tuple(part for c in found.components for part in clear.parts(tracer, found.pose, c))
-        q = np.concatenate([c.q for c in parts]) if parts else found.q[:0]
-        return replace(found, components=parts, q=q, status=found.status if parts else Status.INFEASIBLE)
+            return self_motion
+        names = [constraint.name for constraint in self.left_to_arm]
+        feasible_intervals = CurveConstraint(
+            self.manifold.constraint_margins, self.manifold.bound_changes(np.eye(self.arm.n)).T, names
+        )
+        parts = tuple(
+            part
+            for component in self_motion.components
+            for part in feasible_intervals.find_free_parts(tracer, self_motion.pose, component)
+        )
+        q = np.concatenate([component.q for component in parts]) if parts else self_motion.q[:0]
+        return replace(self_motion, components=parts, q=q, status=self_motion.status if parts else Status.INFEASIBLE)
 
-    def brought(self, q: Array, poses: Array) -> Array:
-        """Configurations near q (N, n) that keep what is left to them and the rows of poses (N, 4, 4); maybe not all do."""
+    def project_configurations(self, q: Array, poses: Array) -> Array:
+        """Project q (N, n) towards the constraints left to the arm and the rows of poses (N, 4, 4); some may not converge."""
         if self.manifold is None:
             return q
 
-        def of_path(at: Array, which: NDArray[np.intp]) -> tuple[Array, Array]:
-            now, jacobian, pose = self.arm.forward_kinematics(at), self.arm.jacobian(at), poses[which]
-            turned = rotation_vectors(pose[:, :3, :3] @ now[:, :3, :3].transpose(0, 2, 1))
-            error = np.concatenate([pose[:, :3, 3] - now[:, :3, 3], turned], axis=1)
-            rows = _rows(self.task, now)
+        def evaluate_path_rows(trial: Array, pose_indices: NDArray[np.intp]) -> tuple[Array, Array]:
+            current_poses, jacobian, target_poses = (
+                self.arm.forward_kinematics(trial),
+                self.arm.jacobian(trial),
+                poses[pose_indices],
+            )
+            orientation_errors = rotation_vectors(target_poses[:, :3, :3] @ current_poses[:, :3, :3].transpose(0, 2, 1))
+            error = np.concatenate([target_poses[:, :3, 3] - current_poses[:, :3, 3], orientation_errors], axis=1)
+            rows = _world_task_rows(self.task, current_poses)
             return np.einsum("nmk,nk->nm", rows, error), rows @ jacobian
 
-        return self.manifold.projected(q, of_path)
+        return self.manifold.project(q, evaluate_path_rows)
 
 
-def _first_trouble(keep: Sequence[Kept], poses: Array) -> tuple[int, str] | None:
-    for k, pose in enumerate(poses if keep else []):
-        said = [trouble for one in keep if (trouble := one.trouble(pose[None]))]
-        if said:
-            return k, " and ".join(said)
+def _find_first_violation(constraints: Sequence[ToolConstraint], poses: Array) -> tuple[int, str] | None:
+    for index, pose in enumerate(poses if constraints else []):
+        violations = [violation for constraint in constraints if (violation := constraint.trouble(pose[None]))]
+        if violations:
+            return index, " and ".join(violations)
     return None
 
 
-def _parts(kept: Kept) -> list[Kept]:
-    """Where the tool point stays, and how the tool stays turned."""
+def _split_constraint(constraint: ToolConstraint) -> list[ToolConstraint]:
+    """Split a tool constraint into its position and its orientation."""
     parts = []
-    if len(kept.normals):
-        parts.append(replace(kept, direction=None, turned=False))
-    if kept.turned or kept.direction is not None:
-        parts.append(replace(kept, normals=kept.normals[:0]))
+    if len(constraint.normals):
+        parts.append(replace(constraint, direction=None, turned=False))
+    if constraint.turned or constraint.direction is not None:
+        parts.append(replace(constraint, normals=constraint.normals[:0]))
     return parts
 
 
-def _set_by_path(arm: Arm, task: Task, kept: Kept) -> bool:
-    """Whether no motion that keeps the rows of the task changes what is kept: then the path decides alone."""
-    low, high = finite_limits(arm)
-    q = np.random.default_rng(np.random.SeedSequence(0)).uniform(low, high, (_LOOKED_AT, arm.n))
+def _is_set_by_path(arm: Arm, task: Task, constraint: ToolConstraint) -> bool:
+    """Return True if no motion that meets the task rows changes the constraint, so that the path alone decides it."""
+    lower, upper = finite_limits(arm)
+    q = np.random.default_rng(np.random.SeedSequence(0)).uniform(lower, upper, (_SAMPLED_CONFIGURATIONS, arm.n))
     poses, jacobian = arm.forward_kinematics(q), arm.jacobian(q) * (arm.upper > arm.lower)
-    null = np.linalg.svd(_rows(task, poses) @ jacobian)[2][:, task.m :]
-    change = jacobian @ null.transpose(0, 2, 1)
-    if len(kept.normals):
-        return bool(np.abs(kept.normals @ change[:, :3]).max(initial=0.0) <= _SAME)
-    turned = change[:, 3:]
-    if not kept.turned:
-        axis = (poses[:, :3, :3] @ kept.axis)[:, :, None]
-        turned = turned - axis * (axis * turned).sum(axis=1, keepdims=True)
-    return bool(np.abs(turned).max(initial=0.0) <= _SAME)
+    null_space = np.linalg.svd(_world_task_rows(task, poses) @ jacobian)[2][:, task.m :]
+    change = jacobian @ null_space.transpose(0, 2, 1)
+    if len(constraint.normals):
+        return bool(np.abs(constraint.normals @ change[:, :3]).max(initial=0.0) <= _UNCHANGED_TOLERANCE)
+    rotations = change[:, 3:]
+    if not constraint.turned:
+        axis = (poses[:, :3, :3] @ constraint.axis)[:, :, None]
+        rotations = rotations - axis * (axis * rotations).sum(axis=1, keepdims=True)
+    return bool(np.abs(rotations).max(initial=0.0) <= _UNCHANGED_TOLERANCE)
 
 
-def _rows(task: Task, poses: Array) -> Array:
-    """(N, m, 6) rows of a task, of twists in the world, with the tool at poses (N, 4, 4)."""
+def _world_task_rows(task: Task, poses: Array) -> Array:
+    """Return the rows (N, m, 6) of a task for twists in the world, with the tool at poses (N, 4, 4)."""
     rows = np.broadcast_to(task.rows, (len(poses), *task.rows.shape))
     if task.frame == "base":
         return rows
-    back = poses[:, :3, :3].transpose(0, 2, 1)
-    return np.concatenate([rows[..., :3] @ back, rows[..., 3:] @ back], axis=2)
+    inverse_rotations = poses[:, :3, :3].transpose(0, 2, 1)
+    return np.concatenate([rows[..., :3] @ inverse_rotations, rows[..., 3:] @ inverse_rotations], axis=2)
 
 
-def task_jacobian(arm: Arm, task: Task, q: Array) -> Array:
-    """(N, m, n) of the rows of a task, m and rad, at q (N, n)."""
-    return np.asarray(_rows(task, arm.forward_kinematics(q)) @ arm.jacobian(q))
+def compute_task_jacobian(arm: Arm, task: Task, q: Array) -> Array:
+    """Return the Jacobian (N, m, n) of the rows of a task, m and rad, at q (N, n)."""
+    return np.asarray(_world_task_rows(task, arm.forward_kinematics(q)) @ arm.jacobian(q))
 
 
-def with_axis(task: Task, path: TimedPath, axis: Array, direction: Array) -> tuple[Task, TimedPath] | None:
-    """The task and path of that, for an axis (3,) in the tool's frame and a direction (3,) in the world, unit vectors.
+def fix_tool_axis(task: Task, path: TimedPath, axis: Array, direction: Array) -> tuple[Task, TimedPath] | None:
+    """Return the task and path with an axis (3,) of the tool fixed along a direction (3,) in the world, unit vectors.
 
     None where the task prescribes other rows than the position, or the path waits or turns in a place.
     """
     legs = path.path
-    waits = np.linalg.norm(legs.shift, axis=1) + np.linalg.norm(legs.sweep, axis=1) <= _STILL
-    if task.angular or task.m < 3 or waits.any():
+    is_stationary = np.linalg.norm(legs.shift, axis=1) + np.linalg.norm(legs.sweep, axis=1) <= _STANDSTILL_TOLERANCE
+    if task.angular or task.m < 3 or is_stationary.any():
         return None
-    across = np.linalg.svd(axis[None])[2][1:]
-    rows = np.block([[np.eye(3), np.zeros((3, 3))], [np.zeros((2, 3)), across]])
+    normals = np.linalg.svd(axis[None])[2][1:]
+    rows = np.block([[np.eye(3), np.zeros((3, 3))], [np.zeros((2, 3)), normals]])
     starts = legs.starts.copy()
-    starts[:, :3, :3] = _frame(direction) @ _frame(axis).T
-    along = replace(path, path=replace(legs, starts=starts, turn=0 * legs.turn, oriented=True))
-    return Task(f"{task.name} with the axis held", rows, "tool", length=task.length), along
+    starts[:, :3, :3] = _complete_axes(direction) @ _complete_axes(axis).T
+    oriented_path = replace(path, path=replace(legs, starts=starts, turn=0 * legs.turn, oriented=True))
+    return Task(f"{task.name} with the axis held", rows, "tool", length=task.length), oriented_path
 
 
-def _frame(first: Array) -> Array:
-    """(3, 3) right-handed axes, columns, the first given."""
+def _complete_axes(first: Array) -> Array:
+    """Return right-handed axes (3, 3), in columns, from the first one."""
     second = np.linalg.svd(first[None])[2][1]
     return np.column_stack([first, second, np.cross(first, second)])

@@ -1,4 +1,4 @@
-"""Which single locks a motion survives that is there already: one that is given, or others beside the best.
+"""Evaluate the single locks that a given motion survives, and compare other motions with the best one.
 
 These are least norm, gradient projection of a measure, and its best at every pose.
 """
@@ -11,13 +11,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
-from holdfast.endurance.endurance import Compared, Endurance
-from holdfast.endurance.problem import Mode, Problem, posed
+from holdfast.endurance.endurance import BaselineMotion, LockSurvival
+from holdfast.endurance.problem import Mode, SurvivalProblem, make_problem
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError
 from holdfast.indices.determinants import relative_manipulability
@@ -25,18 +25,18 @@ from holdfast.indices.objective import Objective
 from holdfast.keep.labels import KeepLike
 from holdfast.motion.tracking import follow
 from holdfast.motion.trajectory import Trajectory
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.paths.timed_path import TimedPath
-from holdfast.solvers.self_motions import STARTS
+from holdfast.solvers.self_motions import TRACING_STARTS
 
 Array = NDArray[np.float64]
 
 LEAST_NORM = "least-norm"
 
 
-@checked
-@says("looking at what the motion survives")
-def endurance_of(
+@check_arguments
+@reports_progress("looking at what the motion survives")
+def evaluate_motion(
     arm: Arm,
     motion: Trajectory | ArrayLike,
     path: TimedPath,
@@ -48,13 +48,13 @@ def endurance_of(
     samples: int = 101,
     spacing: float = 0.05,
     seed: int = 0,
-    starts: int = STARTS,
+    starts: int = TRACING_STARTS,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
     keep: KeepLike | None = None,
-) -> Endurance:
-    """Which single locks a motion along a path survives, whatever made it.
+) -> LockSurvival:
+    """Return the single locks that a motion along a path survives, for a motion from any source.
 
     Args:
         arm: The arm.
@@ -77,7 +77,7 @@ def endurance_of(
         InputError: A motion that is not on the path or breaks what is kept, rates or options that do not fit.
         TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
     """
-    problem = posed(
+    problem = make_problem(
         arm,
         path,
         rates,
@@ -94,71 +94,78 @@ def endurance_of(
         starts=starts,
     )
     if isinstance(motion, Trajectory):
-        given, times = motion.q, motion.time
+        configurations, times = motion.q, motion.time
     else:
-        given = np.atleast_2d(arm.check_configurations(motion))
-        times = np.linspace(0.0, path.duration, len(given))
-    if len(given) < 2 or not np.isfinite(given).all():
+        configurations = np.atleast_2d(arm.check_configurations(motion))
+        times = np.linspace(0.0, path.duration, len(configurations))
+    if len(configurations) < 2 or not np.isfinite(configurations).all():
         raise InputError(f"the motion of '{arm.name}' must be 2 or more configurations of finite numbers")
     if abs(times[-1] - path.duration) > 1e-9 * path.duration:
         raise InputError(
             f"the motion takes {times[-1]:.4g} s and the path {path.duration:.4g} s; give those that belong together"
         )
-    q = np.column_stack([np.interp(problem.time, times, x) for x in given.T])
-    off = problem.off(q)
-    if off.any():
+    q = np.column_stack([np.interp(problem.time, times, positions) for positions in configurations.T])
+    is_off_path = problem.is_off_path(q)
+    if is_off_path.any():
         raise InputError(
-            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off.argmax()]:.4g} s; give one "
+            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[is_off_path.argmax()]:.4g} "
+            f"s; give one "
             "along this path"
         )
-    broken = problem.conditions.broken(q)
+    broken = problem.conditions.find_violation(q)
     if broken is not None:
         raise InputError(f"the motion breaks what is kept: at {problem.time[broken[0]]:.4g} s the tool is {broken[1]}")
-    return Endurance.of(problem, q, survives=problem.judge(q))
+    return LockSurvival.of(problem, q, survives=problem.evaluate_locks(q))
 
 
-def beside(problem: Problem, best: Endurance, others: Sequence[Objective | str], seed: int) -> Endurance:
-    """The result with the others beside it, each from its own best start.
+def with_baselines(
+    problem: SurvivalProblem, result: LockSurvival, baselines: Sequence[Objective | str], seed: int
+) -> LockSurvival:
+    """Return the result with baseline motions for comparison, each from its own best start.
 
     Raises:
         InputError: An unknown word, or a measure of another arm.
     """
-    found: list[Compared] = []
-    for other in others:
-        if isinstance(other, str):
-            if other != LEAST_NORM:
-                raise InputError(f"compare holds '{other}'; give '{LEAST_NORM}', or a measure such as relative manipulability")
-            plain = _followed(problem, relative_manipulability(problem.arm, problem.task), "none", False, seed)
-            found.append(_judged(problem, "least norm", plain.q))
+    comparisons: list[BaselineMotion] = []
+    for baseline in baselines:
+        if isinstance(baseline, str):
+            if baseline != LEAST_NORM:
+                raise InputError(
+                    f"compare holds '{baseline}'; give '{LEAST_NORM}', or a measure such as relative manipulability"
+                )
+            least_norm = _follow_objective(problem, relative_manipulability(problem.arm, problem.task), "none", False, seed)
+            comparisons.append(_evaluate_baseline(problem, "least norm", least_norm.q))
             continue
-        local = _followed(problem, other, "gradient-projection", True, seed)
-        found.append(_judged(problem, f"gradient projection of {other.name}", local.q))
-        assert local.best_path is not None
-        found.append(_judged(problem, f"best continuous {other.name}", local.best_path))
-    return replace(best, beside=tuple(found))
+        projected = _follow_objective(problem, baseline, "gradient-projection", True, seed)
+        comparisons.append(_evaluate_baseline(problem, f"gradient projection of {baseline.name}", projected.q))
+        assert projected.best_path is not None
+        comparisons.append(_evaluate_baseline(problem, f"best continuous {baseline.name}", projected.best_path))
+    return replace(result, comparisons=tuple(comparisons))
 
 
-def _followed(problem: Problem, objective: Objective, method: str, best: bool, seed: int) -> Trajectory:
-    aim = {"minimise" if objective.better == "smaller" else "maximise": objective}
-    kept, margin = problem.conditions.room or (None, 0.0)
+def _follow_objective(
+    problem: SurvivalProblem, objective: Objective, method: str, from_best_start: bool, seed: int
+) -> Trajectory:
+    objective_option = {"minimise" if objective.better == "smaller" else "maximise": objective}
+    clearance, margin = problem.conditions.required_clearance or (None, 0.0)
     return follow(
         problem.arm,
         problem.path,
-        **aim,  # type: ignore[arg-type]
+        **objective_option,  # type: ignore[arg-type]
         method=method,  # type: ignore[arg-type]
         task=problem.task,
         samples=len(problem.time),
-        best=best,
+        best=from_best_start,
         seed=seed,
-        clearance=kept,
+        clearance=clearance,
         margin=margin,
     )
 
 
-def _judged(problem: Problem, name: str, q: Array) -> Compared:
-    """What a motion survives; where it is off the path, or breaks what is kept, nothing is."""
-    off = problem.off(q)
-    off[~off] = ~problem.conditions.keeps(q[~off])
-    survives = problem.judge(np.where(off[:, None], np.nan, q))
-    made = Endurance.of(problem, q, survives=survives)
-    return Compared(name=name, survival=made.survival, curve=made.curve(), off=float(off.mean()))
+def _evaluate_baseline(problem: SurvivalProblem, name: str, q: Array) -> BaselineMotion:
+    """Evaluate the locks that a motion survives; where it is off the path or violates a condition, it survives none."""
+    is_invalid = problem.is_off_path(q)
+    is_invalid[~is_invalid] = ~problem.conditions.meet_constraints(q[~is_invalid])
+    survives = problem.evaluate_locks(np.where(is_invalid[:, None], np.nan, q))
+    result = LockSurvival.of(problem, q, survives=survives)
+    return BaselineMotion(name=name, survival=result.survival, curve=result.curve(), off=float(is_invalid.mean()))

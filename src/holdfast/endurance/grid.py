@@ -1,4 +1,4 @@
-"""The self-motion curves of every pose of a path as numbered nodes, and who is beside whom."""
+"""Self-motion curves of every pose of a path as numbered nodes with their neighbors."""
 
 from __future__ import annotations
 
@@ -23,92 +23,108 @@ Index = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
-class Nodes:
-    """The points of all curves of one pose, P of them.
+class CurveNodes:
+    """Points of all self-motion curves of one pose, P of them.
 
     Attributes:
         arm: The arm.
         q: (P, n) rad and m.
         curve: (P,) the number of its curve.
-        before, after: (P,) neighbours along the curve; at an open end the node itself.
+        previous, following: (P,) neighbours along the curve; at an open end the node itself.
         pieces: (P, n) from each node to the one after it, rad and m.
-        flat: (P, e) where straight distances are those between configurations: (cos, sin) of joints without limits.
-        span: How far apart neighbours may be, rad (and m).
+        embedded: (P, e) where straight distances are those between configurations: (cos, sin) of joints without limits.
+        spacing: How far apart neighbours may be, rad (and m).
     """
 
     arm: Arm
     q: Array
     curve: Index
-    before: Index
-    after: Index
+    previous: Index
+    following: Index
     pieces: Array
-    flat: Array
-    span: float
+    embedded: Array
+    spacing: float
 
     @classmethod
-    def of(cls, arm: Arm, found: SelfMotion) -> Nodes:
-        """Those of a manifold of curves."""
-        before, after, curve = [], [], []
-        at = 0
-        for k, part in enumerate(found.components):
-            size = len(part.q)
-            number = np.arange(at, at + size)
-            ends = (number[-1], number[0]) if part.closed else (number[0], number[-1])
-            before.append(np.concatenate([[ends[0]], number[:-1]]))
-            after.append(np.concatenate([number[1:], [ends[1]]]))
-            curve.append(np.full(size, k))
-            at += size
-        none = [np.empty(0, dtype=np.int64)]
-        return cls._of(
-            arm, found.q, found.spacing, *(np.concatenate(x or none).astype(np.int64) for x in (curve, before, after))
+    def from_self_motion(cls, arm: Arm, self_motion: SelfMotion) -> CurveNodes:
+        """Return the nodes of a self-motion manifold of curves."""
+        previous, following, curves = [], [], []
+        first_node = 0
+        for component_index, component in enumerate(self_motion.components):
+            size = len(component.q)
+            node_numbers = np.arange(first_node, first_node + size)
+            ends = (node_numbers[-1], node_numbers[0]) if component.closed else (node_numbers[0], node_numbers[-1])
+            previous.append(np.concatenate([[ends[0]], node_numbers[:-1]]))
+            following.append(np.concatenate([node_numbers[1:], [ends[1]]]))
+            curves.append(np.full(size, component_index))
+            first_node += size
+        empty = [np.empty(0, dtype=np.int64)]
+        return cls._create(
+            arm,
+            self_motion.q,
+            self_motion.spacing,
+            *(np.concatenate(parts or empty).astype(np.int64) for parts in (curves, previous, following)),
         )
 
     @classmethod
-    def single(cls, arm: Arm, q: Array, span: float) -> Nodes:
-        """One configuration (n,) alone."""
+    def from_configuration(cls, arm: Arm, q: Array, spacing: float) -> CurveNodes:
+        """Return a single configuration (n,) as nodes."""
         zero = np.zeros(1, dtype=np.int64)
-        return cls._of(arm, q[None], span, zero, zero, zero)
+        return cls._create(arm, q[None], spacing, zero, zero, zero)
 
     @classmethod
-    def _of(cls, arm: Arm, q: Array, span: float, curve: Index, before: Index, after: Index) -> Nodes:
-        return cls(arm, q, curve, before, after, joint_space.difference(arm, q[after], q), flat(arm, q), span)
+    def _create(cls, arm: Arm, q: Array, spacing: float, curve: Index, previous: Index, following: Index) -> CurveNodes:
+        return cls(
+            arm,
+            q,
+            curve,
+            previous,
+            following,
+            joint_space.joint_difference(arm, q[following], q),
+            embed_configurations(arm, q),
+            spacing,
+        )
 
     @cached_property
-    def _tree(self) -> KDTree:
-        return joint_space.tree(self.arm, self.q)
+    def _search_tree(self) -> KDTree:
+        return joint_space.build_tree(self.arm, self.q)
 
-    def place(self, q: Array) -> tuple[Index, Array, Flags]:
-        """Where q (N, n) lies: behind which node along its curve (N,), how far towards the next one (N,), 0 to 1, and
-        whether it lies on a curve at all (N,).
+    def locate(self, q: Array) -> tuple[Index, Array, Flags]:
+        """Return for q (N, n) the node behind it along its curve (N,), the fraction of the segment to the next node (N,), 0 to
+        1, and a flag (N,) that is True on a curve.
         """
         if not len(self.q):
             return np.zeros(len(q), dtype=np.int64), np.zeros(len(q)), np.zeros(len(q), dtype=bool)
-        away, first = self._tree.query(joint_space.folded(self.arm, q))
-        back, on = self.before[first], self.after[first]
-        ahead = (
-            np.einsum("ij,ij->i", joint_space.difference(self.arm, q, self.q[first]), self.pieces[first] + self.pieces[back])
+        distances, nearest = self._search_tree.query(joint_space.fold_joints(self.arm, q))
+        previous_nodes, next_nodes = self.previous[nearest], self.following[nearest]
+        is_ahead = (
+            np.einsum(
+                "ij,ij->i",
+                joint_space.joint_difference(self.arm, q, self.q[nearest]),
+                self.pieces[nearest] + self.pieces[previous_nodes],
+            )
             > 0
         )
-        behind = np.where(ahead & (on != first), first, back)
-        piece = self.pieces[behind]
-        part = np.einsum("ij,ij->i", joint_space.difference(self.arm, q, self.q[behind]), piece)
-        share = np.clip(part / np.maximum(np.einsum("ij,ij->i", piece, piece), 1e-300), 0.0, 1.0)
-        return behind, share, np.asarray(away <= self.span)
+        nodes_behind = np.where(is_ahead & (next_nodes != nearest), nearest, previous_nodes)
+        segments = self.pieces[nodes_behind]
+        projections = np.einsum("ij,ij->i", joint_space.joint_difference(self.arm, q, self.q[nodes_behind]), segments)
+        fractions = np.clip(projections / np.maximum(np.einsum("ij,ij->i", segments, segments), 1e-300), 0.0, 1.0)
+        return nodes_behind, fractions, np.asarray(distances <= self.spacing)
 
 
-def nodes_of(arm: Arm, found: Sequence[SelfMotion]) -> list[Nodes]:
-    """The nodes of every pose."""
-    return [Nodes.of(arm, each) for each in found]
+def make_nodes(arm: Arm, self_motions: Sequence[SelfMotion]) -> list[CurveNodes]:
+    """Return the nodes of every pose."""
+    return [CurveNodes.from_self_motion(arm, self_motion) for self_motion in self_motions]
 
 
-def flat(arm: Arm, q: Array) -> Array:
-    """(N, e) coordinates of q (N, n): joints that turn without limits as cosine and sine, the others as they are."""
-    turning = joint_space.turning(arm)
+def embed_configurations(arm: Arm, q: Array) -> Array:
+    """Return coordinates (N, e) of q (N, n): unlimited revolute joints as cosine and sine, the others unchanged."""
+    turning = joint_space.is_unlimited(arm)
     return np.concatenate([q[:, ~turning], np.cos(q[:, turning]), np.sin(q[:, turning])], axis=1)
 
 
-def squared_distances(a: Array, b: Array) -> Array:
-    """(N, P) squared distances of rows a (N, e) from rows b (P, e); 0 where rounding left less."""
+def compute_squared_distances(a: Array, b: Array) -> Array:
+    """Return squared distances (N, P) of rows a (N, e) from rows b (P, e), clipped at 0 against rounding."""
     product = a @ b.T
     product *= -2
     product += np.einsum("ij,ij->i", a, a)[:, None]

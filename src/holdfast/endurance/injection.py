@@ -1,4 +1,4 @@
-"""Locks injected into a motion at random times: does the failed arm get to the end? By another integrator than the table's."""
+"""Test locks of a motion at random times with an integrator that is independent of the lock tables."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.endurance import tables
-from holdfast.endurance.problem import CHANGED, Problem
-from holdfast.notice import Count
+from holdfast.endurance.problem import MAX_CHANGING_SETS, SurvivalProblem
+from holdfast.notice import ProgressCount
 from holdfast.probability.intervals import Interval
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
@@ -18,14 +18,14 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
-_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
-_WHOLE = 5.0  # what the duration counts beside joints, rad
-_LONGEST = 60.0  # of a branch
-_OFF = 1e-3  # m and rad at the end: the integration went wrong
+_ARC_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
+_DURATION_WEIGHT_RAD = 5.0  # what the duration counts beside joints, rad
+_MAX_ARC_LENGTH = 60.0  # of a branch
+_FINAL_ERROR_TOLERANCE = 1e-3  # m and rad at the end: the integration went wrong
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Injection:
+class LockTests:
     """Locks at random times, N of them.
 
     Attributes:
@@ -45,172 +45,188 @@ class Injection:
     interval: Interval
 
     @property
-    def alike(self) -> float:
-        """Of the locks of which the motion says something, the fraction of which the injection says the same."""
+    def agreement(self) -> float:
+        """Fraction of the locks with a predicted outcome for which the test has the same outcome."""
         return float((self.survived == self.expected)[self.told].mean()) if self.told.any() else 1.0
 
     @property
     def disagreements(self) -> list[tuple[float, int]]:
-        """Time, s, and joint of the others."""
-        other = self.told & (self.survived != self.expected)
-        return list(zip(self.time[other].tolist(), self.joint[other].tolist(), strict=True))
+        """Time in s and joint of the other locks with a predicted outcome."""
+        is_different = self.told & (self.survived != self.expected)
+        return list(zip(self.time[is_different].tolist(), self.joint[is_different].tolist(), strict=True))
 
 
-def drawn_locks(problem: Problem, locks: int, generator: np.random.Generator) -> tuple[Array, Index]:
-    """Times (N,) and joints (N,): joints by their rates; times evenly, or as the first failure comes within the duration."""
+def sample_locks(problem: SurvivalProblem, lock_count: int, generator: np.random.Generator) -> tuple[Array, Index]:
+    """Sample times (N,) and joints (N,): joints by their rates; times uniformly, or as first failures within the duration."""
     rates, duration = problem.rates, problem.path.duration
-    joint = generator.choice(problem.arm.n, size=locks, p=rates.each / rates.total)
-    share = generator.uniform(size=locks)
+    joints = generator.choice(problem.arm.n, size=lock_count, p=rates.each / rates.total)
+    uniform_values = generator.uniform(size=lock_count)
     if rates.per_second:
-        end = -np.expm1(-rates.total * duration)
-        return -np.log1p(-share * end) / rates.total, joint
-    return share * duration, joint
+        failure_probability = -np.expm1(-rates.total * duration)
+        return -np.log1p(-uniform_values * failure_probability) / rates.total, joints
+    return uniform_values * duration, joints
 
 
-def finished(problem: Problem, q: Array, time: Array, joint: Index, *, begin: Array) -> Flags:
-    """(N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path.
+def can_finish_path(problem: SurvivalProblem, q: Array, lock_times: Array, locked_joints: Index, *, q_start: Array) -> Flags:
+    """Return (N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path.
 
-    Its motion began at ``begin`` (n,).
+    Its motion began at ``q_start`` (n,).
     """
     if problem.mode == "detour":
-        return problem.regained(q, np.searchsorted(problem.time, time), joint)
-    if problem.spare == 1:
-        return _on_path(problem, q, time, joint, tuple(problem.immobile))
+        return problem.can_regain_path(q, np.searchsorted(problem.time, lock_times), locked_joints)
+    if problem.redundancy == 1:
+        return _reaches_last_pose(problem, q, lock_times, locked_joints, tuple(problem.immobile_joints))
     survived = np.zeros(len(q), dtype=bool)
-    for held in problem.sets:  # the failed arm may hold any of them
-        some = np.flatnonzero(~survived & ~np.isin(joint, held))
-        survived[some] = _on_path(problem, q[some], time[some], joint[some], (*problem.immobile, *held))
-    narrower = problem.narrower_at(begin)
+    for fixed_joints in problem.fixed_joint_sets:  # the failed arm may hold any of them
+        undecided = np.flatnonzero(~survived & ~np.isin(locked_joints, fixed_joints))
+        survived[undecided] = _reaches_last_pose(
+            problem, q[undecided], lock_times[undecided], locked_joints[undecided], (*problem.immobile_joints, *fixed_joints)
+        )
+    narrower = problem.with_axis_at(q_start)
     if narrower is not None:
-        some = np.flatnonzero(~survived & ~narrower.off(q, time))
-        survived[some] = finished(narrower, q[some], time[some], joint[some], begin=begin)
-    some = np.flatnonzero(~survived)
-    survived[some] = _changing(problem, q[some], time[some], joint[some])
+        undecided = np.flatnonzero(~survived & ~narrower.is_off_path(q, lock_times))
+        survived[undecided] = can_finish_path(
+            narrower, q[undecided], lock_times[undecided], locked_joints[undecided], q_start=q_start
+        )
+    undecided = np.flatnonzero(~survived)
+    survived[undecided] = _can_finish_changing(problem, q[undecided], lock_times[undecided], locked_joints[undecided])
     return survived
 
 
-def _changing(problem: Problem, q: Array, time: Array, joint: Index) -> Flags:
-    """As :func:`finished`, of an arm with redundancy left that may hold other joints at every sample."""
-    at, owner = q[:0], np.empty(0, dtype=np.int64)
-    since = np.searchsorted(problem.time, time, side="right")
-    for k in range(1, len(problem.time)):
-        fresh = np.flatnonzero(np.minimum(since, len(problem.time) - 1) == k)
-        at, owner = np.concatenate([at, q[fresh]]), np.concatenate([owner, fresh])
-        begin = np.maximum(time[owner], problem.time[k - 1])
-        landed, row = [at[:0]], [owner[:0]]
-        for held in problem.sets[:CHANGED]:
-            some = np.flatnonzero(~np.isin(joint[owner], held))
-            stopped = joint[owner[some]], (*problem.immobile, *held)
-            ended, good = _branch(problem, at[some], begin[some], stopped, problem.time[k])
-            landed.append(ended[good])
-            row.append(owner[some[good]])
-        at, owner = np.concatenate(landed), np.concatenate(row)
-        some = tables.apart(at, owner)
-        at, owner = at[some], owner[some]
+def _can_finish_changing(problem: SurvivalProblem, q: Array, lock_times: Array, locked_joints: Index) -> Flags:
+    """Return (N,) True where a redundant arm, which may fix other joints at every sample, finishes the path."""
+    configurations, lock_indices = q[:0], np.empty(0, dtype=np.int64)
+    first_samples = np.searchsorted(problem.time, lock_times, side="right")
+    for sample in range(1, len(problem.time)):
+        new_locks = np.flatnonzero(np.minimum(first_samples, len(problem.time) - 1) == sample)
+        configurations, lock_indices = np.concatenate([configurations, q[new_locks]]), np.concatenate([lock_indices, new_locks])
+        start_times = np.maximum(lock_times[lock_indices], problem.time[sample - 1])
+        landed, landed_locks = [configurations[:0]], [lock_indices[:0]]
+        for fixed_joints in problem.fixed_joint_sets[:MAX_CHANGING_SETS]:
+            selected = np.flatnonzero(~np.isin(locked_joints[lock_indices], fixed_joints))
+            stopped_joints = locked_joints[lock_indices[selected]], (*problem.immobile_joints, *fixed_joints)
+            end_configurations, has_arrived = _follow_branch(
+                problem, configurations[selected], start_times[selected], stopped_joints, problem.time[sample]
+            )
+            landed.append(end_configurations[has_arrived])
+            landed_locks.append(lock_indices[selected[has_arrived]])
+        configurations, lock_indices = np.concatenate(landed), np.concatenate(landed_locks)
+        selected = tables.select_spread(configurations, lock_indices)
+        configurations, lock_indices = configurations[selected], lock_indices[selected]
     survived = np.zeros(len(q), dtype=bool)
-    survived[owner[_on_last_pose(problem, at)]] = True
+    survived[lock_indices[_are_on_last_pose(problem, configurations)]] = True
     return survived
 
 
-def _on_path(problem: Problem, q: Array, time: Array, joint: Index, held: tuple[int, ...]) -> Flags:
-    """Whether the branch through (joints, time) leads to the last pose."""
-    ended, good = _branch(problem, q, time, (joint, held), problem.path.duration)
-    good[good] = _on_last_pose(problem, ended[good])
-    return good
+def _reaches_last_pose(
+    problem: SurvivalProblem, q: Array, lock_times: Array, locked_joints: Index, fixed_joints: tuple[int, ...]
+) -> Flags:
+    """Return (N,) True where the branch through (joints, time) leads to the last pose."""
+    end_configurations, has_arrived = _follow_branch(
+        problem, q, lock_times, (locked_joints, fixed_joints), problem.path.duration
+    )
+    has_arrived[has_arrived] = _are_on_last_pose(problem, end_configurations[has_arrived])
+    return has_arrived
 
 
-def _branch(
-    problem: Problem, q: Array, time: Array, stopped: tuple[Index, tuple[int, ...]], until: float
+def _follow_branch(
+    problem: SurvivalProblem, q: Array, lock_times: Array, stopped_joints: tuple[Index, tuple[int, ...]], end_time: float
 ) -> tuple[Array, Flags]:
-    """Where the branch through (joints, time) leads at a time, and whether it gets there.
+    """Follow the branch through (joints, time) to a time; return its end and whether it gets there.
 
     It is followed by its arc length, with Runge and Kutta's steps of fourth order. Where time turns back on it the branch ends:
     nothing goes on from there along the path.
     """
-    arm, scale = problem.arm, _WHOLE / problem.path.duration
-    joint, held = stopped
-    end = until * scale
-    found, reached = np.full(q.shape, np.nan), np.zeros(len(q), dtype=bool)
-    left = np.arange(len(q))
-    state = np.column_stack([q, time * scale])
+    arm, scale = problem.arm, _DURATION_WEIGHT_RAD / problem.path.duration
+    locked_joints, fixed_joints = stopped_joints
+    scaled_end = end_time * scale
+    end_configurations, reached = np.full(q.shape, np.nan), np.zeros(len(q), dtype=bool)
+    active = np.arange(len(q))
+    state = np.column_stack([q, lock_times * scale])
     tangent = np.zeros(state.shape)
     tangent[:, -1] = 1.0
-    with Count("locks", len(q)) as tell:
-        for _ in range(int(_LONGEST / _STEP)):
-            if not left.size:
+    with ProgressCount("locks", len(q)) as add_progress:
+        for _ in range(int(_MAX_ARC_LENGTH / _ARC_STEP)):
+            if not active.size:
                 break
-            lock = joint[left]
-            first = _direction(problem, state, (lock, held), tangent, scale)
-            second = _direction(problem, state + _STEP / 2 * first, (lock, held), first, scale)
-            third = _direction(problem, state + _STEP / 2 * second, (lock, held), second, scale)
-            fourth = _direction(problem, state + _STEP * third, (lock, held), third, scale)
-            state = state + _STEP / 6 * (first + 2 * second + 2 * third + fourth)
+            active_joints = locked_joints[active]
+            first = _compute_tangent(problem, state, (active_joints, fixed_joints), tangent, scale)
+            second = _compute_tangent(problem, state + _ARC_STEP / 2 * first, (active_joints, fixed_joints), first, scale)
+            third = _compute_tangent(problem, state + _ARC_STEP / 2 * second, (active_joints, fixed_joints), second, scale)
+            fourth = _compute_tangent(problem, state + _ARC_STEP * third, (active_joints, fixed_joints), third, scale)
+            state = state + _ARC_STEP / 6 * (first + 2 * second + 2 * third + fourth)
             tangent = fourth
-            over = (state[:, -1] >= end) & (fourth[:, -1] > 0)
+            is_past_end = (state[:, -1] >= scaled_end) & (fourth[:, -1] > 0)
             # What has passed the end is judged there, not where its step went.
-            back = np.where(over, (state[:, -1] - end) / np.where(over, fourth[:, -1], 1.0), 0.0)
-            here = state[:, :-1] - back[:, None] * fourth[:, :-1]
-            good = ((here >= arm.lower - 1e-9) & (here <= arm.upper + 1e-9)).all(axis=1) & (fourth[:, -1] > 0)
-            good[good] = problem.conditions.holds(here[good], 1e-9)
-            ended = np.flatnonzero(over & good)
-            found[left[ended]], reached[left[ended]] = here[ended], True
-            go_on = good & ~over
-            tell(int(np.count_nonzero(~go_on)))
-            left, state, tangent = left[go_on], state[go_on], tangent[go_on]
-    return found, reached
+            overshoot = np.where(is_past_end, (state[:, -1] - scaled_end) / np.where(is_past_end, fourth[:, -1], 1.0), 0.0)
+            configurations = state[:, :-1] - overshoot[:, None] * fourth[:, :-1]
+            is_valid = ((configurations >= arm.lower - 1e-9) & (configurations <= arm.upper + 1e-9)).all(axis=1) & (
+                fourth[:, -1] > 0
+            )
+            is_valid[is_valid] = problem.conditions.are_met(configurations[is_valid], 1e-9)
+            arrived = np.flatnonzero(is_past_end & is_valid)
+            end_configurations[active[arrived]], reached[active[arrived]] = configurations[arrived], True
+            is_active = is_valid & ~is_past_end
+            add_progress(int(np.count_nonzero(~is_active)))
+            active, state, tangent = active[is_active], state[is_active], tangent[is_active]
+    return end_configurations, reached
 
 
-def _on_last_pose(problem: Problem, q: Array) -> Flags:
-    """Whether branches that have passed the end did so on the last pose."""
-    last = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
-    return np.asarray(np.max(solver(problem.arm, problem.task).errors(q, last), axis=0, initial=0.0) <= _OFF)
+def _are_on_last_pose(problem: SurvivalProblem, q: Array) -> Flags:
+    """Return True for branches that passed the end on the last pose."""
+    last_poses = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
+    return np.asarray(
+        np.max(solver(problem.arm, problem.task).task_errors(q, last_poses), axis=0, initial=0.0) <= _FINAL_ERROR_TOLERANCE
+    )
 
 
-def _direction(problem: Problem, state: Array, stopped: tuple[Index, tuple[int, ...]], before: Array, scale: float) -> Array:
-    """(N, n + 1) unit tangent of the branch at (joints, scaled time), the way that it ran ``before``."""
+def _compute_tangent(
+    problem: SurvivalProblem, state: Array, stopped_joints: tuple[Index, tuple[int, ...]], previous: Array, scale: float
+) -> Array:
+    """Return the unit tangent (N, n + 1) of the branch at (joints, scaled time), in the direction of ``previous``."""
     arm, task = problem.arm, problem.task
     n, rows = arm.n, np.arange(len(state))
-    time = np.clip(state[:, -1] / scale, 0.0, problem.path.duration * (1 - 1e-12))
-    twist = problem.path.twist(time) / scale
+    path_times = np.clip(state[:, -1] / scale, 0.0, problem.path.duration * (1 - 1e-12))
+    twist = problem.path.twist(path_times) / scale
     columns = np.concatenate([arm.jacobian(state[:, :-1]), -twist[:, :, None]], axis=2)
     if task.frame == "tool":
-        turned = arm.forward_kinematics(state[:, :-1])[:, :3, :3].transpose(0, 2, 1)
-        columns = np.concatenate([turned @ columns[:, :3], turned @ columns[:, 3:]], axis=1)
+        inverse_rotations = arm.forward_kinematics(state[:, :-1])[:, :3, :3].transpose(0, 2, 1)
+        columns = np.concatenate([inverse_rotations @ columns[:, :3], inverse_rotations @ columns[:, 3:]], axis=1)
     system = np.zeros((len(state), n + 1, n + 1))
     system[:, : task.m] = task.rows @ columns
-    lock, held = stopped
-    system[rows, task.m, lock] = 1.0
-    for k, other in enumerate(held):
-        system[:, task.m + 1 + k, other] = 1.0
-    system[:, n] = before
-    wanted = np.zeros((len(state), n + 1, 1))
-    wanted[:, n] = 1.0
+    locked_joints, fixed_joints = stopped_joints
+    system[rows, task.m, locked_joints] = 1.0
+    for row, fixed_joint in enumerate(fixed_joints):
+        system[:, task.m + 1 + row, fixed_joint] = 1.0
+    system[:, n] = previous
+    right_side = np.zeros((len(state), n + 1, 1))
+    right_side[:, n] = 1.0
     try:
-        found = np.linalg.solve(system, wanted)[:, :, 0]
+        tangent = np.linalg.solve(system, right_side)[:, :, 0]
     except np.linalg.LinAlgError:
-        found = (np.linalg.pinv(system) @ wanted)[:, :, 0]
-    return np.asarray(found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-300))
+        tangent = (np.linalg.pinv(system) @ right_side)[:, :, 0]
+    return np.asarray(tangent / np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), 1e-300))
 
 
-def healthy(problem: Problem, q: Array, time: Array) -> Array:
-    """(N, n) where a motion (T, n) is at times (N,), brought to the pose of that time and back within the joint limits.
+def interpolate_motion(problem: SurvivalProblem, q: Array, times: Array) -> Array:
+    """Return a motion (T, n) at times (N,), brought to the pose of that time and back within the joint limits.
 
     A motion that holds the axis of a cone at its samples does so between them.
     """
-    narrower = problem.narrower_at(q[0])
-    if narrower is not None and not narrower.off(q).any():
-        return healthy(narrower, q, time)
+    narrower = problem.with_axis_at(q[0])
+    if narrower is not None and not narrower.is_off_path(q).any():
+        return interpolate_motion(narrower, q, times)
     arm = problem.arm
-    k = np.clip(np.searchsorted(problem.time, time, side="right") - 1, 0, len(q) - 2)
-    share = (time - problem.time[k]) / np.diff(problem.time)[k]
-    between = q[k] + share[:, None] * joint_space.difference(arm, q[k + 1], q[k])
-    poses = problem.path.pose(time)
-    found = problem.lock.tracer.corrected(between, poses)[0]
-    inside = np.clip(found, arm.lower, arm.upper)
-    if problem.spare > 1:
-        return problem.conditions.brought(inside, poses)
-    beyond = np.flatnonzero((found != inside).any(axis=1))  # of a motion along a limit
-    limit = np.abs(found - inside)[beyond].argmax(axis=1)
-    back, good = problem.lock.held(inside[beyond], limit, poses[beyond])
-    found[beyond[good]] = back[good]
-    return found
+    sample = np.clip(np.searchsorted(problem.time, times, side="right") - 1, 0, len(q) - 2)
+    fractions = (times - problem.time[sample]) / np.diff(problem.time)[sample]
+    interpolated = q[sample] + fractions[:, None] * joint_space.joint_difference(arm, q[sample + 1], q[sample])
+    poses = problem.path.pose(times)
+    corrected_q = problem.lock.tracer.correct(interpolated, poses)[0]
+    inside = np.clip(corrected_q, arm.lower, arm.upper)
+    if problem.redundancy > 1:
+        return problem.conditions.project_configurations(inside, poses)
+    beyond = np.flatnonzero((corrected_q != inside).any(axis=1))  # of a motion along a limit
+    limiting_joints = np.abs(corrected_q - inside)[beyond].argmax(axis=1)
+    limited_q, is_solved = problem.lock.solve_poses(inside[beyond], limiting_joints, poses[beyond])
+    corrected_q[beyond[is_solved]] = limited_q[is_solved]
+    return corrected_q

@@ -1,4 +1,4 @@
-"""What an arm with one locked joint does next on its path: the same pose-following step for many locks at once."""
+"""Pose-following steps of an arm with one locked joint, for many locks at once."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.paths.timed_path import TimedPath
-from holdfast.solvers.curve_tracing import Tracer
+from holdfast.solvers.curve_tracing import ManifoldTracer
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
-_NEWTON = 10
-_ON_POSE = 1e-8  # rad, and lengths in units of the arm's own
-_JUMP = 0.35  # rad or m of one joint from pose to pose, and in a Newton step: more may be another branch
-_FLAT = 1e-7  # of a unit null vector: what a self-motion does not move
-_TURNED = 0.3  # least cosine between the null vectors at the two ends of a step
-_SMALLER = 8  # steps in place of one that seems to lead off its branch
+_MAX_NEWTON_STEPS = 10
+_POSE_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's own
+_MAX_JOINT_STEP = 0.35  # rad or m of one joint from pose to pose, and in a Newton step: more may be another branch
+_ZERO_NULL_ENTRY = 1e-7  # of a unit null vector: what a self-motion does not move
+_MIN_NULL_COSINE = 0.3  # least cosine between the null vectors at the two ends of a step
+_SUBSTEPS = 8  # steps in place of one that seems to lead off its branch
 
 
 @dataclass(frozen=True, eq=False)
-class Lock:
-    """Follows a path with one joint locked, each row its own; with one degree of redundancy no freedom is left.
+class LockedFollower:
+    """Follower of a path with one joint locked, each row its own; with one degree of redundancy no freedom is left.
 
     A Newton step of the locked arm is the least-norm step of the whole one, moved along the null vector until the locked
     joint does not move: one kernel serves every lock. A branch ends where the Jacobian without the locked column is singular:
@@ -37,91 +37,120 @@ class Lock:
         arm: The arm.
         tracer: Of the arm and task.
         poses: (T, 4, 4) of the path.
-        between: (T - 1, K, 4, 4) evenly between each and the next, and the next.
-        holds: Whether configurations (N, n) meet what is asked of them beside the path.
+        intermediate_poses: (T - 1, K, 4, 4) evenly between each and the next, and the next.
+        conditions_met: Whether configurations (N, n) meet what is asked of them beside the path.
     """
 
     arm: Arm
-    tracer: Tracer
+    tracer: ManifoldTracer
     poses: Array
-    between: Array
-    holds: Callable[[Array], Flags]
+    intermediate_poses: Array
+    conditions_met: Callable[[Array], Flags]
 
     @classmethod
-    def along(cls, arm: Arm, tracer: Tracer, path: TimedPath, time: Array, holds: Callable[[Array], Flags]) -> Lock:
-        """On a path, at times (T,), s."""
-        parts = np.arange(1, _SMALLER + 1) / _SMALLER
-        finer = time[:-1, None] + parts * np.diff(time)[:, None]
-        return cls(arm, tracer, path.pose(time), path.pose(finer.ravel()).reshape(*finer.shape, 4, 4), holds)
+    def on_path(
+        cls, arm: Arm, tracer: ManifoldTracer, path: TimedPath, times: Array, conditions_met: Callable[[Array], Flags]
+    ) -> LockedFollower:
+        """Return the follower of a path at times (T,), s."""
+        fractions = np.arange(1, _SUBSTEPS + 1) / _SUBSTEPS
+        fine_times = times[:-1, None] + fractions * np.diff(times)[:, None]
+        return cls(
+            arm, tracer, path.pose(times), path.pose(fine_times.ravel()).reshape(*fine_times.shape, 4, 4), conditions_met
+        )
 
-    def step(self, q: Array, joint: Index, t: int | Index) -> tuple[Array, Flags]:
-        """From q (N, n) on pose t, one or (N,), with joint (N,) locked to the pose after it: where, and whether it got there.
+    def step(self, q: Array, locked_joints: Index, pose_index: int | Index) -> tuple[Array, Flags]:
+        """Step from q (N, n) on pose t, one or (N,), with joint (N,) locked to the next pose; return the result and its
+        success.
 
         Not if the branch ends on the way, or leaves the limits or what else it must meet.
         """
-        target = np.broadcast_to(self.poses[np.asarray(t) + 1], (len(q), 4, 4))
-        return self._step(q, joint, np.broadcast_to(t, len(q)), target, self.tracer.newton(q, *_split(target)))
+        targets = np.broadcast_to(self.poses[np.asarray(pose_index) + 1], (len(q), 4, 4))
+        return self._step_with_retries(
+            q, locked_joints, np.broadcast_to(pose_index, len(q)), targets, self.tracer.newton_step(q, *_split_poses(targets))
+        )
 
-    def held(self, q: Array, joint: Index, poses: Array) -> tuple[Array, Flags]:
-        """Configurations (N, n) brought to poses (N, 4, 4) near them without joint (N,), and whether that worked."""
-        return self._solved(q, joint, poses, self.tracer.newton(q, *_split(poses)))
+    def solve_poses(self, q: Array, locked_joints: Index, poses: Array) -> tuple[Array, Flags]:
+        """Solve poses (N, 4, 4) near configurations (N, n) without moving joint (N,); return the result and its success."""
+        return self._solve_newton(q, locked_joints, poses, self.tracer.newton_step(q, *_split_poses(poses)))
 
-    def step_all(self, q: Array, t: Index) -> tuple[Array, Flags]:
-        """As :meth:`step` of every joint of every q (N, n) on pose t (N,): (N, n, n), the joint locked second, and (N, n)."""
+    def step_all_joints(self, q: Array, pose_indices: Index) -> tuple[Array, Flags]:
+        """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), the locked joint second, and success (N,
+        n).
+        """
         n = self.arm.n
-        target = self.poses[t + 1]
-        first = self.tracer.newton(q, *_split(target))
-        every, targets, back, miss, null = (np.repeat(x, n, axis=0) for x in (q, target, *first))
-        joint = np.tile(np.arange(n), len(q))
-        moved, good = self._step(every, joint, np.repeat(t, n), targets, (back, miss, null))
-        return moved.reshape(len(q), n, n), good.reshape(len(q), n)
+        next_poses = self.poses[pose_indices + 1]
+        evaluation = self.tracer.newton_step(q, *_split_poses(next_poses))
+        repeated_q, targets, steps_back, errors, null_vectors = (
+            np.repeat(values, n, axis=0) for values in (q, next_poses, *evaluation)
+        )
+        locked_joints = np.tile(np.arange(n), len(q))
+        next_q, has_arrived = self._step_with_retries(
+            repeated_q, locked_joints, np.repeat(pose_indices, n), targets, (steps_back, errors, null_vectors)
+        )
+        return next_q.reshape(len(q), n, n), has_arrived.reshape(len(q), n)
 
-    def _step(self, q: Array, joint: Index, t: Index, target: Array, begun: tuple[Array, Array, Array]) -> tuple[Array, Flags]:
-        """The step in one, and where that seems to lead off the branch, in smaller ones."""
-        moved, good = self._solved(q, joint, target, begun)
-        again = np.flatnonzero(~good & (np.abs(begun[2][np.arange(len(q)), joint]) > _FLAT))
-        here = q[again]
-        for k in range(_SMALLER):
-            if not again.size:
+    def _step_with_retries(
+        self, q: Array, locked_joints: Index, pose_indices: Index, targets: Array, evaluation: tuple[Array, Array, Array]
+    ) -> tuple[Array, Flags]:
+        """Take the step at once, and in smaller steps where that seems to leave the branch."""
+        next_q, has_arrived = self._solve_newton(q, locked_joints, targets, evaluation)
+        retried = np.flatnonzero(~has_arrived & (np.abs(evaluation[2][np.arange(len(q)), locked_joints]) > _ZERO_NULL_ENTRY))
+        current_q = q[retried]
+        for substep in range(_SUBSTEPS):
+            if not retried.size:
                 break
-            part = self.between[t[again], k]
-            here, on = self._solved(here, joint[again], part, self.tracer.newton(here, *_split(part)))
-            again, here = again[on], here[on]
-        moved[again], good[again] = here, True
-        good &= ((moved >= self.arm.lower) & (moved <= self.arm.upper)).all(axis=1)
-        good[good] = self.holds(moved[good])
-        return moved, good
+            substep_poses = self.intermediate_poses[pose_indices[retried], substep]
+            current_q, is_on_pose = self._solve_newton(
+                current_q,
+                locked_joints[retried],
+                substep_poses,
+                self.tracer.newton_step(current_q, *_split_poses(substep_poses)),
+            )
+            retried, current_q = retried[is_on_pose], current_q[is_on_pose]
+        next_q[retried], has_arrived[retried] = current_q, True
+        has_arrived &= ((next_q >= self.arm.lower) & (next_q <= self.arm.upper)).all(axis=1)
+        has_arrived[has_arrived] = self.conditions_met(next_q[has_arrived])
+        return next_q, has_arrived
 
-    def _solved(self, q: Array, joint: Index, target: Array, begun: tuple[Array, Array, Array]) -> tuple[Array, Flags]:
-        """Newton's method from what its first evaluation gave, and whether that stayed on the branch."""
-        back, miss, null = begun
-        moved, ended = q.copy(), null.copy()
-        on = miss <= _ON_POSE
-        alive = np.flatnonzero(~on)
-        back, now = back[alive], null[alive]
-        for _ in range(_NEWTON):
-            if not alive.size:
+    def _solve_newton(
+        self, q: Array, locked_joints: Index, targets: Array, evaluation: tuple[Array, Array, Array]
+    ) -> tuple[Array, Flags]:
+        """Continue Newton's method from its first evaluation; return the result and whether it stayed on the branch."""
+        steps_back, errors, null_vectors = evaluation
+        next_q, final_null_vectors = q.copy(), null_vectors.copy()
+        is_on_pose = errors <= _POSE_TOLERANCE
+        active = np.flatnonzero(~is_on_pose)
+        steps_back, current_null = steps_back[active], null_vectors[active]
+        for _ in range(_MAX_NEWTON_STEPS):
+            if not active.size:
                 break
-            rows, lock = np.arange(alive.size), joint[alive]
-            entry = now[rows, lock]
-            change = back - (back[rows, lock] * entry / (entry**2 + _FLAT**2))[:, None] * now
-            change[rows, lock] = 0.0
-            change *= (_JUMP / np.maximum(np.abs(change).max(axis=1), _JUMP))[:, None]
-            moved[alive] += change
-            back, miss, now = self.tracer.newton(moved[alive], *_split(target[alive]))
-            there = miss <= _ON_POSE
-            on[alive[there]] = True
-            ended[alive[there]] = now[there]
+            rows, active_joints = np.arange(active.size), locked_joints[active]
+            entry = current_null[rows, active_joints]
+            change = (
+                steps_back
+                - (steps_back[rows, active_joints] * entry / (entry**2 + _ZERO_NULL_ENTRY**2))[:, None] * current_null
+            )
+            change[rows, active_joints] = 0.0
+            change *= (_MAX_JOINT_STEP / np.maximum(np.abs(change).max(axis=1), _MAX_JOINT_STEP))[:, None]
+            next_q[active] += change
+            steps_back, errors, current_null = self.tracer.newton_step(next_q[active], *_split_poses(targets[active]))
+            has_converged = errors <= _POSE_TOLERANCE
+            is_on_pose[active[has_converged]] = True
+            final_null_vectors[active[has_converged]] = current_null[has_converged]
             # What has run away is another branch, and not worth another evaluation.
-            left = ~there & (np.abs(moved[alive] - q[alive]).max(axis=1) <= 3 * _JUMP)
-            alive, back, now = alive[left], back[left], now[left]
+            is_active = ~has_converged & (np.abs(next_q[active] - q[active]).max(axis=1) <= 3 * _MAX_JOINT_STEP)
+            active, steps_back, current_null = active[is_active], steps_back[is_active], current_null[is_active]
         rows = np.arange(len(q))
-        straight = np.einsum("ij,ij->i", null, ended)
-        a, b = null[rows, joint], ended[rows, joint]
-        same = (a * b * straight > 0) & (np.abs(straight) >= _TURNED)
-        apart = (np.abs(a) <= _FLAT) & (np.abs(b) <= _FLAT)  # the self-motion does not move this joint anywhere
-        return moved, np.asarray(on & (same | apart) & (np.abs(moved - q).max(axis=1) <= _JUMP))
+        cosines = np.einsum("ij,ij->i", null_vectors, final_null_vectors)
+        first_entries, last_entries = null_vectors[rows, locked_joints], final_null_vectors[rows, locked_joints]
+        same_branch = (first_entries * last_entries * cosines > 0) & (np.abs(cosines) >= _MIN_NULL_COSINE)
+        is_unaffected = (np.abs(first_entries) <= _ZERO_NULL_ENTRY) & (
+            np.abs(last_entries) <= _ZERO_NULL_ENTRY
+        )  # the self-motion does not move this joint anywhere
+        return next_q, np.asarray(
+            is_on_pose & (same_branch | is_unaffected) & (np.abs(next_q - q).max(axis=1) <= _MAX_JOINT_STEP)
+        )
 
 
-def _split(poses: Array) -> tuple[Array, Array]:
+def _split_poses(poses: Array) -> tuple[Array, Array]:
     return np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])

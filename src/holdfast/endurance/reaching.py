@@ -1,4 +1,4 @@
-"""From a start to a goal without a path: the way of the joints that is exposed least to locks that lose the goal."""
+"""Point-to-point motion without a path that is least exposed to locks after which the goal is out of reach."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import HoldfastError, InputError, TaskError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.solvers import joint_space
-from holdfast.solvers.self_motions import STARTS, SelfMotion, fibres, tracer
+from holdfast.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres, make_tracer
 
 Array = NDArray[np.float64]
 Spans = list[tuple[float, float]]
 
-_FEW = 20  # nodes around which the goal is looked for once more
-_FINER = 32
+_REFINED_NODES = 20  # nodes around which the goal is looked for once more
+_POINTS_PER_SEGMENT = 32
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Approach:
-    """A motion from a start to a goal pose, each joint on its own and at its velocity limit.
+    """Motion from a start to a goal pose, each joint on its own and at its velocity limit.
 
     Attributes:
         arm, task: What moves, and which rows of the goal matter.
@@ -48,24 +48,26 @@ class Approach:
 
     @property
     def exposure(self) -> float:
-        """``sum rate_i outside_i``: with rates in 1/s, expected number of locks that lose the goal; else s, of weight 1."""
+        """Exposure ``sum rate_i outside_i``: with rates in 1/s, the expected number of locks that lose the goal; else s, of
+        weight 1.
+        """
         return float(self.rates.each @ self.outside)
 
     @property
     def duration(self) -> float:
-        """Until the last joint is at its goal, s."""
+        """Time in s until the last joint is at its goal."""
         return float((np.abs(self.goal - self.start) / self.velocity).max())
 
     def at(self, time: ArrayLike) -> Array:
-        """(n,) or (N, n) where the joints are at times, s: each goes straight to its goal as fast as it can, and waits."""
-        share = np.asarray(time, dtype=np.float64)[..., None] * self.velocity
-        way = self.goal - self.start
-        return np.asarray(self.start + np.sign(way) * np.minimum(share, np.abs(way)))
+        """Return the joints (n,) or (N, n) at times, s: each moves straight to its goal as fast as possible, and waits."""
+        travels = np.asarray(time, dtype=np.float64)[..., None] * self.velocity
+        displacement = self.goal - self.start
+        return np.asarray(self.start + np.sign(displacement) * np.minimum(travels, np.abs(displacement)))
 
 
-@checked
-@says("looking for the safest way to the goal")
-def endure_to(
+@check_arguments
+@reports_progress("looking for the safest way to the goal")
+def plan_motion_to(
     arm: Arm,
     start: ArrayLike,
     goal: ArrayLike,
@@ -76,9 +78,9 @@ def endure_to(
     velocity: ArrayLike | None = None,
     spacing: float = 0.02,
     seed: int = 0,
-    starts: int = STARTS,
+    starts: int = TRACING_STARTS,
 ) -> Approach:
-    """The motion to a goal pose with the least exposure to locks after which the goal is out of reach.
+    """Plan the motion to a goal pose with the least exposure to locks after which the goal is out of reach.
 
     Without obstacles a lock of joint i at a value that it has in some configuration of the goal loses nothing. A joint must
     cover the way from its start to its goal whatever the others do, so that the least time outside such values is that of
@@ -104,120 +106,137 @@ def endure_to(
 
     Source: ranges of a joint over a self-motion manifold, Lewis and Maciejewski 1997; the closed form is ours.
     """
-    rows = as_task(arm, task)
-    if arm.n - rows.m != 1:
+    task_rows = as_task(arm, task)
+    if arm.n - task_rows.m != 1:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows; one joint more than rows is needed"
+            f"'{arm.name}' has {arm.n} joints and the task '{task_rows.name}' {task_rows.m} rows; one joint more than "
+            f"rows is needed"
         )
     failing = FailureRates.of(arm, rates, per_second=per_second)
-    speed = real_numbers([j.velocity for j in arm.joints] if velocity is None else velocity, "velocity")
-    if speed.shape not in ((), (arm.n,)) or not (np.isfinite(speed) & (speed > 0)).all():
+    max_speeds = require_real_numbers([joint.velocity for joint in arm.joints] if velocity is None else velocity, "velocity")
+    if max_speeds.shape not in ((), (arm.n,)) or not (np.isfinite(max_speeds) & (max_speeds > 0)).all():
         raise InputError(
-            f"velocity is {speed.tolist()}; give one number or {arm.n}, finite and above 0, for the joints of '{arm.name}'"
+            f"velocity is {max_speeds.tolist()}; give one number or {arm.n}, finite and above 0, for the joints of '{arm.name}'"
         )
-    speed = np.broadcast_to(speed, arm.n)
+    max_speeds = np.broadcast_to(max_speeds, arm.n)
     options = {"spacing": spacing, "seed": seed, "starts": starts}
-    wanted = _of(fibres(arm, target_pose(rows, goal), rows, **options)[0], "goal")  # type: ignore[arg-type]
+    goal_self_motion = _require_configuration(fibres(arm, target_pose(task_rows, goal), task_rows, **options)[0], "goal")  # type: ignore[arg-type]
     if np.shape(start) == (4, 4):
-        begins = _of(fibres(arm, start, rows, **options)[0], "start").q  # type: ignore[arg-type]
+        start_configurations = _require_configuration(fibres(arm, start, task_rows, **options)[0], "start").q  # type: ignore[arg-type]
     else:
-        begins = arm.check_configurations(start)[None]
-        if begins.shape != (1, arm.n) or not np.isfinite(begins).all():
+        start_configurations = arm.check_configurations(start)[None]
+        if start_configurations.shape != (1, arm.n) or not np.isfinite(start_configurations).all():
             raise InputError(f"the start of '{arm.name}' must be one configuration of {arm.n} finite numbers, or a pose (4, 4)")
-        if ((begins < arm.lower) | (begins > arm.upper)).any():
+        if ((start_configurations < arm.lower) | (start_configurations > arm.upper)).any():
             raise InputError("the start lies outside the joint limits")
-    ways = _Ways(arm, wanted.arcs(), failing.each / speed)
-    best_start, best_goal = ways.least(begins, wanted.q)
-    best_goal = _refined(ways, wanted, best_start, best_goal)
-    if len(begins) > 1:
-        best_start, _ = ways.least(begins, best_goal[None])
-    ends, outside = ways.of(best_start, best_goal)
+    exposures = _JointExposure(arm, goal_self_motion.arcs(), failing.each / max_speeds)
+    best_start, best_goal = exposures.choose_pair(start_configurations, goal_self_motion.q)
+    best_goal = _refine_goal(exposures, goal_self_motion, best_start, best_goal)
+    if len(start_configurations) > 1:
+        best_start, _ = exposures.choose_pair(start_configurations, best_goal[None])
+    unwound_goal, outside = exposures.unwind_goal(best_start, best_goal)
     return Approach(
         arm=arm,
-        task=rows,
+        task=task_rows,
         rates=failing,
         start=best_start,
-        goal=ends,
-        outside=outside / speed,
-        ranges=ways.arcs,
-        velocity=speed,
+        goal=unwound_goal,
+        outside=outside / max_speeds,
+        ranges=exposures.safe_ranges,
+        velocity=max_speeds,
     )
 
 
-def _of(found: SelfMotion, what: str) -> SelfMotion:
-    if not len(found.q):
-        raise HoldfastError(f"no configuration of the {what} was found: {found.describe()[0]}")
-    return found
+def _require_configuration(self_motion: SelfMotion, end_name: str) -> SelfMotion:
+    if not len(self_motion.q):
+        raise HoldfastError(f"no configuration of the {end_name} was found: {self_motion.describe()[0]}")
+    return self_motion
 
 
-class _Ways:
-    """How far joints go at values that lose the goal, on their ways between values.
+class _JointExposure:
+    """Lengths that joints travel at values that lose the goal.
 
     Attributes:
-        arcs: Of each joint, the values that do not.
+        safe_ranges: Of each joint, the values that do not.
     """
 
-    def __init__(self, arm: Arm, arcs: list[Spans], price: Array) -> None:
-        self.arm, self.arcs, self._price = arm, arcs, price
-        turns = joint_space.turning(arm)
-        around = [k * 2 * np.pi for k in range(-3, 4)]
-        self._spans = [
-            sorted((low + turn, high + turn) for low, high in spans for turn in (around if circle else [0.0]))
-            for spans, circle in zip(arcs, turns, strict=True)
+    def __init__(self, arm: Arm, safe_ranges: list[Spans], weights: Array) -> None:
+        self.arm, self.safe_ranges, self._weights = arm, safe_ranges, weights
+        is_unlimited = joint_space.is_unlimited(arm)
+        revolutions = [count * 2 * np.pi for count in range(-3, 4)]
+        self._safe_spans = [
+            sorted((lower + offset, upper + offset) for lower, upper in spans for offset in (revolutions if circle else [0.0]))
+            for spans, circle in zip(safe_ranges, is_unlimited, strict=True)
         ]
 
-    def _lost(self, k: int, values: Array) -> Array:
-        """Length of what loses the goal between 0 and each value, negative below 0."""
-        safe = np.zeros(values.shape)
-        for low, high in self._spans[k]:
-            safe += np.clip(values, low, high) - np.clip(0.0, low, high)
-        return np.asarray(values - safe)
+    def _measure_unsafe_length(self, joint: int, values: Array) -> Array:
+        """Return the length of the values that lose the goal between 0 and each value, negative below 0."""
+        safe_lengths = np.zeros(values.shape)
+        for lower, upper in self._safe_spans[joint]:
+            safe_lengths += np.clip(values, lower, upper) - np.clip(0.0, lower, upper)
+        return np.asarray(values - safe_lengths)
 
-    def _each(self, k: int, a: Array, b: Array) -> tuple[Array, Array]:
-        """Where joint k ends from a to b, which broadcast, if it goes the better way round, and how far it goes at a loss."""
-        if not joint_space.turning(self.arm)[k]:
-            return b + 0 * a, np.abs(self._lost(k, b) - self._lost(k, a))
-        begin = self._lost(k, a)
-        short = a + np.arctan2(np.sin(b - a), np.cos(b - a))
-        long = short - np.sign(short - a) * 2 * np.pi
-        near, far = (np.abs(self._lost(k, x) - begin) for x in (short, long))
-        return np.where(far < near - 1e-12, long, short), np.minimum(near, far)
+    def _choose_direction(self, joint: int, start: Array, goal: Array) -> tuple[Array, Array]:
+        """Return the end of joint k from a to b, which broadcast, in the less exposed direction, and its unsafe length."""
+        if not joint_space.is_unlimited(self.arm)[joint]:
+            return goal + 0 * start, np.abs(
+                self._measure_unsafe_length(joint, goal) - self._measure_unsafe_length(joint, start)
+            )
+        unsafe_at_start = self._measure_unsafe_length(joint, start)
+        shorter_end = start + np.arctan2(np.sin(goal - start), np.cos(goal - start))
+        longer_end = shorter_end - np.sign(shorter_end - start) * 2 * np.pi
+        shorter_cost, longer_cost = (
+            np.abs(self._measure_unsafe_length(joint, end) - unsafe_at_start) for end in (shorter_end, longer_end)
+        )
+        return np.where(longer_cost < shorter_cost - 1e-12, longer_end, shorter_end), np.minimum(shorter_cost, longer_cost)
 
-    def least(self, begins: Array, ends: Array) -> tuple[Array, Array]:
-        """The best of starts (S, n) and ends (G, n); of equals the shortest way."""
-        cost, way = np.zeros((len(begins), len(ends))), np.zeros((len(begins), len(ends)))
-        for k, price in enumerate(self._price):
-            end, lost = self._each(k, begins[:, None, k], ends[None, :, k])
-            cost += price * lost
-            way += np.abs(end - begins[:, None, k])
-        best = np.argwhere(cost <= cost.min() + 1e-12)
-        s, g = best[way[best[:, 0], best[:, 1]].argmin()]
-        return begins[s], ends[g]
+    def choose_pair(self, starts: Array, ends: Array) -> tuple[Array, Array]:
+        """Return the least exposed pair of starts (S, n) and ends (G, n); among equals the shortest motion."""
+        costs, lengths = np.zeros((len(starts), len(ends))), np.zeros((len(starts), len(ends)))
+        for joint, weight in enumerate(self._weights):
+            joint_ends, unsafe_lengths = self._choose_direction(joint, starts[:, None, joint], ends[None, :, joint])
+            costs += weight * unsafe_lengths
+            lengths += np.abs(joint_ends - starts[:, None, joint])
+        best = np.argwhere(costs <= costs.min() + 1e-12)
+        start_index, end_index = best[lengths[best[:, 0], best[:, 1]].argmin()]
+        return starts[start_index], ends[end_index]
 
-    def costs(self, begin: Array, ends: Array) -> Array:
-        """(G,) of one start."""
-        return np.asarray(sum(p * self._each(k, begin[k], ends[:, k])[1] for k, p in enumerate(self._price)))
+    def compute_costs(self, start: Array, ends: Array) -> Array:
+        """Return the costs (G,) of the ends (G, n) for one start."""
+        return np.asarray(
+            sum(
+                weight * self._choose_direction(joint, start[joint], ends[:, joint])[1]
+                for joint, weight in enumerate(self._weights)
+            )
+        )
 
-    def of(self, begin: Array, end: Array) -> tuple[Array, Array]:
-        """Where the joints end, as far round as is best, and how far each goes at a loss."""
-        ends, lost = zip(*(self._each(k, begin[k : k + 1], end[k : k + 1]) for k in range(self.arm.n)), strict=True)
-        return np.concatenate(ends), np.concatenate(lost)
+    def unwind_goal(self, start: Array, goal: Array) -> tuple[Array, Array]:
+        """Return the joints at the goal, with the best number of revolutions, and the unsafe length of each."""
+        ends, unsafe_lengths = zip(
+            *(self._choose_direction(joint, start[joint : joint + 1], goal[joint : joint + 1]) for joint in range(self.arm.n)),
+            strict=True,
+        )
+        return np.concatenate(ends), np.concatenate(unsafe_lengths)
 
 
-def _refined(ways: _Ways, wanted: SelfMotion, start: Array, goal: Array) -> Array:
-    """The best goal between the nodes too: the pieces next to the best nodes, cut finer and brought back to the pose."""
-    pieces = [np.stack([c.q[:-1], c.q[1:]], axis=1) for c in wanted.components]
+def _refine_goal(exposures: _JointExposure, self_motion: SelfMotion, start: Array, goal: Array) -> Array:
+    """Refine the best goal between the nodes: subdivide the pieces next to the best nodes and bring them back to the pose."""
+    pieces = [np.stack([component.q[:-1], component.q[1:]], axis=1) for component in self_motion.components]
     pieces += [
-        np.stack([c.q[-1], c.q[-1] + joint_space.difference(wanted.arm, c.q[0], c.q[-1])])[None]
-        for c in wanted.components
-        if c.closed
+        np.stack(
+            [component.q[-1], component.q[-1] + joint_space.joint_difference(self_motion.arm, component.q[0], component.q[-1])]
+        )[None]
+        for component in self_motion.components
+        if component.closed
     ]
-    every = np.concatenate(pieces)
-    price = np.minimum(ways.costs(start, every[:, 0]), ways.costs(start, every[:, 1]))
-    some = every[np.argsort(price, kind="stable")[:_FEW]]
-    share = np.linspace(0, 1, _FINER + 1)[:, None, None]
-    between = (some[:, 0] + share * (some[:, 1] - some[:, 0])).reshape(-1, wanted.arm.n)
-    poses = np.broadcast_to(wanted.pose, (len(between), 4, 4))
-    moved, on, _ = tracer(wanted.arm, wanted.task).corrected(between, poses)
-    inside = on & ((moved >= wanted.arm.lower) & (moved <= wanted.arm.upper)).all(axis=1)
-    return ways.least(start[None], np.concatenate([goal[None], moved[inside]]))[1]
+    segments = np.concatenate(pieces)
+    segment_costs = np.minimum(exposures.compute_costs(start, segments[:, 0]), exposures.compute_costs(start, segments[:, 1]))
+    best_segments = segments[np.argsort(segment_costs, kind="stable")[:_REFINED_NODES]]
+    fractions = np.linspace(0, 1, _POINTS_PER_SEGMENT + 1)[:, None, None]
+    interpolated = (best_segments[:, 0] + fractions * (best_segments[:, 1] - best_segments[:, 0])).reshape(
+        -1, self_motion.arm.n
+    )
+    poses = np.broadcast_to(self_motion.pose, (len(interpolated), 4, 4))
+    corrected_q, is_on_pose, _ = make_tracer(self_motion.arm, self_motion.task).correct(interpolated, poses)
+    inside = is_on_pose & ((corrected_q >= self_motion.arm.lower) & (corrected_q <= self_motion.arm.upper)).all(axis=1)
+    return exposures.choose_pair(start[None], np.concatenate([goal[None], corrected_q[inside]]))[1]

@@ -1,4 +1,4 @@
-"""The motion along a path that survives most single locks."""
+"""Search for the motion along a path that survives the most single locks."""
 
 from __future__ import annotations
 
@@ -7,38 +7,38 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.choice import Front, advanced
-from holdfast.endurance.endurance import Endurance, Found
-from holdfast.endurance.given import beside
-from holdfast.endurance.grid import Nodes, nodes_of
-from holdfast.endurance.problem import ON, Mode, Problem, posed
+from holdfast.endurance.choice import BestPathTable, advance_tables
+from holdfast.endurance.endurance import LockSurvival, SearchBounds
+from holdfast.endurance.given import with_baselines
+from holdfast.endurance.grid import CurveNodes, make_nodes
+from holdfast.endurance.problem import PATH_TOLERANCE, Mode, SurvivalProblem, make_problem
 from holdfast.endurance.rates import FailureRates, RatesLike
-from holdfast.endurance.smoothing import smoothed
+from holdfast.endurance.smoothing import smooth_motion
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
 from holdfast.keep.labels import KeepLike
-from holdfast.notice import each, says
+from holdfast.notice import reports_progress, track
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.self_motions import STARTS
+from holdfast.solvers.self_motions import TRACING_STARTS
 
 Array = NDArray[np.float64]
 
-_ALIKE = 1e-9  # of a probability: less is rounding
-_TRIED = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
-_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
+_PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
+_MAX_FINE_CHOICES = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
+_MAX_CONE_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
 
 
-@checked
-@says("looking for the motion that survives most locks")
-def endure(
+@check_arguments
+@reports_progress("looking for the motion that survives most locks")
+def plan_motion(
     arm: Arm,
     path: TimedPath,
     *,
@@ -50,14 +50,14 @@ def endure(
     spacing: float = 0.05,
     start: ArrayLike | None = None,
     seed: int = 0,
-    starts: int = STARTS,
+    starts: int = TRACING_STARTS,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
     keep: KeepLike | None = None,
     compare: Sequence[Objective | str] = (),
-) -> Endurance:
-    """The motion along a path after which most locks of a joint, whichever and whenever, leave the rest of the path possible.
+) -> LockSurvival:
+    """Plan the motion along a path for which most locks, of any joint at any time, leave the rest of the path feasible.
 
     With one degree of redundancy every configuration of every pose is looked at (its self-motion curves, at points ``spacing``
     apart), with the question whether the path can be finished if joint i locks there. Dynamic programming then finds the
@@ -107,7 +107,7 @@ def endure(
     Source: sets of values that a joint may be locked at, Lewis and Maciejewski 1997; survival over a whole path, its optimum
     and its bound are ours.
     """
-    problem = posed(
+    problem = make_problem(
         arm,
         path,
         rates,
@@ -123,157 +123,195 @@ def endure(
         seed=seed,
         starts=starts,
     )
-    begin = None if start is None else _begun(problem, start)
-    best = _Curves(problem, begin).motion(problem) if problem.spare == 1 else _holding(problem, begin)
-    return best if not compare else beside(problem, best, compare, seed)
+    q_start = None if start is None else _place_start(problem, start)
+    best = (
+        _CurveSearch(problem, q_start).find_best_motion(problem)
+        if problem.redundancy == 1
+        else _search_fixed_joints(problem, q_start)
+    )
+    return best if not compare else with_baselines(problem, best, compare, seed)
 
 
-class _Curves:
-    """The motions over the self-motion curves of every pose, of a problem that leaves one degree of redundancy.
+class _CurveSearch:
+    """Search for motions over the self-motion curves of every pose, for one remaining degree of redundancy.
 
     Attributes:
-        most: What the best of them survives, of those within the velocity limits, and with the spacing on top; NaN: none.
+        survival_interval: What the best of them survives, of those within the velocity limits, and with the spacing on top;
+            NaN: none.
     """
 
-    def __init__(self, problem: Problem, begin: Array | None) -> None:
-        self._problem, self._held = problem, begin is not None
-        arm, lock = problem.arm, problem.lock
-        self._found = problem.fibres
-        for time, pose in zip(problem.time, self._found, strict=True):
-            if not len(pose.q):
-                why = problem.conditions.why_none(pose)
-                raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {why}")
-        self._nodes = nodes_of(arm, self._found)
-        given_up = problem.conditions.given_up(np.array([x.q[0] for x in self._nodes]))
-        if given_up is not None:
-            when, trouble = problem.time[given_up[0]], given_up[1]
-            raise InputError(f"the path itself breaks what is kept: at {when:.4g} s the tool is {trouble}")
-        if begin is not None:
-            self._nodes[0] = Nodes.single(arm, begin, problem.spacing)
-        of_path = problem.mode == "on-path"
-        self._table = tables.on_path(lock, self._nodes) if of_path else tables.detours(self._nodes, self._found)
+    def __init__(self, problem: SurvivalProblem, q_start: Array | None) -> None:
+        self._problem, self._start_is_fixed = problem, q_start is not None
+        arm, follower = problem.arm, problem.lock
+        self._self_motions = problem.self_motions
+        for time, self_motion in zip(problem.time, self._self_motions, strict=True):
+            if not len(self_motion.q):
+                reason = problem.conditions.explain_infeasible(self_motion)
+                raise HoldfastError(f"the path cannot be followed at {time:.4g} s: {reason}")
+        self._nodes = make_nodes(arm, self._self_motions)
+        path_violation = problem.conditions.find_path_violation(np.array([pose_nodes.q[0] for pose_nodes in self._nodes]))
+        if path_violation is not None:
+            violation_time, violation = problem.time[path_violation[0]], path_violation[1]
+            raise InputError(f"the path itself breaks what is kept: at {violation_time:.4g} s the tool is {violation}")
+        if q_start is not None:
+            self._nodes[0] = CurveNodes.from_configuration(arm, q_start, problem.spacing)
+        stays_on_path = problem.mode == "on-path"
+        self._lock_tables = (
+            tables.compute_path_tables(follower, self._nodes)
+            if stays_on_path
+            else tables.compute_detour_tables(self._nodes, self._self_motions)
+        )
         weights = problem.rates.weights(problem.time)
-        self._gains = [w * v.survives @ problem.rates.each for w, v in zip(weights, self._table, strict=True)]
-        limit = np.array([j.velocity for j in arm.joints]) * float(np.diff(problem.time).max())
-        self._whole = float(weights.sum()) * problem.rates.total
-        near = [w * v.most_near(x, problem.rates.each) for w, v, x in zip(weights, self._table, self._nodes, strict=True)]
-        self._fronts, bound = (Front(self._gains), Front(self._gains, problem.spacing)), Front(near, problem.spacing)
-        advanced(arm, self._nodes, limit, (*self._fronts, bound))
-        if bound.ended is not None:
+        self._gains = [
+            weight * lock_table.survives @ problem.rates.each
+            for weight, lock_table in zip(weights, self._lock_tables, strict=True)
+        ]
+        max_steps = np.array([joint.velocity for joint in arm.joints]) * float(np.diff(problem.time).max())
+        self._total_weight = float(weights.sum()) * problem.rates.total
+        nearby_gains = [
+            weight * lock_table.maximize_nearby_rates(pose_nodes, problem.rates.each)
+            for weight, lock_table, pose_nodes in zip(weights, self._lock_tables, self._nodes, strict=True)
+        ]
+        self._path_tables, bound_table = (
+            (BestPathTable(self._gains), BestPathTable(self._gains, problem.spacing)),
+            BestPathTable(nearby_gains, problem.spacing),
+        )
+        advance_tables(arm, self._nodes, max_steps, (*self._path_tables, bound_table))
+        if bound_table.last_pose is not None:
             raise HoldfastError(
-                f"no continuous motion along the path was found: it ends at {problem.time[bound.ended]:.4g} s; slow the path "
+                f"no continuous motion along the path was found: it ends at {problem.time[bound_table.last_pose]:.4g} s; "
+                f"slow the path "
                 "down, take more samples, or prescribe fewer rows"
             )
-        self._bound = bound.most / self._whole
-        self.most = self._fronts[0].most / self._whole, self._fronts[1].most / self._whole
+        self._bound = bound_table.best_total / self._total_weight
+        self.survival_interval = (
+            self._path_tables[0].best_total / self._total_weight,
+            self._path_tables[1].best_total / self._total_weight,
+        )
 
-    def motion(self, asked: Problem) -> Endurance:
-        """The best, made smooth and judged as it was asked for."""
-        problem, nodes, table = self._problem, self._nodes, self._table
-        arm, lock = problem.arm, problem.lock
-        known = Found(
+    def find_best_motion(self, requested: SurvivalProblem) -> LockSurvival:
+        """Return the best motion, smoothed and evaluated for the requested problem."""
+        problem, nodes, lock_tables = self._problem, self._nodes, self._lock_tables
+        arm, follower = problem.arm, problem.lock
+        bounds = SearchBounds(
             bound=self._bound,
-            interval=self.most,
+            interval=self.survival_interval,
             spacing=problem.spacing,
-            nodes=[x.q for x in nodes],
-            curve=[x.curve for x in nodes],
-            survives=[v.survives for v in table],
-            moved=np.max([np.ptp(c.q, axis=0) for each in self._found for c in each.components], axis=0),
-            held={arm.joint_names[k]: x for k, x in lock.tracer.held.items() if k not in problem.immobile},
+            nodes=[entry.q for entry in nodes],
+            curve=[entry.curve for entry in nodes],
+            survives=[lock_table.survives for lock_table in lock_tables],
+            moved=np.max(
+                [np.ptp(component.q, axis=0) for self_motion in self._self_motions for component in self_motion.components],
+                axis=0,
+            ),
+            held={
+                arm.joint_names[index]: entry
+                for index, entry in follower.tracer.fixed_joints.items()
+                if index not in problem.immobile_joints
+            },
         )
         results = []
-        for front, most in zip(self._fronts, self.most, strict=True):
-            if front.ended is not None:
+        for path_table, expected_survival in zip(self._path_tables, self.survival_interval, strict=True):
+            if path_table.last_pose is not None:
                 continue
-            chosen = front.motion()
-            q = _continued(arm, np.array([x.q[k] for x, k in zip(nodes, chosen, strict=True)]))
-            smooth = smoothed(lock.tracer, nodes, table, self._gains, chosen, q, lock.poses, held=self._held)
-            made = Endurance.of(asked, smooth, survives=asked.judge(smooth), found=known)
-            if made.survival < most - _ALIKE or made.speed > 1 + _ALIKE:  # smoothing may have cost something
-                plain = Endurance.of(asked, q, survives=asked.judge(q), found=known)
-                made = max(made, plain, key=_goodness)
-            results.append(made)
-        return max(results, key=_goodness)  # of equals the first
+            chosen = path_table.trace_best_motion()
+            q = _unwind_motion(arm, np.array([entry.q[index] for entry, index in zip(nodes, chosen, strict=True)]))
+            smooth = smooth_motion(
+                follower.tracer, nodes, lock_tables, self._gains, chosen, q, follower.poses, start_is_fixed=self._start_is_fixed
+            )
+            result = LockSurvival.of(requested, smooth, survives=requested.evaluate_locks(smooth), found=bounds)
+            if (
+                result.survival < expected_survival - _PROBABILITY_TOLERANCE or result.speed > 1 + _PROBABILITY_TOLERANCE
+            ):  # smoothing may have cost something
+                unsmoothed = LockSurvival.of(requested, q, survives=requested.evaluate_locks(q), found=bounds)
+                result = max(result, unsmoothed, key=_rank_result)
+            results.append(result)
+        return max(results, key=_rank_result)  # of equals the first
 
 
-def _holding(problem: Problem, begin: Array | None) -> Endurance:
-    """The best of motions that hold all joints but those that leave one degree of redundancy.
+def _search_fixed_joints(problem: SurvivalProblem, q_start: Array | None) -> LockSurvival:
+    """Return the best of motions that fix all joints except those that leave one degree of redundancy.
 
     Which joints, and where, is looked for on a coarse grid; the best few are then looked at on the grid that was asked for.
     """
-    tried = []
-    for asked, q in each("configurations of the first pose", list(_begun_from(problem, begin))):
-        coarse = asked.coarser()
-        for joints in asked.sets:
-            if not asked.leaves_one(q, joints):  # no curves, and their tracing has no end
+    attempts = []
+    for variant, q in track("configurations of the first pose", list(_list_starts(problem, q_start))):
+        coarse = variant.with_coarse_grid()
+        for joints in variant.fixed_joint_sets:
+            if not variant.leaves_one_redundancy(q, joints):  # no curves, and their tracing has no end
                 continue
-            values = {k: float(q[k]) for k in joints}
+            values = {joint: float(q[joint]) for joint in joints}
             try:
-                within, over = _Curves(coarse.holding(values), begin).most
+                survival, relaxed_survival = _CurveSearch(coarse.with_fixed_joints(values), q_start).survival_interval
             except InputError:
                 raise
             except HoldfastError:
                 continue
-            tried.append((not np.isnan(within), over if np.isnan(within) else within, asked, values))
-    if not tried:
+            attempts.append((not np.isnan(survival), relaxed_survival if np.isnan(survival) else survival, variant, values))
+    if not attempts:
         raise HoldfastError(
-            f"no continuous motion along the path was found that holds {problem.spare - 1} joints: slow the path down, or give "
+            f"no continuous motion along the path was found that holds {problem.redundancy - 1} joints: slow the path "
+            f"down, or give "
             "another start"
         )
-    tried.sort(key=lambda x: x[:2], reverse=True)
-    results, failed = [], None
-    for _, _, asked, values in tried[:_TRIED]:
+    attempts.sort(key=lambda attempt: attempt[:2], reverse=True)
+    results, last_error = [], None
+    for _, _, variant, values in attempts[:_MAX_FINE_CHOICES]:
         try:
-            results.append(_Curves(asked.holding(values), begin).motion(asked))
+            results.append(_CurveSearch(variant.with_fixed_joints(values), q_start).find_best_motion(variant))
         except HoldfastError as error:  # the finer grid of poses holds one that the coarse one had not
-            failed = error
+            last_error = error
     if not results:
-        assert failed is not None
-        raise failed
-    best = max(results, key=_goodness)
-    if not problem.conditions.left:
+        assert last_error is not None
+        raise last_error
+    best = max(results, key=_rank_result)
+    if not problem.conditions.left_to_arm:
         return best
-    return Endurance.of(problem, best.q, survives=problem.judge(best.q), found=best.found)  # maybe a narrower one's
+    return LockSurvival.of(problem, best.q, survives=problem.evaluate_locks(best.q), found=best.found)  # maybe a narrower one's
 
 
-def _begun_from(problem: Problem, begin: Array | None) -> Iterator[tuple[Problem, Array]]:
-    """The problem, and narrower ones that hold the axis of a cone, with configurations (n,) that their motions begin at."""
-    if begin is not None:
-        narrower = problem.narrower_at(begin)
-        yield from ((one, begin) for one in (problem, narrower) if one is not None)
+def _list_starts(problem: SurvivalProblem, q_start: Array | None) -> Iterator[tuple[SurvivalProblem, Array]]:
+    """Yield the problem, and narrower ones with the axis of a cone fixed, with the first configurations (n,) of
+    their motions.
+    """
+    if q_start is not None:
+        narrower = problem.with_axis_at(q_start)
+        yield from ((variant, q_start) for variant in (problem, narrower) if variant is not None)
         return
-    first = problem.first()
-    yield from ((problem, q) for q in first)
-    for narrower in map(problem.narrower_at, first[:_AXES]):
+    first_configurations = problem.find_first_configurations()
+    yield from ((problem, q) for q in first_configurations)
+    for narrower in map(problem.with_axis_at, first_configurations[:_MAX_CONE_AXES]):
         if narrower is not None:
-            yield from ((narrower, q) for q in narrower.first())
+            yield from ((narrower, q) for q in narrower.find_first_configurations())
 
 
-def _goodness(made: Endurance) -> tuple[bool, float]:
-    """What the joints can do comes first."""
-    return made.speed <= 1 + _ALIKE, round(made.survival, 9)
+def _rank_result(result: LockSurvival) -> tuple[bool, float]:
+    """Return the sort key of a result: feasible joint speeds first, then survival."""
+    return result.speed <= 1 + _PROBABILITY_TOLERANCE, round(result.survival, 9)
 
 
-def _begun(problem: Problem, start: ArrayLike) -> Array:
-    """The start (n,), brought to the first pose."""
-    arm, first = problem.arm, problem.lock.poses[:1]
+def _place_start(problem: SurvivalProblem, start: ArrayLike) -> Array:
+    """Return the start (n,) brought to the first pose."""
+    arm, first_pose = problem.arm, problem.lock.poses[:1]
     q = arm.check_configurations(start)
     if q.ndim != 1 or not np.isfinite(q).all():
         raise InputError(f"the start of '{arm.name}' must be one configuration of {arm.n} finite numbers")
-    if not solver(arm, problem.task).verdict(q[None], first, ON)[0]:
+    if not solver(arm, problem.task).check_solutions(q[None], first_pose, PATH_TOLERANCE)[0]:
         raise InputError(
             "the start is not on the first pose of the path, or outside the joint limits; leave it out to have one"
         )
-    room = problem.conditions.room
-    if room is not None and float(room[0].room(q)) < room[1]:
-        raise InputError(f"at the start the arm {room[0].too_close(room[1], q)}; leave it out to have one")
-    broken = problem.conditions.broken(q[None])
-    if broken is not None:
-        raise InputError(f"at the start the tool is {broken[1]}; leave it out to have one")
-    on_pose: Array = problem.lock.tracer.corrected(q[None], first)[0][0]
+    required_clearance = problem.conditions.required_clearance
+    if required_clearance is not None and float(required_clearance[0].margin_left(q)) < required_clearance[1]:
+        raise InputError(
+            f"at the start the arm {required_clearance[0].too_close(required_clearance[1], q)}; leave it out to have one"
+        )
+    violation = problem.conditions.find_violation(q[None])
+    if violation is not None:
+        raise InputError(f"at the start the tool is {violation[1]}; leave it out to have one")
+    on_pose: Array = problem.lock.tracer.correct(q[None], first_pose)[0][0]
     return on_pose
 
 
-def _continued(arm: Arm, q: Array) -> Array:
-    """Joints that turn without limits take the short way from pose to pose."""
-    return np.concatenate([q[:1], q[0] + np.cumsum(joint_space.difference(arm, q[1:], q[:-1]), axis=0)])
+def _unwind_motion(arm: Arm, q: Array) -> Array:
+    """Return the motion in which unlimited revolute joints take the shorter direction from pose to pose."""
+    return np.concatenate([q[:1], q[0] + np.cumsum(joint_space.joint_difference(arm, q[1:], q[:-1]), axis=0)])

@@ -1,4 +1,4 @@
-"""Which locks can be survived, at every node of a path: backwards in time, so that each lock is followed by one step only."""
+"""Tables of the survivable locks at every node of a path, computed backwards in time with one step per lock."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.endurance.grid import Nodes
-from holdfast.endurance.locks import Lock
-from holdfast.notice import each
+from holdfast.endurance.grid import CurveNodes
+from holdfast.endurance.locks import LockedFollower
+from holdfast.notice import track
 from holdfast.solvers import joint_space
 from holdfast.solvers.self_motions import SelfMotion
 
@@ -20,223 +20,251 @@ Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 Spans = list[tuple[float, float]]
 
-_PARTS = 16  # of a piece of a curve in which a verdict changes: in two rounds the place is known to a 256th
+_PARTS_PER_SEGMENT = 16  # of a piece of a curve in which a verdict changes: in two rounds the place is known to a 256th
 
-_SAME = 1e-9  # rad and m
-KEPT = 4  # of the configurations that a failed arm with redundancy left may be in
+_RANGE_TOLERANCE = 1e-9  # rad and m
+MAX_RETAINED_BRANCHES = 4  # of the configurations that a failed arm with redundancy left may be in
 
 
 @dataclass(frozen=True, eq=False)
-class Verdicts:
-    """Which locks are survived at the P nodes of one pose.
+class LockTable:
+    """Survivable locks at the P nodes of one pose.
 
     Attributes:
         survives: (P, n) True where a lock of the joint is.
-        edge: (P, n) where between a node and the next along its curve the verdict changes, 0 to 1; only of use where it does.
-            NaN where nobody looked.
+        switch_fractions: (P, n) where between a node and the next along its curve the verdict changes, 0 to 1; only of use
+            where it does. NaN where nobody looked.
     """
 
     survives: Flags
-    edge: Array
+    switch_fractions: Array
 
-    def at(self, nodes: Nodes, behind: Index, share: Array, joint: Index) -> Flags:
-        """(N,) Verdicts for joint (N,) between the nodes, as :meth:`Nodes.place` says where."""
-        after = np.where(share < self.edge[behind, joint], behind, nodes.after[behind])
-        return np.asarray(self.survives[after, joint])
+    def look_up(self, nodes: CurveNodes, nodes_behind: Index, fractions: Array, joints: Index) -> Flags:
+        """Return (N,) the survival for joint (N,) between the nodes, located by :meth:`CurveNodes.locate`."""
+        decisive_nodes = np.where(
+            fractions < self.switch_fractions[nodes_behind, joints], nodes_behind, nodes.following[nodes_behind]
+        )
+        return np.asarray(self.survives[decisive_nodes, joints])
 
-    def most_near(self, nodes: Nodes, rates: Array) -> Array:
-        """(P,) the largest sum of rates (n,) of survived locks at each node and up to halfway to its neighbours."""
-        here, there = self.survives, self.survives[nodes.after]
-        known = np.isfinite(self.edge)
-        ahead, behind = np.zeros((2, len(here)))  # of each piece in its first half, and in its second
+    def maximize_nearby_rates(self, nodes: CurveNodes, rates: Array) -> Array:
+        """Return (P,) the largest sum of rates (n,) of survived locks at each node and up to halfway to its neighbors."""
+        survives_here, survives_next = self.survives, self.survives[nodes.following]
+        is_known = np.isfinite(self.switch_fractions)
+        best_ahead, best_behind = np.zeros((2, len(survives_here)))  # of each piece in its first half, and in its second
         # Along a piece verdicts change one after the other: with each change, and in the middle, something new may be had.
-        for place in (np.zeros(len(here)), np.full(len(here), 0.5), *self.edge.T):
-            sums = np.where(known, np.where(place[:, None] < self.edge, here, there), here | there) @ rates
-            np.maximum(ahead, sums, out=ahead, where=~(place > 0.5))
-            np.maximum(behind, sums, out=behind, where=~(place < 0.5))
-        return np.where(nodes.before == np.arange(len(here)), ahead, np.maximum(ahead, behind[nodes.before]))
+        for fractions in (np.zeros(len(survives_here)), np.full(len(survives_here), 0.5), *self.switch_fractions.T):
+            sums = (
+                np.where(
+                    is_known,
+                    np.where(fractions[:, None] < self.switch_fractions, survives_here, survives_next),
+                    survives_here | survives_next,
+                )
+                @ rates
+            )
+            np.maximum(best_ahead, sums, out=best_ahead, where=~(fractions > 0.5))
+            np.maximum(best_behind, sums, out=best_behind, where=~(fractions < 0.5))
+        return np.where(
+            nodes.previous == np.arange(len(survives_here)), best_ahead, np.maximum(best_ahead, best_behind[nodes.previous])
+        )
 
-    def kept_share(self, node: int, other: int, *, ahead: bool) -> float:
-        """How far a node may go towards its neighbour, ahead of it or behind, and lose nothing: 0 to 1, rather too little."""
-        lost = self.survives[node] & ~self.survives[other]
-        edge = self.edge[node if ahead else other, lost]
-        share = float(np.min(edge if ahead else 1 - edge, initial=1.0)) - 1 / _PARTS
-        return max(share, 0.0) if share == share else 0.0
+    def safe_fraction(self, node: int, neighbor: int, *, is_ahead: bool) -> float:
+        """Return how far a node may move towards its neighbor, ahead or behind, without a loss: 0 to 1, rounded down."""
+        is_lost = self.survives[node] & ~self.survives[neighbor]
+        switches = self.switch_fractions[node if is_ahead else neighbor, is_lost]
+        fraction = float(np.min(switches if is_ahead else 1 - switches, initial=1.0)) - 1 / _PARTS_PER_SEGMENT
+        return max(fraction, 0.0) if fraction == fraction else 0.0
 
 
-def on_path(lock: Lock, nodes: list[Nodes]) -> list[Verdicts]:
-    """For every pose: is a lock of the joint there, at the node, followed by the rest of the tool's path?
+def compute_path_tables(follower: LockedFollower, nodes: list[CurveNodes]) -> list[LockTable]:
+    """Return for every pose the locks at its nodes after which the failed arm can follow the rest of the tool path.
 
     One step of the locked arm leads to the next pose, between nodes there whose verdicts are known, and where between them they
     change. Where it does not lead to a known curve the arm is followed on until it does.
     """
-    n = lock.arm.n
-    sizes = [len(x.q) for x in nodes[:-1]]
-    every = np.concatenate([x.q for x in nodes[:-1]])
-    landed, reached = lock.step_all(every, np.repeat(np.arange(len(sizes)), sizes))
-    ends = np.cumsum([0, *sizes])
-    table = [_always(nodes[-1], n)]
-    for t in each("poses", range(len(nodes) - 2, -1, -1)):
-        here = slice(ends[t], ends[t + 1])
-        node, joint = np.nonzero(reached[here])
-        survives = np.zeros((sizes[t], n), dtype=bool)
-        survives[node, joint] = _followed(lock, nodes, table, t + 1, landed[here][node, joint], joint)
-        table.append(Verdicts(survives, _edges(lock, nodes, table, t, survives)))
+    n = follower.arm.n
+    sizes = [len(pose_nodes.q) for pose_nodes in nodes[:-1]]
+    all_q = np.concatenate([pose_nodes.q for pose_nodes in nodes[:-1]])
+    landed, reached = follower.step_all_joints(all_q, np.repeat(np.arange(len(sizes)), sizes))
+    offsets = np.cumsum([0, *sizes])
+    table = [_make_final_table(nodes[-1], n)]
+    for pose in track("poses", range(len(nodes) - 2, -1, -1)):
+        rows = slice(offsets[pose], offsets[pose + 1])
+        node_indices, joints = np.nonzero(reached[rows])
+        survives = np.zeros((sizes[pose], n), dtype=bool)
+        survives[node_indices, joints] = _evaluate_steps(
+            follower, nodes, table, pose + 1, landed[rows][node_indices, joints], joints
+        )
+        table.append(LockTable(survives, _locate_switches(follower, nodes, table, pose, survives)))
     return table[::-1]
 
 
-def _always(nodes: Nodes, n: int) -> Verdicts:
-    """At the last pose nothing is left to be lost."""
+def _make_final_table(nodes: CurveNodes, n: int) -> LockTable:
+    """Return the table of the last pose, at which every lock is survived."""
     shape = (len(nodes.q), n)
-    return Verdicts(np.ones(shape, dtype=bool), np.ones(shape))
+    return LockTable(np.ones(shape, dtype=bool), np.ones(shape))
 
 
-def _edges(lock: Lock, nodes: list[Nodes], table: list[Verdicts], t: int, survives: Flags) -> Array:
-    """(P, n) Where the verdicts of pose t change, between the nodes; the table is known back to t + 1."""
-    here = nodes[t]
-    edge = np.full(survives.shape, 0.5)
-    node, joint = np.nonzero(survives != survives[here.after])
-    first = survives[node, joint]
-    low = np.zeros(node.size)
-    for parts in (1 / _PARTS, 1 / _PARTS**2):
-        share = low[:, None] + parts * np.arange(1, _PARTS)
-        some, lock_of = np.repeat(node, _PARTS - 1), np.repeat(joint, _PARTS - 1)
-        q = here.q[some] + share.reshape(-1, 1) * here.pieces[some]
-        q, on, _ = lock.tracer.corrected(q, np.broadcast_to(lock.poses[t], (len(q), 4, 4)))
-        q, good = lock.step(q, lock_of, t)
-        good &= on
+def _locate_switches(
+    follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, survives: Flags
+) -> Array:
+    """Return (P, n) the fraction between nodes at which the survival at pose t changes; the table is known back to t + 1."""
+    pose_nodes = nodes[pose]
+    switches = np.full(survives.shape, 0.5)
+    node_indices, joints = np.nonzero(survives != survives[pose_nodes.following])
+    survives_behind = survives[node_indices, joints]
+    lower = np.zeros(node_indices.size)
+    for part_length in (1 / _PARTS_PER_SEGMENT, 1 / _PARTS_PER_SEGMENT**2):
+        fractions = lower[:, None] + part_length * np.arange(1, _PARTS_PER_SEGMENT)
+        repeated_nodes, repeated_joints = (
+            np.repeat(node_indices, _PARTS_PER_SEGMENT - 1),
+            np.repeat(joints, _PARTS_PER_SEGMENT - 1),
+        )
+        q = pose_nodes.q[repeated_nodes] + fractions.reshape(-1, 1) * pose_nodes.pieces[repeated_nodes]
+        q, is_on_pose, _ = follower.tracer.correct(q, np.broadcast_to(follower.poses[pose], (len(q), 4, 4)))
+        q, has_arrived = follower.step(q, repeated_joints, pose)
+        has_arrived &= is_on_pose
         verdict = np.zeros(len(q), dtype=bool)
-        verdict[good] = _followed(lock, nodes, table, t + 1, q[good], lock_of[good])
+        verdict[has_arrived] = _evaluate_steps(follower, nodes, table, pose + 1, q[has_arrived], repeated_joints[has_arrived])
         # Up to the first part that differs from the node behind.
-        differs = np.column_stack([verdict.reshape(share.shape) != first[:, None], np.ones(node.size, dtype=bool)])
-        low += parts * differs.argmax(axis=1)
-    edge[node, joint] = low + 0.5 / _PARTS**2
-    return edge
+        differs = np.column_stack(
+            [verdict.reshape(fractions.shape) != survives_behind[:, None], np.ones(node_indices.size, dtype=bool)]
+        )
+        lower += part_length * differs.argmax(axis=1)
+    switches[node_indices, joints] = lower + 0.5 / _PARTS_PER_SEGMENT**2
+    return switches
 
 
-def _followed(lock: Lock, nodes: list[Nodes], table: list[Verdicts], t: int, q: Array, joint: Index) -> Flags:
-    """(N,) Verdicts of q (N, n) on pose t with joint (N,) locked; the table is known from its end back to t."""
-    verdict = np.ones(len(q), dtype=bool)
-    left = np.arange(len(q))
-    last = len(nodes) - 1
-    while left.size and t < last:
-        behind, share, known = nodes[t].place(q)
-        verdict[left[known]] = table[last - t].at(nodes[t], behind[known], share[known], joint[known])
-        left, q, joint = left[~known], q[~known], joint[~known]
-        if left.size:
-            q, good = lock.step(q, joint, t)
-            verdict[left[~good]] = False
-            left, q, joint = left[good], q[good], joint[good]
-        t += 1
-    return verdict
+def _evaluate_steps(
+    follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, q: Array, joints: Index
+) -> Flags:
+    """Return (N,) the survival of q (N, n) on pose t with joint (N,) locked; the table is known from its end back to t."""
+    survives = np.ones(len(q), dtype=bool)
+    active = np.arange(len(q))
+    last_pose = len(nodes) - 1
+    while active.size and pose < last_pose:
+        nodes_behind, fractions, is_on_curve = nodes[pose].locate(q)
+        survives[active[is_on_curve]] = table[last_pose - pose].look_up(
+            nodes[pose], nodes_behind[is_on_curve], fractions[is_on_curve], joints[is_on_curve]
+        )
+        active, q, joints = active[~is_on_curve], q[~is_on_curve], joints[~is_on_curve]
+        if active.size:
+            q, has_arrived = follower.step(q, joints, pose)
+            survives[active[~has_arrived]] = False
+            active, q, joints = active[has_arrived], q[has_arrived], joints[has_arrived]
+        pose += 1
+    return survives
 
 
-def detours(nodes: list[Nodes], found: list[SelfMotion]) -> list[Verdicts]:
-    """For every pose: do all poses from there on have a configuration with the joint where it locks?
+def compute_detour_tables(nodes: list[CurveNodes], self_motions: list[SelfMotion]) -> list[LockTable]:
+    """Return for every pose the locks at its nodes for which all later poses have a configuration with the locked value.
 
     Then a failed arm without obstacles gets back to the path from wherever it is: a locked value is common to both ends of the
     straight way, and joint limits are a box.
 
     Source: Lewis and Maciejewski 1997, ranges of a joint over a self-motion manifold.
     """
-    survives = [within(x.arm, x.q, ranges) for x, ranges in zip(nodes, common_ranges(found), strict=True)]
-    return [Verdicts(s, np.full(s.shape, np.nan)) for s in survives]
+    survives = [
+        are_in_ranges(pose_nodes.arm, pose_nodes.q, ranges)
+        for pose_nodes, ranges in zip(nodes, compute_common_ranges(self_motions), strict=True)
+    ]
+    return [LockTable(pose_survives, np.full(pose_survives.shape, np.nan)) for pose_survives in survives]
 
 
-def common_ranges(found: list[SelfMotion]) -> list[list[Spans]]:
-    """For every pose and joint its values common to all poses from there on; of joints without limits in 0 to 2 pi."""
-    arm = found[0].arm
-    turning = joint_space.turning(arm)
+def compute_common_ranges(self_motions: list[SelfMotion]) -> list[list[Spans]]:
+    """Return for every pose and joint its values common to all poses from there on; of unlimited joints in 0 to 2 pi."""
+    arm = self_motions[0].arm
+    is_unlimited = joint_space.is_unlimited(arm)
     common: list[Spans] = [[(-np.inf, np.inf)]] * arm.n
     table = []
-    for each_pose in reversed(found):
-        arcs = [_folded(arc) if turns else arc for arc, turns in zip(each_pose.arcs(), turning, strict=True)]
-        common = [_shared(a, b) for a, b in zip(common, arcs, strict=True)]
+    for each_pose in reversed(self_motions):
+        arcs = [_fold_arcs(arc) if unlimited else arc for arc, unlimited in zip(each_pose.arcs(), is_unlimited, strict=True)]
+        common = [_intersect_spans(common_spans, pose_spans) for common_spans, pose_spans in zip(common, arcs, strict=True)]
         table.append(common)
     return table[::-1]
 
 
-def within(arm: Arm, q: Array, ranges: list[Spans]) -> Flags:
-    """(N, n) which joints of q (N, n) are within their ranges."""
+def are_in_ranges(arm: Arm, q: Array, ranges: list[Spans]) -> Flags:
+    """Return (N, n) True for joints of q (N, n) within their ranges."""
     inside = np.zeros(q.shape, dtype=bool)
-    for k, values in enumerate(joint_space.folded(arm, q).T):
-        for low, high in ranges[k]:
-            inside[:, k] |= (values >= low - _SAME) & (values <= high + _SAME)
+    for joint, values in enumerate(joint_space.fold_joints(arm, q).T):
+        for lower, upper in ranges[joint]:
+            inside[:, joint] |= (values >= lower - _RANGE_TOLERANCE) & (values <= upper + _RANGE_TOLERANCE)
     return inside
 
 
-def _folded(arcs: Spans) -> Spans:
-    """Arcs of a circle as parts of 0 to 2 pi."""
-    found: Spans = []
-    for low, high in arcs:
-        begin = low % (2 * np.pi)
-        end = begin + min(high - low, 2 * np.pi)
-        found.append((begin, min(end, 2 * np.pi)))
+def _fold_arcs(arcs: Spans) -> Spans:
+    """Fold arcs of a circle into 0 to 2 pi."""
+    folded_arcs: Spans = []
+    for lower, upper in arcs:
+        begin = lower % (2 * np.pi)
+        end = begin + min(upper - lower, 2 * np.pi)
+        folded_arcs.append((begin, min(end, 2 * np.pi)))
         if end > 2 * np.pi:
-            found.append((0.0, end - 2 * np.pi))
-    return found
+            folded_arcs.append((0.0, end - 2 * np.pi))
+    return folded_arcs
 
 
-def _shared(a: Spans, b: Spans) -> Spans:
-    """What two unions of intervals have in common."""
-    both = [(max(low, other[0]), min(high, other[1])) for low, high in a for other in b]
-    return sorted((low, high) for low, high in both if low <= high)
+def _intersect_spans(a: Spans, b: Spans) -> Spans:
+    """Return the intersection of two unions of intervals."""
+    overlaps = [(max(lower, interval[0]), min(upper, interval[1])) for lower, upper in a for interval in b]
+    return sorted((lower, upper) for lower, upper in overlaps if lower <= upper)
 
 
-def along(lock: Lock, q: Array, asked: Flags | None = None) -> Flags:
-    """(T, n) as :func:`on_path` for one configuration q (T, n) of each pose: every lock is followed to the end.
+def follow_motion_locks(follower: LockedFollower, q: Array, requested: Flags | None = None) -> Flags:
+    """Return (T, n) True where a lock of a motion q (T, n) is survived: every lock is followed to the end.
 
-    Only those ``asked`` (T, n) if given; where q is NaN none is.
+    Only those ``requested`` (T, n) if given; where q is NaN none is.
     """
     survives = np.zeros(q.shape, dtype=bool)
-    there = np.isfinite(q).all(axis=1, keepdims=True)
-    wanted = np.broadcast_to(there, q.shape) if asked is None else asked & there
-    survives[-1] = wanted[-1]
-    at = np.empty((0, lock.arm.n))
-    begun, joint = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
-    for t in each("poses", range(len(q) - 1)):
-        fresh = np.flatnonzero(wanted[t])
-        at = np.concatenate([at, np.repeat(q[t : t + 1], fresh.size, axis=0)])
-        begun, joint = np.concatenate([begun, np.full(fresh.size, t)]), np.concatenate([joint, fresh])
-        at, good = lock.step(at, joint, t)
-        at, begun, joint = at[good], begun[good], joint[good]
-    survives[begun, joint] = True
+    is_defined = np.isfinite(q).all(axis=1, keepdims=True)
+    is_requested = np.broadcast_to(is_defined, q.shape) if requested is None else requested & is_defined
+    survives[-1] = is_requested[-1]
+    configurations = np.empty((0, follower.arm.n))
+    lock_poses, joints = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    for pose in track("poses", range(len(q) - 1)):
+        new_joints = np.flatnonzero(is_requested[pose])
+        configurations = np.concatenate([configurations, np.repeat(q[pose : pose + 1], new_joints.size, axis=0)])
+        lock_poses, joints = np.concatenate([lock_poses, np.full(new_joints.size, pose)]), np.concatenate([joints, new_joints])
+        configurations, has_arrived = follower.step(configurations, joints, pose)
+        configurations, lock_poses, joints = configurations[has_arrived], lock_poses[has_arrived], joints[has_arrived]
+    survives[lock_poses, joints] = True
     return survives
 
 
-def changing(locks: Sequence[Lock], q: Array, asked: Flags) -> Flags:
-    """(T, n) as :func:`along`, of an arm with redundancy left that may hold other joints, those of another lock, at every pose.
+def follow_changing_locks(followers: Sequence[LockedFollower], q: Array, requested: Flags) -> Flags:
+    """Return (T, n) True where a redundant arm survives a lock, with other joints fixed, those of another follower, at every
+    pose.
 
     Of all configurations that this leads to a few are followed on, far apart.
     """
     survives = np.zeros(q.shape, dtype=bool)
-    survives[-1] = asked[-1]
-    at = np.empty((0, q.shape[1]))
-    begun, joint = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
-    for t in each("poses", range(len(q) - 1)):
-        fresh = np.flatnonzero(asked[t])
-        at = np.concatenate([at, np.repeat(q[t : t + 1], fresh.size, axis=0)])
-        begun, joint = np.concatenate([begun, np.full(fresh.size, t)]), np.concatenate([joint, fresh])
-        landed, row = [at[:0]], [begun[:0]]
-        for lock in locks:
-            some = np.flatnonzero(~np.isin(joint, list(lock.tracer.held)))
-            moved, good = lock.step(at[some], joint[some], t)
-            landed.append(moved[good])
-            row.append(some[good])
-        at, rows = np.concatenate(landed), np.concatenate(row)
-        begun, joint = begun[rows], joint[rows]
-        some = apart(at, begun * q.shape[1] + joint)
-        at, begun, joint = at[some], begun[some], joint[some]
-    survives[begun, joint] = True
+    survives[-1] = requested[-1]
+    configurations = np.empty((0, q.shape[1]))
+    lock_poses, joints = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    for pose in track("poses", range(len(q) - 1)):
+        new_joints = np.flatnonzero(requested[pose])
+        configurations = np.concatenate([configurations, np.repeat(q[pose : pose + 1], new_joints.size, axis=0)])
+        lock_poses, joints = np.concatenate([lock_poses, np.full(new_joints.size, pose)]), np.concatenate([joints, new_joints])
+        landed, row_parts = [configurations[:0]], [lock_poses[:0]]
+        for follower in followers:
+            selected = np.flatnonzero(~np.isin(joints, list(follower.tracer.fixed_joints)))
+            next_q, has_arrived = follower.step(configurations[selected], joints[selected], pose)
+            landed.append(next_q[has_arrived])
+            row_parts.append(selected[has_arrived])
+        configurations, rows = np.concatenate(landed), np.concatenate(row_parts)
+        lock_poses, joints = lock_poses[rows], joints[rows]
+        selected = select_spread(configurations, lock_poses * q.shape[1] + joints)
+        configurations, lock_poses, joints = configurations[selected], lock_poses[selected], joints[selected]
+    survives[lock_poses, joints] = True
     return survives
 
 
-def apart(q: Array, owner: Index) -> Index:
-    """Which of q (N, n) to keep: of each owner (N,) the first and then, up to a few, the farthest from those that are kept."""
-    _, first, group = np.unique(owner, return_index=True, return_inverse=True)
-    kept, away = [first], np.full(len(q), np.inf)
-    for _ in range(KEPT - 1):
-        away = np.minimum(away, np.abs(q - q[kept[-1]][group]).max(axis=1))
-        order = np.lexsort((-away, group))
-        kept.append(order[np.flatnonzero(np.diff(group[order], prepend=-1))])
-    return np.unique(np.concatenate(kept))
+def select_spread(q: Array, owners: Index) -> Index:
+    """Return the indices of q (N, n) to retain: of each owner (N,) the first and then the few farthest from those retained."""
+    _, first_indices, groups = np.unique(owners, return_index=True, return_inverse=True)
+    retained, distances = [first_indices], np.full(len(q), np.inf)
+    for _ in range(MAX_RETAINED_BRANCHES - 1):
+        distances = np.minimum(distances, np.abs(q - q[retained[-1]][groups]).max(axis=1))
+        order = np.lexsort((-distances, groups))
+        retained.append(order[np.flatnonzero(np.diff(groups[order], prepend=-1))])
+    return np.unique(np.concatenate(retained))

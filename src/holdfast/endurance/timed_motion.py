@@ -1,4 +1,4 @@
-"""A motion over the poses of a path between its samples too, with rates and errors; what a lock takes from its velocity."""
+"""Motion over the poses of a path also between its samples, with rates and errors, and the velocity that a lock removes."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.endurance.injection import healthy
-from holdfast.endurance.problem import Problem
+from holdfast.endurance.injection import interpolate_motion
+from holdfast.endurance.problem import SurvivalProblem
 from holdfast.indices.determinants import relative_manipulability
 from holdfast.motion.events import Curvature
 from holdfast.motion.trajectory import Trajectory
@@ -16,12 +16,12 @@ from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
 
-_FINER = 5
+_SAMPLES_PER_STEP = 5
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class VelocityJump:
-    """The twist of the end effector that vanishes when one joint stops at once, ``J_i q_i'``.
+    """Twist of the end effector that vanishes when one joint stops at once, ``J_i q_i'``.
 
     Attributes:
         linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
@@ -37,27 +37,27 @@ class VelocityJump:
 
     @property
     def most_linear(self) -> float:
-        """m/s."""
+        """Largest linear jump, m/s."""
         return float(self.linear.max())
 
     @property
     def most_angular(self) -> float:
-        """rad/s."""
+        """Largest angular jump, rad/s."""
         return float(self.angular.max())
 
 
-def as_trajectory(problem: Problem, q: Array) -> Trajectory:
-    """Of a motion (T, n) over the poses of a problem."""
+def make_trajectory(problem: SurvivalProblem, q: Array) -> Trajectory:
+    """Return a motion (T, n) over the poses of a problem as a trajectory."""
     arm, task = problem.arm, problem.task
-    time = np.linspace(0.0, problem.path.duration, _FINER * (len(q) - 1) + 1)
-    joints = healthy(problem, q, time)
-    poses = problem.path.pose(time)
-    rates = np.gradient(joints, time, axis=0, edge_order=2)
-    norm = np.linalg.norm(rates, axis=1)
-    position, rotation = solver(arm, task).errors(joints, poses)
+    times = np.linspace(0.0, problem.path.duration, _SAMPLES_PER_STEP * (len(q) - 1) + 1)
+    joints = interpolate_motion(problem, q, times)
+    poses = problem.path.pose(times)
+    rates = np.gradient(joints, times, axis=0, edge_order=2)
+    joint_speeds = np.linalg.norm(rates, axis=1)
+    position, rotation = solver(arm, task).task_errors(joints, poses)
     objective = relative_manipulability(arm, task)
-    clearance, margin = problem.conditions.room or (None, 0.0)
-    whole = np.ones(len(time))
+    clearance, margin = problem.conditions.required_clearance or (None, 0.0)
+    ones = np.ones(len(times))
     return Trajectory(
         arm=arm,
         task=task,
@@ -66,21 +66,21 @@ def as_trajectory(problem: Problem, q: Array) -> Trajectory:
         gain=0.0,
         seed=problem.seed,
         rate_cap=None,
-        time=time,
+        time=times,
         q=joints,
         qd=rates,
-        qdd=np.gradient(rates, time, axis=0, edge_order=2),
+        qdd=np.gradient(rates, times, axis=0, edge_order=2),
         poses=poses,
         position_error=position,
         rotation_error=rotation,
         value=np.asarray(objective(joints)),
         curvature=Curvature(objective, task).smallest(joints),
-        self_motion=whole,
-        task_share=whole,
-        damping=0 * whole,
-        steps=len(time) - 1,
-        peak_rate=float(norm.max()),
-        peak_time=float(time[norm.argmax()]),
+        self_motion=ones,
+        task_share=ones,
+        damping=0 * ones,
+        steps=len(times) - 1,
+        peak_rate=float(joint_speeds.max()),
+        peak_time=float(times[joint_speeds.argmax()]),
         events=(),
         clear_of=clearance,
         margin=margin,

@@ -1,4 +1,4 @@
-"""Studies: sweeps of jobs in chunks that survive crashes and grow over machines. Knows no robots."""
+"""Resumable sweeps: jobs in chunks that survive crashes and can run on several machines, without knowledge of robots."""
 
 from holdfast._lazy import offer
 

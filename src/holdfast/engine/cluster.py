@@ -1,4 +1,4 @@
-"""Chunks on a Dask cluster: the workers compute, this process alone writes."""
+"""Compute chunks on a Dask cluster; only this process writes."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from holdfast.engine.runner import Result, Stop, Task, compute
+from holdfast.engine.runner import ChunkResult, ChunkTask, Stop, compute_chunk
 from holdfast.errors import InputError, StoreError
 from holdfast.grammar import is_count
 
-_POLL = 0.5  # s between looks at the scheduler
-_PATIENCE = 15.0  # s without the scheduler before it counts as gone
-_GRACE = 10.0  # s that chunks in hand get once a stop is asked for
-_LOCAL = "local:"
+_POLL_INTERVAL_S = 0.5  # s between looks at the scheduler
+_SCHEDULER_TIMEOUT_S = 15.0  # s without the scheduler before it counts as gone
+_STOP_GRACE_S = 10.0  # s that chunks in hand get once a stop is asked for
+_LOCAL_PREFIX = "local:"
 
 
 class Cluster:
-    """A Dask cluster by the address of its scheduler (``tcp://HOST:8786``, or a scheduler file), or one of its own.
+    """Dask cluster given by the address of its scheduler (``tcp://HOST:8786`` or a scheduler file), or a local cluster.
 
     ``local:4`` starts four worker processes on this machine. Use it in a ``with`` statement.
 
@@ -39,8 +39,8 @@ class Cluster:
             logging.getLogger(f"distributed.{part}").setLevel(logging.CRITICAL)
         self.address = address
         self._own: Any = None
-        if address.startswith(_LOCAL):
-            count = address.removeprefix(_LOCAL)
+        if address.startswith(_LOCAL_PREFIX):
+            count = address.removeprefix(_LOCAL_PREFIX)
             if not is_count(count) or int(count) < 1:
                 raise InputError(f"scheduler '{address}' is not known; write local:4 for four worker processes")
             self._own = distributed.LocalCluster(
@@ -78,70 +78,70 @@ class Cluster:
         """The address."""
         return f"Dask at {self.address}"
 
-    def results(self, tasks: Iterator[Task], stop: Stop) -> Iterator[Result]:
+    def results(self, tasks: Iterator[ChunkTask], stop: Stop) -> Iterator[ChunkResult]:
         """See :class:`holdfast.engine.Runner`."""
         finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        waiting: dict[str, tuple[Any, Task]] = {}
-        looked, room, heard = 0.0, 1, time.monotonic()
-        again: list[Task] = []  # of which a lost connection took the answer
-        more, asked = True, 0.0
+        waiting: dict[str, tuple[Any, ChunkTask]] = {}
+        looked, capacity, last_contact = 0.0, 1, time.monotonic()
+        retries: list[ChunkTask] = []  # of which a lost connection took the answer
+        has_more, polled_at = True, 0.0
         try:
             while True:
                 now = time.monotonic()
-                if now - looked > _POLL:
+                if now - looked > _POLL_INTERVAL_S:
                     looked = now
                     if self._client.status == "running":
-                        heard, room = now, 2 * self._threads() + 1
-                    elif now - heard > _PATIENCE or self._client.status == "closed":
-                        raise self._gone()
-                while (again or more) and len(waiting) < room and self._client.status == "running" and not stop():
-                    task = again.pop() if again else next(tasks, None)
+                        last_contact, capacity = now, 2 * self._count_threads() + 1
+                    elif now - last_contact > _SCHEDULER_TIMEOUT_S or self._client.status == "closed":
+                        raise self._lost_scheduler_error()
+                while (retries or has_more) and len(waiting) < capacity and self._client.status == "running" and not stop():
+                    task = retries.pop() if retries else next(tasks, None)
                     if task is None:
-                        more = False
+                        has_more = False
                         break
-                    future = self._client.submit(compute, task, pure=False)
+                    future = self._client.submit(compute_chunk, task, pure=False)
                     waiting[future.key] = future, task
                     future.add_done_callback(finished.put)
-                if not waiting and (stop() or not (again or more)):
+                if not waiting and (stop() or not (retries or has_more)):
                     return
                 try:
-                    future = finished.get(timeout=_POLL)
+                    future = finished.get(timeout=_POLL_INTERVAL_S)
                 except queue.Empty:
                     if stop():
-                        asked = asked or now
-                        if now - asked > _GRACE:  # the workers may be far away and slow: it is given up
+                        polled_at = polled_at or now
+                        if now - polled_at > _STOP_GRACE_S:  # the workers may be far away and slow: it is given up
                             return
                     continue
                 _, task = waiting.pop(future.key)
                 if future.status in ("cancelled", "lost"):
-                    again.append(task)
+                    retries.append(task)
                     continue
-                yield self._taken(future, task)
+                yield self._collect_result(future, task)
         finally:
             with suppress(Exception):
                 self._client.cancel([future for future, _ in waiting.values()])
 
-    def _threads(self) -> int:
+    def _count_threads(self) -> int:
         return sum(w["nthreads"] for w in self._client.scheduler_info(n_workers=-1)["workers"].values())
 
-    def _gone(self) -> StoreError:
+    def _lost_scheduler_error(self) -> StoreError:
         return StoreError(
             f"the Dask scheduler at '{self.address}' is gone; what was committed is safe: start it and give the same command "
             "again"
         )
 
-    def _taken(self, future: Any, task: Task) -> Result:
+    def _collect_result(self, future: Any, task: ChunkTask) -> ChunkResult:
         from distributed import KilledWorker
 
         try:
-            result: Result = future.result(timeout=60)
+            result: ChunkResult = future.result(timeout=60)
         except KilledWorker as error:
             raise StoreError(
                 f"rows {task.chunk.start + 1} to {task.chunk.stop} of a cell took several workers with them, perhaps for want "
                 "of memory; give the workers more, or write a study file with a smaller chunk"
             ) from error
         except (TimeoutError, OSError) as error:
-            raise self._gone() from error
+            raise self._lost_scheduler_error() from error
         except ImportError as error:
             raise StoreError(f"a worker lacks a package ({error}); install the same versions on every machine") from error
         finally:

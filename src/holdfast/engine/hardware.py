@@ -1,4 +1,4 @@
-"""What made a result: versions and the kind of processor."""
+"""Versions and kind of processor that produced a result."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Any
 
 from holdfast.provenance import versions
 
-_PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "llvmlite", "zarr", "mujoco")
+_RECORDED_PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "llvmlite", "zarr", "mujoco")
 
 
 @lru_cache(maxsize=1)
-def machine() -> dict[str, Any]:
-    """Versions and processor of this process; equal ones give equal bits."""
-    return {"processor": _processor(), "python": platform.python_version(), "versions": versions(*_PACKAGES)}
+def describe_machine() -> dict[str, Any]:
+    """Return versions and processor of this process; equal ones give equal bits."""
+    return {"processor": _processor_name(), "python": platform.python_version(), "versions": versions(*_RECORDED_PACKAGES)}
 
 
-def _processor() -> str:
+def _processor_name() -> str:
     try:
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
             if line.startswith("model name"):

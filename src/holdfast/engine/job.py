@@ -1,4 +1,4 @@
-"""What a study computes: cells, each a job over rows that are split into chunks with seeds of their own."""
+"""Cells of a sweep: each cell is a job over rows that are split into chunks with their own seeds."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
-from holdfast.engine.folder import by_content
+from holdfast.engine.folder import plan_content
 from holdfast.engine.store import Column
 
 
@@ -35,12 +35,12 @@ class Chunk:
 
     @property
     def sequence(self) -> np.random.SeedSequence:
-        """Its own source of random numbers: of one study and number, the same in every cell, so that cells are paired."""
+        """Random source of the chunk, which depends on the study and the number only, so that cells are paired."""
         return np.random.SeedSequence(self.seed, spawn_key=(self.number,))
 
     @property
     def own_seed(self) -> int:
-        """A whole number from :attr:`sequence`, for what takes no more than that."""
+        """Integer seed from :attr:`sequence`, for functions that take no more than an integer."""
         low, high = self.sequence.generate_state(2, np.uint32).tolist()
         return int(low) | int(high & 0x7FFFFFFF) << 32
 
@@ -48,24 +48,24 @@ class Chunk:
         return self.stop - self.start
 
 
-class Job(Protocol):
-    """How the rows of a cell are computed. It is pickled and sent to workers, so it holds data, not compiled things.
+class SweepJob(Protocol):
+    """Computation of the rows of a cell; it is pickled and sent to workers, so it holds data and nothing compiled.
 
     Its values depend on the job and the chunk alone: not on the thread, the process or what was computed before.
     """
 
     def prepare(self, alone: bool) -> None:
-        """Compile, once in a process; ``alone``: each chunk has one thread and others are at work beside it.
+        """Compile, once per process; ``alone`` means that each chunk has one thread and other chunks run in parallel.
 
         Raises:
             HoldfastError: The job cannot be done.
         """
 
     def columns(self) -> list[Column]:
-        """What each stored row holds."""
+        """Return the columns of a stored row."""
 
     def run(self, chunk: Chunk) -> Mapping[str, NDArray[Any]]:
-        """The columns of a chunk: a row for each of its rows, or one row that sums them up.
+        """Return the columns of a chunk: one row for each of its rows, or one row that sums them up.
 
         Raises:
             HoldfastError: It cannot be done; the study continues with its other cells.
@@ -73,7 +73,7 @@ class Job(Protocol):
 
 
 @dataclass(frozen=True)
-class Cell:
+class SweepCell:
     """One cell of a sweep.
 
     Attributes:
@@ -87,7 +87,7 @@ class Cell:
     """
 
     name: str
-    job: Job
+    job: SweepJob
     plan: Mapping[str, Any]
     _: KW_ONLY
     rows: int
@@ -101,20 +101,20 @@ class Cell:
         return -(-self.rows // self.chunk)
 
     @property
-    def stored(self) -> tuple[int, int]:
-        """Rows that are stored, in all and of a chunk."""
+    def stored_shape(self) -> tuple[int, int]:
+        """Number of stored rows, in all and per chunk."""
         return (self.count, 1) if self.summed else (self.rows, self.chunk)
 
     @cached_property
     def digest(self) -> str:
-        """Of all that defines its values."""
-        text = json.dumps([by_content(self.plan), self.rows, self.chunk, self.summed], sort_keys=True)
+        """Digest of everything that defines the values of the cell."""
+        text = json.dumps([plan_content(self.plan), self.rows, self.chunk, self.summed], sort_keys=True)
         return sha256(text.encode()).hexdigest()[:16]
 
-    def part(self, number: int, seed: int) -> Chunk:
-        """A chunk by its number."""
+    def chunk_at(self, number: int, seed: int) -> Chunk:
+        """Return a chunk by its number."""
         return Chunk(number, number * self.chunk, min((number + 1) * self.chunk, self.rows), seed=seed)
 
-    def smaller(self, rows: int) -> Cell:
-        """The same with fewer rows, to try it."""
-        return Cell(self.name, self.job, self.plan, rows=rows, chunk=rows, summed=self.summed, labels=self.labels)
+    def with_rows(self, rows: int) -> SweepCell:
+        """Return the same cell with fewer rows, to try it."""
+        return SweepCell(self.name, self.job, self.plan, rows=rows, chunk=rows, summed=self.summed, labels=self.labels)

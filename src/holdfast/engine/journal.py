@@ -1,4 +1,4 @@
-"""Journals of what is done: lines added to the end, each with its own checksum, so that a commit costs the same at any length.
+"""Journal of finished chunks: lines appended with their own checksums, so that a commit costs the same at any length.
 
 A line that a crash cut short does not count, and is taken away before the next is added. Studies keep one line for each chunk
 in them: later lines of a chunk replace earlier ones, and one with ``-`` says that the chunk is lost. Searches for designs keep
@@ -13,53 +13,53 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from holdfast.engine.folder import SAFE
+from holdfast.engine.folder import RESUME_ADVICE
 from holdfast.errors import StoreError
 from holdfast.files import reading
-from holdfast.files.output import guarded
+from holdfast.files.output import guard_writing
 
-_LARGEST = 1 << 30  # bytes: ten million lines
-_LOST = "-"
+_LARGEST_FILE_BYTES = 1 << 30  # bytes: ten million lines
+_LOST_MARK = "-"
 
 
-class Lines:
-    """Lines of bytes in a file, which need not exist yet."""
+class ChecksumLines:
+    """Lines of bytes with checksums in a file, which need not exist yet."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def read(self) -> Iterator[tuple[bytes, bool]]:
-        """Every line that was not cut short, and True if its checksum, which is then left out, is that of the line.
+    def read_lines(self) -> Iterator[tuple[bytes, bool]]:
+        """Yield every complete line without its checksum, and whether the checksum matches.
 
         Raises:
             StoreError: The file cannot be read.
         """
-        if not reading.exists(self.path):
+        if not reading.path_exists(self.path):
             return
-        with reading.guarded(f"'{self.path}'", kind=StoreError):
-            *lines, _ = reading.raw(self.path, _LARGEST).split(b"\n")
+        with reading.guard_reading(f"'{self.path}'", kind=StoreError):
+            *lines, _ = reading.read_bytes(self.path, _LARGEST_FILE_BYTES).split(b"\n")
         for line in lines:
             text, _, check = line.rpartition(b" ")
-            sound = check == b"%08x" % zlib.crc32(text)
-            yield (text if sound else line), sound
+            is_sound = check == b"%08x" % zlib.crc32(text)
+            yield (text if is_sound else line), is_sound
 
-    def add(self, *texts: bytes) -> None:
-        """More lines: on the disk when this returns.
+    def append(self, *texts: bytes) -> None:
+        """Append lines, which are on the disk when this method returns.
 
         Raises:
             StoreError: The disk refuses; the file is as it was.
         """
         data = b"".join(text + b" %08x\n" % zlib.crc32(text) for text in texts)
-        with guarded(self.path, advice=SAFE):
+        with guard_writing(self.path, advice=RESUME_ADVICE):
             handle = os.open(self.path, os.O_CREAT | os.O_RDWR, 0o644)
             try:
-                end = _whole(handle)
+                end = _complete_length(handle)
                 try:
                     os.ftruncate(handle, end)
                     os.lseek(handle, end, os.SEEK_SET)
-                    rest = memoryview(data)
-                    while rest:
-                        rest = rest[os.write(handle, rest) :]
+                    unwritten = memoryview(data)
+                    while unwritten:
+                        unwritten = unwritten[os.write(handle, unwritten) :]
                     os.fsync(handle)
                 except BaseException:
                     os.ftruncate(handle, end)
@@ -69,8 +69,8 @@ class Lines:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
-    """A chunk that is done.
+class JournalEntry:
+    """Journal entry of a finished chunk.
 
     Attributes:
         digest: Checksum of its values.
@@ -86,61 +86,61 @@ class Entry:
 
 
 class Journal:
-    """The chunks that are done, in a file."""
+    """File of the finished chunks."""
 
     def __init__(self, path: Path) -> None:
-        self._lines = Lines(path)
+        self._lines = ChecksumLines(path)
         self.path = path
 
-    def read(self) -> dict[int, Entry]:
-        """What is done, by number of the chunk; lines that are not sound do not count.
+    def read_entries(self) -> dict[int, JournalEntry]:
+        """Read the finished chunks by number; damaged lines do not count.
 
         Raises:
             StoreError: The file cannot be read.
         """
-        found: dict[int, Entry] = {}
-        for text in (text for text, sound in self._lines.read() if sound):
+        entries: dict[int, JournalEntry] = {}
+        for text in (text for text, sound in self._lines.read_lines() if sound):
             try:
                 chunk, digest, size, seconds, maker = text.decode().split(" ")
-                if digest == _LOST:
-                    found.pop(int(chunk), None)
+                if digest == _LOST_MARK:
+                    entries.pop(int(chunk), None)
                 else:
-                    found[int(chunk)] = Entry(digest, int(size), float(seconds), int(maker))
+                    entries[int(chunk)] = JournalEntry(digest, int(size), float(seconds), int(maker))
             except ValueError:  # a line of something else
                 continue
-        return found
+        return entries
 
-    def add(self, chunk: int, entry: Entry) -> None:
-        """One more chunk is done: on the disk when this returns.
+    def add(self, chunk: int, entry: JournalEntry) -> None:
+        """Append a finished chunk, which is on the disk when this method returns.
 
         Raises:
             StoreError: The disk refuses; the journal is as it was.
         """
-        self._lines.add(_text(chunk, entry))
+        self._lines.append(_entry_line(chunk, entry))
 
     def drop(self, chunks: Iterable[int]) -> None:
-        """These chunks are lost.
+        """Mark chunks as lost.
 
         Raises:
             StoreError: The disk refuses; the journal is as it was.
         """
-        self._lines.add(*(_text(k, Entry(_LOST, 0, 0.0, 0)) for k in chunks))
+        self._lines.append(*(_entry_line(chunk, JournalEntry(_LOST_MARK, 0, 0.0, 0)) for chunk in chunks))
 
 
-def _text(chunk: int, entry: Entry) -> bytes:
+def _entry_line(chunk: int, entry: JournalEntry) -> bytes:
     return f"{chunk} {entry.digest} {entry.size} {entry.seconds:.6g} {entry.maker}".encode()
 
 
-def _whole(handle: int) -> int:
-    """Bytes up to the end of the last whole line."""
+def _complete_length(handle: int) -> int:
+    """Return the number of bytes up to the end of the last complete line."""
     size = os.lseek(handle, 0, os.SEEK_END)
     step = 4096
     while size:
         start = max(size - step, 0)
         os.lseek(handle, start, os.SEEK_SET)
         tail = os.read(handle, size - start)
-        at = tail.rfind(b"\n")
-        if at >= 0:
-            return start + at + 1
+        line_end = tail.rfind(b"\n")
+        if line_end >= 0:
+            return start + line_end + 1
         size = start
     return 0

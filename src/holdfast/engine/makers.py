@@ -1,4 +1,4 @@
-"""What computed a study, and when: versions and processors by number, and its runs."""
+"""Log of the runs of a study, with the versions and processors that computed it."""
 
 from __future__ import annotations
 
@@ -6,33 +6,33 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from holdfast.engine.folder import SAFE
+from holdfast.engine.folder import RESUME_ADVICE
 from holdfast.errors import InputError, StoreError
 from holdfast.files.digest import seal_document
-from holdfast.files.output import replaced
+from holdfast.files.output import replace_file
 from holdfast.files.sealed import read_sealed
 
-_FILE = "made.json"
+_RUN_LOG_FILE = "made.json"
 
 
-class Made:
-    """The file of a study's folder that says so; it is read at every question."""
+class RunLog:
+    """File in a study's folder that records its runs; it is read at every query."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
     @property
     def makers(self) -> list[dict[str, Any]]:
-        """Versions and processors, by their numbers in the journals."""
+        """Versions and processors by their numbers in the journals."""
         return list(self._read()["makers"])
 
     @property
     def runs(self) -> list[dict[str, Any]]:
-        """When it was run, on what, for how long; a run that was killed is not among them."""
+        """Start, machine, and duration of each run, except runs that were killed."""
         return list(self._read()["runs"])
 
-    def number(self, maker: dict[str, Any]) -> int:
-        """That of versions and a processor; new ones are written down first.
+    def machine_number(self, maker: dict[str, Any]) -> int:
+        """Return the number of versions and a processor, recording new ones first.
 
         Raises:
             StoreError: The disk refuses, or the file is damaged.
@@ -43,18 +43,18 @@ class Made:
             self._write(data)
         return int(data["makers"].index(maker))
 
-    def add(self, runs: Iterable[dict[str, Any]]) -> None:
-        """More runs; those that are known already do not count again.
+    def add_runs(self, runs: Iterable[dict[str, Any]]) -> None:
+        """Add runs; known runs do not count again.
 
         Raises:
             StoreError: The disk refuses, or the file is damaged.
         """
         data = self._read()
-        data["runs"] += [r for r in runs if r not in data["runs"]]
+        data["runs"] += [run for run in runs if run not in data["runs"]]
         self._write(data)
 
     def _read(self) -> dict[str, list[Any]]:
-        file = self._folder / _FILE
+        file = self._folder / _RUN_LOG_FILE
         if not file.exists():
             return {"makers": [], "runs": []}
         try:
@@ -64,4 +64,4 @@ class Made:
             raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
 
     def _write(self, data: dict[str, list[Any]]) -> None:
-        replaced(self._folder / _FILE, seal_document({**data, "sealed": True}), advice=SAFE)
+        replace_file(self._folder / _RUN_LOG_FILE, seal_document({**data, "sealed": True}), advice=RESUME_ADVICE)

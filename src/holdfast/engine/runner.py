@@ -1,4 +1,4 @@
-"""Who computes the chunks of a study: threads of this process, or a Dask cluster. No value depends on it."""
+"""Runners that compute the chunks of a study: threads of this process or a Dask cluster; no value depends on the choice."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
-from holdfast.engine.hardware import machine
-from holdfast.engine.job import Chunk, Job
+from holdfast.engine.hardware import describe_machine
+from holdfast.engine.job import Chunk, SweepJob
 from holdfast.errors import HoldfastError
-from holdfast.notice import told, working
+from holdfast.notice import ignore_progress, report_work
 
 Stop = Callable[[], bool]
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
-    """A chunk of the cell with number ``cell``."""
+class ChunkTask:
+    """Chunk of the cell with number ``cell``."""
 
     cell: int
-    job: Job
+    job: SweepJob
     chunk: Chunk
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Result:
-    """What became of a task.
+class ChunkResult:
+    """Result of a task.
 
     Attributes:
         task: The task.
@@ -39,7 +39,7 @@ class Result:
         problem: Why the job refused.
     """
 
-    task: Task
+    task: ChunkTask
     columns: Mapping[str, NDArray[Any]] | None
     seconds: float
     made: dict[str, Any]
@@ -47,30 +47,32 @@ class Result:
 
 
 class Runner(Protocol):
-    """Computes tasks side by side."""
+    """Interface that computes tasks in parallel."""
 
     @property
     def about(self) -> str:
-        """What it is, for people."""
+        """Description of the runner for people."""
 
-    def results(self, tasks: Iterator[Task], stop: Stop) -> Iterator[Result]:
-        """Results as they come, a bounded number of tasks in hand; once ``stop()``, only of those that are at work."""
+    def results(self, tasks: Iterator[ChunkTask], stop: Stop) -> Iterator[ChunkResult]:
+        """Yield results as they finish, with a bounded number of tasks in progress; after ``stop()``, only results of tasks in
+        progress.
+        """
 
 
-def compute(task: Task, alone: bool = True) -> Result:
-    """Carry out a task in this thread."""
+def compute_chunk(task: ChunkTask, alone: bool = True) -> ChunkResult:
+    """Compute a task in this thread."""
     begin = time.thread_time()
     try:
         task.job.prepare(alone)
         begin = time.thread_time()
-        with working("a chunk", told):  # who runs the study tells of it
+        with report_work("a chunk", ignore_progress):  # who runs the study tells of it
             columns = task.job.run(task.chunk)
     except HoldfastError as error:
-        return Result(task=task, columns=None, seconds=time.thread_time() - begin, made=machine(), problem=error)
-    return Result(task=task, columns=columns, seconds=time.thread_time() - begin, made=machine())
+        return ChunkResult(task=task, columns=None, seconds=time.thread_time() - begin, made=describe_machine(), problem=error)
+    return ChunkResult(task=task, columns=columns, seconds=time.thread_time() - begin, made=describe_machine())
 
 
-class Threads:
+class ThreadRunner:
     """Threads of this process.
 
     Args:
@@ -84,29 +86,29 @@ class Threads:
 
     @property
     def about(self) -> str:
-        """How many."""
+        """Number of threads."""
         return f"{self.count} thread{'' if self.count == 1 else 's'}"
 
-    def results(self, tasks: Iterator[Task], stop: Stop) -> Iterator[Result]:
+    def results(self, tasks: Iterator[ChunkTask], stop: Stop) -> Iterator[ChunkResult]:
         """See :class:`Runner`."""
         pool = ThreadPoolExecutor(self.count) if self._pool is None else self._pool
-        waiting: set[Future[Result]] = set()
+        waiting: set[Future[ChunkResult]] = set()
 
-        def more() -> None:
+        def submit_next() -> None:
             task = None if stop() else next(tasks, None)
             if task is not None:
-                waiting.add(pool.submit(compute, task, False))
+                waiting.add(pool.submit(compute_chunk, task, False))
 
         try:
             for _ in range(self.count + 1):  # one more than at work, so that no thread waits for the disk
-                more()
+                submit_next()
             while waiting:
                 done, _ = wait(waiting, return_when=FIRST_COMPLETED)
                 waiting -= done
                 if stop():
-                    waiting = {f for f in waiting if not f.cancel()}
+                    waiting = {finished for finished in waiting if not finished.cancel()}
                 for future in done:
-                    more()
+                    submit_next()
                     yield future.result()
         finally:
             for future in waiting:

@@ -1,4 +1,4 @@
-"""How far a cell of a study is, and what of it is damaged."""
+"""Progress of a cell of a study, and its damaged chunks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True, kw_only=True)
 class CellStatus:
-    """How far a cell is.
+    """Progress of a cell.
 
     Attributes:
         name: Of the cell.
@@ -30,14 +30,16 @@ class CellStatus:
     makers: tuple[int, ...]
 
     @property
-    def complete(self) -> bool:
-        """All of it is there."""
+    def is_complete(self) -> bool:
+        """True if all chunks of the cell are stored."""
         return self.chunks_done == self.chunks
 
 
 @dataclass(frozen=True)
-class Damage:
-    """A committed chunk that is not as it was written; number from 0, None for all of a cell that was begun and is gone."""
+class DamagedChunk:
+    """Committed chunk that differs from what was written; number from 0, None for a whole cell that was begun and
+    is missing.
+    """
 
     cell: str
     chunk: int | None

@@ -20,27 +20,36 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.engine.folder import SAFE, difference, digest, held, is_plain, shortened, taken_for, too_many
-from holdfast.engine.journal import Entry, Journal
+from holdfast.engine.folder import (
+    RESUME_ADVICE,
+    current_plan,
+    describe_difference,
+    digest_columns,
+    exceeds_limits,
+    is_plain_name,
+    lock_folder,
+    shorten,
+)
+from holdfast.engine.journal import Journal, JournalEntry
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.files.digest import seal_document
-from holdfast.files.output import guarded, made, occupied, replaced
+from holdfast.files.output import guard_writing, is_occupied, make_folder, replace_file
 from holdfast.files.sealed import read_sealed
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_FORMAT = "holdfast-run"
-_VERSION = 3  # of what computes the rows: last digits differ from those of 1, before LLVM, and of 2, by C functions
-_RUN = "run.json"
-_SAMPLES = "samples.zarr"
-_LOCK = "run.lock"
+_FORMAT_NAME = "holdfast-run"
+_FORMAT_VERSION = 3  # of what computes the rows: last digits differ from those of 1, before LLVM, and of 2, by C functions
+_RUN_FILE = "run.json"
+_SAMPLES_FOLDER = "samples.zarr"
+_LOCK_FILE = "run.lock"
 
 
 @dataclass(frozen=True)
 class Column:
-    """One quantity per row.
+    """Quantity with one value per row.
 
     Attributes:
         name: Of the variable.
@@ -58,8 +67,8 @@ class Column:
     about: str = ""
 
     @property
-    def fill(self) -> Any:
-        """Value of rows not computed yet: NaN, or the largest value of an unsigned type, or -1."""
+    def fill_value(self) -> Any:
+        """Value of rows that are not computed yet: NaN, the largest value of an unsigned type, or -1."""
         kind = np.dtype(self.dtype)
         if kind.kind == "f":
             return np.nan
@@ -67,7 +76,7 @@ class Column:
 
 
 class Store:
-    """A results folder opened for writing or reading; see :meth:`create`, :meth:`open`."""
+    """Results folder that is open for writing or reading; see :meth:`create` and :meth:`open`."""
 
     JOURNAL = "done.journal"
 
@@ -75,7 +84,7 @@ class Store:
         self.path = path
         self._run = run
         self._journal = Journal(path / self.JOURNAL) if run.get("journal") else None
-        self._entries: dict[int, Entry] | None = None  # of the journal, once it is read
+        self._entries: dict[int, JournalEntry] | None = None  # of the journal, once it is read
         self._arrays: dict[str, Any] = {}  # open for writing
 
     # ---- opening ---------------------------------------------------------------------------------------------------
@@ -92,7 +101,7 @@ class Store:
         journal: bool = False,
         formerly: Mapping[str, Any] | None = None,
     ) -> Store:
-        """A new folder, or the existing one if it belongs to the same plan, ready to resume.
+        """Create a folder, or open the existing folder of the same plan to resume it.
 
         Args:
             path: The folder; its parent must exist or be creatable.
@@ -109,87 +118,92 @@ class Store:
         """
         folder = Path(path)
         plan = json.loads(json.dumps(plan))
-        if reading.exists(folder / _RUN):
+        if reading.path_exists(folder / _RUN_FILE):
             store = cls.open(folder)
-            old = taken_for(plan, store.plan, formerly)
-            if old != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
+            old_plan = current_plan(plan, store.plan, formerly)
+            if old_plan != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
                 sizes = f"it has {store.rows} rows in chunks of {store.shape[1]}, asked for are {rows} in chunks of {chunk}"
                 raise StoreError(
-                    f"'{folder}' holds another run: {difference(old, plan) or sizes}; "
+                    f"'{folder}' holds another run: {describe_difference(old_plan, plan) or sizes}; "
                     "give another folder, or the same options to resume it"
                 )
-            if not store.complete:
+            if not store.is_complete:
                 store.check_current()
-            if not store.done:  # perhaps stopped while it was being made
+            if not store.committed_chunks:  # perhaps stopped while it was being made
                 store._make_arrays(columns)
             return store
-        if reading.exists(folder) and not folder.is_dir():
+        if reading.path_exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
-        if reading.exists(folder) and occupied(folder):
+        if reading.path_exists(folder) and is_occupied(folder):
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast run; give a new or empty folder")
         run = {
-            "format": _FORMAT,
-            "version": _VERSION,
+            "format": _FORMAT_NAME,
+            "version": _FORMAT_VERSION,
             "sealed": True,
             "plan": plan,
             "rows": rows,
             "chunk": chunk,
             "done": [],
-            "columns": [[c.name, c.dtype, [list(d) for d in c.dims], c.units, c.about] for c in columns],
+            "columns": [
+                [column.name, column.dtype, [list(dimension) for dimension in column.dims], column.units, column.about]
+                for column in columns
+            ],
             "notes": {},
             **({"journal": True} if journal else {}),
         }
         store = cls(folder, run)
-        made(folder)
+        make_folder(folder)
         # First, so that a stop before the arrays are there does not make the folder foreign.
-        store._commit("", "choose another folder")
+        store._write_run_file("", "choose another folder")
         store._make_arrays(columns)
         return store
 
     @classmethod
     def open(cls, path: str | Path) -> Store:
-        """An existing folder.
+        """Open an existing folder.
 
         Raises:
             StoreError: There is no run, or ``run.json`` is damaged or of another version.
         """
         folder = Path(path)
-        file = folder / _RUN
-        if not reading.exists(file):
-            raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN}; give the folder that --out named")
+        file = folder / _RUN_FILE
+        if not reading.path_exists(file):
+            raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN_FILE}; give the folder that --out named")
         try:
             run = read_sealed(file)
         except (OSError, ValueError, InputError) as error:
             raise StoreError(
                 f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder"
             ) from error
-        if not isinstance(run, dict) or run.get("format") != _FORMAT:
+        if not isinstance(run, dict) or run.get("format") != _FORMAT_NAME:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a holdfast run")
-        if run.get("version") not in range(1, _VERSION + 1):
+        if run.get("version") not in range(1, _FORMAT_VERSION + 1):
             raise StoreError(
-                f"'{folder}' was written in format {run.get('version')}; this holdfast reads formats up to {_VERSION}"
+                f"'{folder}' was written in format {run.get('version')}; this holdfast reads formats up to {_FORMAT_VERSION}"
             )
-        wrong = _wrong(run)
-        if wrong:
-            raise StoreError(f"'{file}' is damaged: its {wrong} is missing or wrong; start the run again in a new folder")
+        invalid_entry = _find_invalid_entry(run)
+        if invalid_entry:
+            raise StoreError(
+                f"'{file}' is damaged: its {invalid_entry} is missing or wrong; start the run again in a new folder"
+            )
         return cls(folder, run)
 
     def check_current(self) -> None:
-        """Refuse to add to rows that an earlier backend computed.
+        """Reject additions to rows that an earlier backend computed.
 
         Raises:
             StoreError: They are.
         """
-        if self._run["version"] != _VERSION:
+        if self._run["version"] != _FORMAT_VERSION:
             raise StoreError(
                 f"'{self.path}' was computed by an earlier holdfast, whose results differ in their last digits; it can be "
                 "read, but not resumed or merged: start the run again in a new folder"
             )
 
     @contextmanager
-    def writing(self) -> Iterator[None]:
-        """Hold the folder: a second program that tries is told so instead of spoiling the run."""
-        with held(self.path, _LOCK):
+    def lock_for_writing(self) -> Iterator[None]:
+        """Lock the folder, so that a second program that tries to write gets an error instead of damaging the run."""
+        with lock_folder(self.path, _LOCK_FILE):
             # Another program may have gone on with the run since it was opened.
             self._run = Store.open(self.path)._run
             self._entries = None
@@ -199,21 +213,21 @@ class Store:
 
     @property
     def plan(self) -> dict[str, Any]:
-        """What is computed."""
+        """Plan of the computation."""
         plan: dict[str, Any] = self._run["plan"]
         return plan
 
     @property
     def notes(self) -> dict[str, Any]:
-        """Facts about how it was computed (versions, times); they do not define the run."""
+        """Facts about the computation (versions, times) that do not define its result."""
         notes: dict[str, Any] = self._run["notes"]
         return notes
 
     @property
     def columns(self) -> list[Column]:
-        """What each row holds."""
+        """Columns of each row."""
         return [
-            Column(name, dtype, tuple((d, n) for d, n in dims), units=units, about=about)
+            Column(name, dtype, tuple((dimension, length) for dimension, length in dims), units=units, about=about)
             for name, dtype, dims, units, about in self._run["columns"]
         ]
 
@@ -230,49 +244,49 @@ class Store:
     @property
     def chunks(self) -> list[tuple[int, int]]:
         """First row and row after the last of every chunk."""
-        return [self.span(k) for k in range(self.count)]
+        return [self.chunk_span(k) for k in range(self.count)]
 
     @property
     def count(self) -> int:
         """Number of chunks."""
         return -(-self.rows // int(self._run["chunk"]))
 
-    def span(self, chunk: int) -> tuple[int, int]:
-        """First row and row after the last of a chunk."""
+    def chunk_span(self, chunk: int) -> tuple[int, int]:
+        """Return the first row of a chunk and the row after its last."""
         size = int(self._run["chunk"])
         return chunk * size, min((chunk + 1) * size, self.rows)
 
     @property
-    def done(self) -> list[int]:
+    def committed_chunks(self) -> list[int]:
         """Chunks that are committed."""
         return list(self._run["done"]) if self._journal is None else sorted(self.entries)
 
     @property
-    def entries(self) -> dict[int, Entry]:
-        """What the journal says of the chunks that are committed; empty without one.
+    def entries(self) -> dict[int, JournalEntry]:
+        """Journal entries of the committed chunks; empty without a journal.
 
         Raises:
             StoreError: It cannot be read.
         """
         if self._entries is None:
-            found = {} if self._journal is None else self._journal.read()
-            self._entries = {k: e for k, e in found.items() if 0 <= k < self.count}
+            entries = {} if self._journal is None else self._journal.read_entries()
+            self._entries = {chunk: entry for chunk, entry in entries.items() if 0 <= chunk < self.count}
         return self._entries
 
     @property
-    def missing(self) -> list[int]:
-        """Chunks still to compute."""
-        done = set(self.done)
-        return [k for k in range(self.count) if k not in done]
+    def missing_chunks(self) -> list[int]:
+        """Chunks that are not computed yet."""
+        done = set(self.committed_chunks)
+        return [chunk for chunk in range(self.count) if chunk not in done]
 
     @property
-    def complete(self) -> bool:
+    def is_complete(self) -> bool:
         """True once every chunk is committed."""
-        return not self.missing
+        return not self.missing_chunks
 
     # ---- rows ------------------------------------------------------------------------------------------------------
 
-    def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], seconds: float = 0.0, *, maker: int = 0) -> None:
+    def commit_chunk(self, chunk: int, columns: Mapping[str, NDArray[Any]], seconds: float = 0.0, *, maker: int = 0) -> None:
         """Write all columns of a chunk, then commit it.
 
         Args:
@@ -286,29 +300,29 @@ class Store:
         """
         import zarr
 
-        start, stop = self.span(chunk)
+        start, end = self.chunk_span(chunk)
         try:
             if self._journal is None or not self._arrays:
-                group = zarr.open_group(self.path / _SAMPLES, mode="r+")
+                group = zarr.open_group(self.path / _SAMPLES_FOLDER, mode="r+")
                 self._arrays = {name: group[name] for name in columns}
             arrays = self._arrays
         except (OSError, KeyError, ValueError) as error:
-            raise self._damaged(error) from error
-        what = f"chunk {chunk + 1} to"
-        with guarded(self.path, what, SAFE):
+            raise self._damage_error(error) from error
+        chunk_text = f"chunk {chunk + 1} to"
+        with guard_writing(self.path, chunk_text, RESUME_ADVICE):
             for name, values in columns.items():
-                arrays[name][start:stop] = values
+                arrays[name][start:end] = values
             if self._journal is None:
-                self._run["done"] = sorted({*self.done, chunk})
-                self._commit(what)
+                self._run["done"] = sorted({*self.committed_chunks, chunk})
+                self._write_run_file(chunk_text)
             else:
                 stored = {name: np.ascontiguousarray(values, arrays[name].dtype) for name, values in columns.items()}
-                entry = Entry(digest(stored), self._settled(chunk), seconds, maker)
+                entry = JournalEntry(digest_columns(stored), self._sync_chunk(chunk), seconds, maker)
                 self._journal.add(chunk, entry)
                 self.entries[chunk] = entry
 
-    def drop(self, chunks: Sequence[int]) -> None:
-        """Chunks of a journal that are damaged: they are missing from now on.
+    def drop_chunks(self, chunks: Sequence[int]) -> None:
+        """Mark damaged chunks of a journal as missing.
 
         Raises:
             StoreError: The disk refuses, or there is no journal.
@@ -316,28 +330,28 @@ class Store:
         if self._journal is None:
             raise StoreError(f"'{self.path}' keeps no journal, so no chunk of it can be dropped; run it in a new folder")
         self._journal.drop(chunks)
-        for k in chunks:
-            self.entries.pop(k, None)
+        for chunk in chunks:
+            self.entries.pop(chunk, None)
 
-    def checked(self, chunk: int) -> dict[str, NDArray[Any]]:
-        """All values of a committed chunk of a journal, compared with their checksum.
+    def read_checked(self, chunk: int) -> dict[str, NDArray[Any]]:
+        """Return all values of a committed chunk of a journal after comparing their checksum.
 
         Raises:
             StoreError: They cannot be read, or are not those that were written.
         """
-        found = self.read(chunk, [name for name, *_ in self._run["columns"]])
-        if digest(found) != self.entries[chunk].digest:
+        columns = self.read_chunk(chunk, [name for name, *_ in self._run["columns"]])
+        if digest_columns(columns) != self.entries[chunk].digest:
             raise StoreError("its values are not those that were written")
-        return found
+        return columns
 
-    def size(self, chunk: int) -> int:
+    def chunk_size(self, chunk: int) -> int:
         """Bytes of the files of a chunk; files of nothing but fill values are not written."""
-        return sum(f.stat().st_size for f in self._files(chunk) if f.exists())
+        return sum(file.stat().st_size for file in self._chunk_files(chunk) if file.exists())
 
-    def _settled(self, chunk: int) -> int:
-        """Bytes of the files of a chunk, which are on the disk when this returns."""
+    def _sync_chunk(self, chunk: int) -> int:
+        """Flush the files of a chunk to the disk and return their size in bytes."""
         size = 0
-        for file in self._files(chunk):
+        for file in self._chunk_files(chunk):
             try:
                 handle = os.open(file, os.O_RDONLY)
             except FileNotFoundError:
@@ -349,36 +363,38 @@ class Store:
                 os.close(handle)
         return size
 
-    def _files(self, chunk: int) -> list[Path]:
+    def _chunk_files(self, chunk: int) -> list[Path]:
         return [
-            self.path / _SAMPLES / name / "c" / "/".join([str(chunk), *["0"] * len(dims)])
+            self.path / _SAMPLES_FOLDER / name / "c" / "/".join([str(chunk), *["0"] * len(dims)])
             for name, _, dims, *_ in self._run["columns"]
         ]
 
-    def note(self, **facts: Any) -> None:
+    def add_notes(self, **facts: Any) -> None:
         """Add facts about how the run went."""
         self._run["notes"].update(facts)
-        self._commit()
+        self._write_run_file()
 
-    def read(self, chunk: int, names: Sequence[str]) -> dict[str, NDArray[Any]]:
-        """Columns of one chunk, and nothing else in memory.
+    def read_chunk(self, chunk: int, names: Sequence[str]) -> dict[str, NDArray[Any]]:
+        """Return columns of one chunk without loading anything else.
 
         Raises:
             StoreError: An array is missing or damaged.
         """
         import zarr
 
-        start, stop = self.span(chunk)
+        start, stop = self.chunk_span(chunk)
         try:
-            group = zarr.open_group(self.path / _SAMPLES, mode="r")
-            found = {name: np.asarray(group[name][start:stop]) for name in names}
-            for c in self.columns:
-                shape = (stop - start, *(n for _, n in c.dims))
-                if c.name in found and (found[c.name].shape != shape or found[c.name].dtype != c.dtype):
-                    raise ValueError(f"'{c.name}' has another shape or type")
-            return found
+            group = zarr.open_group(self.path / _SAMPLES_FOLDER, mode="r")
+            columns = {name: np.asarray(group[name][start:stop]) for name in names}
+            for column in self.columns:
+                shape = (stop - start, *(n for _, n in column.dims))
+                if column.name in columns and (
+                    columns[column.name].shape != shape or columns[column.name].dtype != column.dtype
+                ):
+                    raise ValueError(f"'{column.name}' has another shape or type")
+            return columns
         except Exception as error:  # zarr raises many kinds for damaged files
-            raise self._damaged(error) from error
+            raise self._damage_error(error) from error
 
     def arrays(self) -> Mapping[str, Any]:
         """All rows by column, read when they are sliced; rows not computed yet hold fill values.
@@ -389,9 +405,9 @@ class Store:
         import zarr
 
         try:
-            return dict(zarr.open_group(self.path / _SAMPLES, mode="r").arrays())
+            return dict(zarr.open_group(self.path / _SAMPLES_FOLDER, mode="r").arrays())
         except Exception as error:  # zarr raises many kinds for damaged files
-            raise self._damaged(error) from error
+            raise self._damage_error(error) from error
 
     def dataset(self) -> xr.Dataset:
         """All rows with names, units and attributes, read when they are used; rows not computed yet hold fill values.
@@ -404,46 +420,48 @@ class Store:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", category=UserWarning)
-                data: xr.Dataset = xr.open_zarr(self.path / _SAMPLES, consolidated=False, mask_and_scale=False, chunks=None)
+                data: xr.Dataset = xr.open_zarr(
+                    self.path / _SAMPLES_FOLDER, consolidated=False, mask_and_scale=False, chunks=None
+                )
         except Exception as error:  # zarr and xarray raise many kinds for damaged files
-            raise self._damaged(error) from error
+            raise self._damage_error(error) from error
         return data
 
-    def _damaged(self, error: Exception) -> StoreError:
-        reason = shortened(" ".join(str(error).split()) or type(error).__name__, 200)
-        return StoreError(f"'{self.path / _SAMPLES}' is damaged ({reason}); start the run again in a new folder")
+    def _damage_error(self, error: Exception) -> StoreError:
+        reason = shorten(" ".join(str(error).split()) or type(error).__name__, 200)
+        return StoreError(f"'{self.path / _SAMPLES_FOLDER}' is damaged ({reason}); start the run again in a new folder")
 
     # ---- files -----------------------------------------------------------------------------------------------------
 
     def _make_arrays(self, columns: list[Column]) -> None:
         import zarr
 
-        with guarded(self.path):
-            group = zarr.open_group(self.path / _SAMPLES, mode="w")
+        with guard_writing(self.path):
+            group = zarr.open_group(self.path / _SAMPLES_FOLDER, mode="w")
             group.attrs["plan"] = json.dumps(self.plan)
-            for c in columns:
-                lengths = [n for _, n in c.dims]
+            for column in columns:
+                lengths = [length for _, length in column.dims]
                 array = group.create_array(
-                    c.name,
+                    column.name,
                     shape=(self.rows, *lengths),
-                    chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
-                    dtype=c.dtype,
-                    fill_value=c.fill,
+                    chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(length, 1) for length in lengths]),
+                    dtype=column.dtype,
+                    fill_value=column.fill_value,
                     compressors=zarr.codecs.ZstdCodec(checksum=True),
-                    dimension_names=["row", *[d for d, _ in c.dims]],
+                    dimension_names=["row", *[dimension for dimension, _ in column.dims]],
                 )
-                array.attrs.update({"units": c.units, "long_name": c.about})
+                array.attrs.update({"units": column.units, "long_name": column.about})
 
-    def _commit(self, what: str = "", advice: str = SAFE) -> None:
-        replaced(self.path / _RUN, seal_document(self._run), what, advice)
+    def _write_run_file(self, what: str = "", advice: str = RESUME_ADVICE) -> None:
+        replace_file(self.path / _RUN_FILE, seal_document(self._run), what, advice)
 
 
-def _wrong(run: Mapping[str, Any]) -> str | None:
-    """The first entry of run.json that is missing or cannot be."""
+def _find_invalid_entry(run: Mapping[str, Any]) -> str | None:
+    """Return the first entry of run.json that is missing or invalid."""
     for key, kind in (("plan", dict), ("notes", dict), ("rows", int), ("chunk", int), ("done", list), ("columns", list)):
         if not isinstance(run.get(key), kind):
             return key
-    if run["rows"] < 0 or run["chunk"] < 1 or too_many(run["rows"], run["chunk"]):
+    if run["rows"] < 0 or run["chunk"] < 1 or exceeds_limits(run["rows"], run["chunk"]):
         return "rows" if run["rows"] < 0 else "chunk"
     count = -(-run["rows"] // run["chunk"])
     if not all(isinstance(k, int) and 0 <= k < count for k in run["done"]):
@@ -451,16 +469,16 @@ def _wrong(run: Mapping[str, Any]) -> str | None:
     return None if all(_is_column(c) for c in run["columns"]) else "columns"
 
 
-def _is_column(given: Any) -> bool:
+def _is_column(entry: Any) -> bool:
     try:
-        name, dtype, dims, units, about = given
+        name, dtype, dims, units, about = entry
         lengths = [(d, n) for d, n in dims]
     except (TypeError, ValueError):
         return False
     texts = (name, dtype, units, about, *(d for d, _ in lengths))
     if not all(isinstance(x, str) for x in texts) or not all(isinstance(n, int) and n >= 0 for _, n in lengths):
         return False
-    return _is_number(dtype) and is_plain(name)
+    return _is_number(dtype) and is_plain_name(name)
 
 
 def _is_number(dtype: str) -> bool:

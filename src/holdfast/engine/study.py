@@ -1,4 +1,4 @@
-"""A study: a folder of cells, each with its chunks, that outlives the program, the worker and the machine."""
+"""Study: a folder of cells, each with its chunks, that outlives the program, the worker, and the machine."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from holdfast.engine.folder import held, is_plain, too_many
-from holdfast.engine.job import Cell
-from holdfast.engine.journal import Entry, Journal
-from holdfast.engine.makers import Made
+from holdfast.engine.folder import exceeds_limits, is_plain_name, lock_folder
+from holdfast.engine.job import SweepCell
+from holdfast.engine.journal import Journal, JournalEntry
+from holdfast.engine.makers import RunLog
 from holdfast.engine.runner import Runner, Stop
-from holdfast.engine.state import CellStatus, Damage
+from holdfast.engine.state import CellStatus, DamagedChunk
 from holdfast.engine.store import Store
-from holdfast.engine.work import Progress, Work
+from holdfast.engine.work import Progress, StudyRun
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files import reading
 from holdfast.files.digest import seal_document
-from holdfast.files.output import guarded, occupied, replaced
+from holdfast.files.output import guard_writing, is_occupied, replace_file
 from holdfast.files.sealed import read_sealed
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.result import Result
-from holdfast.words import duration
+from holdfast.words import format_duration
 
-_FORMAT, _VERSION = "holdfast-study", 1
-STUDY_FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
-_KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
+_STUDY_FORMAT, _STUDY_VERSION = "holdfast-study", 1
+STUDY_FILE, STUDY_LOCK_FILE, _CELLS_FOLDER, _BEGUN_FILE = "study.json", "study.lock", "cells", "begun.journal"
+_KINDS_BY_KEY = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 
 class Study(Result):
-    """A study's folder; see :meth:`create` and :meth:`open`.
+    """Folder of a study; see :meth:`create` and :meth:`open`.
 
     Attributes:
         path: The folder.
@@ -40,15 +40,15 @@ class Study(Result):
 
     def __init__(self, path: Path, data: dict[str, Any]) -> None:
         self.path = path
-        self.made = Made(path)
+        self.made = RunLog(path)
         self._data = data
-        self._begun = Journal(path / _BEGUN)
+        self._begun = Journal(path / _BEGUN_FILE)
 
     # ---- opening ---------------------------------------------------------------------------------------------------
 
     @classmethod
-    def create(cls, path: str | Path, name: str, seed: int, *, cells: Sequence[Cell], source: str = "") -> Study:
-        """A new folder, or the existing one of the same study; it takes over a new name, source and labels.
+    def create(cls, path: str | Path, name: str, seed: int, *, cells: Sequence[SweepCell], source: str = "") -> Study:
+        """Create a folder, or open the existing folder of the same study with the new name, source, and labels.
 
         Args:
             path: The folder.
@@ -61,22 +61,23 @@ class Study(Result):
             StoreError: Not writable, not a study's folder, or that of another study.
         """
         folder = Path(path)
-        data = described(name, seed, cells, source)
-        if reading.exists(folder / STUDY_FILE):
+        data = study_document(name, seed, cells, source)
+        if reading.path_exists(folder / STUDY_FILE):
             study = cls.open(folder)
             if study.digest != data["digest"]:
                 raise StoreError(
-                    f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
+                    f"'{folder}' holds another study ({study._describe_difference(data)}); give another folder, or the "
+                    f"same study file to "
                     "resume it"
                 )
             if study._data != data:
                 study._write(data)
             return study
-        if reading.exists(folder) and not folder.is_dir():
+        if reading.path_exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
-        with guarded(folder):
+        with guard_writing(folder):
             folder.mkdir(parents=True, exist_ok=True)
-            foreign = occupied(folder)
+            foreign = is_occupied(folder)
         if foreign:
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
         study = cls(folder, data)
@@ -85,31 +86,33 @@ class Study(Result):
 
     @classmethod
     def open(cls, path: str | Path) -> Study:
-        """The study in a folder.
+        """Open the study in a folder.
 
         Raises:
             StoreError: There is none, or it is damaged or of another version.
         """
         folder = Path(path)
         file = folder / STUDY_FILE
-        if not reading.exists(file):
+        if not reading.path_exists(file):
             raise StoreError(
                 f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
             data = read_sealed(file, own_digest=True)
             if data.pop("sealed", False):
-                data["digest"] = _digest(data)
+                data["digest"] = _study_digest(data)
         except (OSError, ValueError, InputError) as error:
             raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
-        if not isinstance(data, dict) or data.get("format") != _FORMAT:
+        if not isinstance(data, dict) or data.get("format") != _STUDY_FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
-        if data.get("version") != _VERSION:
-            raise StoreError(f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_VERSION}")
-        wrong = next((k for k, kind in _KEYS.items() if not isinstance(data.get(k), kind)), None)
+        if data.get("version") != _STUDY_VERSION:
+            raise StoreError(
+                f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_STUDY_VERSION}"
+            )
+        wrong = next((k for k, kind in _KINDS_BY_KEY.items() if not isinstance(data.get(k), kind)), None)
         wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
         wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
-        wrong = wrong or ("digest" if _digest(data) != data["digest"] else None)
+        wrong = wrong or ("digest" if _study_digest(data) != data["digest"] else None)
         if wrong:
             raise StoreError(
                 f"'{file}' is damaged: its {wrong} is missing or wrong; run the study file again with a new folder"
@@ -117,13 +120,13 @@ class Study(Result):
         return cls(folder, data)
 
     def copy(self, path: str | Path) -> Study:
-        """A new folder of this study, with nothing computed.
+        """Create a folder of this study without results.
 
         Raises:
             StoreError: It exists, or cannot be written.
         """
         folder = Path(path)
-        with guarded(folder):
+        with guard_writing(folder):
             folder.mkdir(parents=True)
         study = Study(folder, self._data)
         study._write(self._data)
@@ -131,53 +134,54 @@ class Study(Result):
 
     def _write(self, data: dict[str, Any]) -> None:
         entries = {key: value for key, value in data.items() if key != "digest"}
-        replaced(self.path / STUDY_FILE, seal_document({**entries, "sealed": True}))
+        replace_file(self.path / STUDY_FILE, seal_document({**entries, "sealed": True}))
         self._data = data
 
     def check_same(self, other: Study) -> None:
-        """Refuse a folder that is not of this study.
+        """Reject a folder of another study.
 
         Raises:
             StoreError: It is not; the message names the difference.
         """
         if other.digest != self.digest:
             raise StoreError(
-                f"'{other.path}' and '{self.path}' are not parts of one study ({self._unlike(other._data)}); merge folders of "
+                f"'{other.path}' and '{self.path}' are not parts of one study ({self._describe_difference(other._data)}); "
+                f"merge folders of "
                 "one study file"
             )
 
-    def _unlike(self, other: Mapping[str, Any]) -> str:
+    def _describe_difference(self, other: Mapping[str, Any]) -> str:
         if self.seed != other["seed"]:
             return f"its seed is {self.seed}, asked for is {other['seed']}"
-        mine, new = ({c["name"]: c for c in d["cells"]} for d in (self._data, other))
-        for name in [*mine, *new]:
-            if name not in new or name not in mine:
-                return f"cell '{name}' is {'not asked for' if name not in new else 'not in it'}"
-            for what in ("rows", "chunk"):
-                if mine[name][what] != new[name][what]:
-                    return f"cell '{name}' has {what} {mine[name][what]}, asked for is {new[name][what]}"
-        return next(f"cell '{n}' has other settings, or a file that it reads has changed" for n in mine if mine[n] != new[n])
+        mine, theirs = ({c["name"]: c for c in d["cells"]} for d in (self._data, other))
+        for name in [*mine, *theirs]:
+            if name not in theirs or name not in mine:
+                return f"cell '{name}' is {'not asked for' if name not in theirs else 'not in it'}"
+            for key in ("rows", "chunk"):
+                if mine[name][key] != theirs[name][key]:
+                    return f"cell '{name}' has {key} {mine[name][key]}, asked for is {theirs[name][key]}"
+        return next(f"cell '{n}' has other settings, or a file that it reads has changed" for n in mine if mine[n] != theirs[n])
 
     # ---- what is there ---------------------------------------------------------------------------------------------
 
     @property
     def name(self) -> str:
-        """Of the study."""
+        """Name of the study."""
         return str(self._data["name"])
 
     @property
     def seed(self) -> int:
-        """Of all chunks."""
+        """Seed of all chunks."""
         return int(self._data["seed"])
 
     @property
     def digest(self) -> str:
-        """Of all that defines its values: folders with the same one belong together."""
+        """Digest of everything that defines the values of the study; folders with the same digest belong together."""
         return str(self._data["digest"])
 
     @property
     def source(self) -> str:
-        """The study file."""
+        """Text of the study file."""
         return str(self._data["source"])
 
     @property
@@ -185,75 +189,75 @@ class Study(Result):
         """Name, labels, rows, chunk and digest of each cell."""
         return list(self._data["cells"])
 
-    def folder(self, cell: int) -> Path:
-        """Where a cell is."""
-        return self.path / _CELLS / str(self._data["cells"][cell]["name"])
+    def cell_folder(self, cell: int) -> Path:
+        """Return the path of a cell."""
+        return self.path / _CELLS_FOLDER / str(self._data["cells"][cell]["name"])
 
-    def store(self, cell: int) -> Store:
-        """The rows of a cell.
+    def cell_store(self, cell: int) -> Store:
+        """Return the stored rows of a cell.
 
         Raises:
             StoreError: None of it is computed, or it is damaged.
         """
-        if not reading.exists(self.folder(cell)):
+        if not reading.path_exists(self.cell_folder(cell)):
             raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
-        return Store.open(self.folder(cell))
+        return Store.open(self.cell_folder(cell))
 
-    def note_begun(self, cell: int) -> None:
-        """Write down that a cell has rows, so that it is missed when it is gone.
+    def record_begun(self, cell: int) -> None:
+        """Record that a cell has rows, so that its loss is detected.
 
         Raises:
             StoreError: The disk refuses.
         """
-        self._begun.add(cell, Entry("begun", 0, 0.0, 0))
+        self._begun.add(cell, JournalEntry("begun", 0, 0.0, 0))
 
     @property
-    def begun(self) -> frozenset[int]:
-        """Cells that had rows once, from 0; folders from before holdfast kept count do not say.
+    def begun_cells(self) -> frozenset[int]:
+        """Cells that have had rows, from 0; folders of early versions do not record them.
 
         Raises:
             StoreError: It cannot be read.
         """
-        return frozenset(self._begun.read())
+        return frozenset(self._begun.read_entries())
 
-    def entries(self, cell: int) -> dict[int, Entry]:
-        """What is done of a cell, by number of the chunk.
+    def cell_entries(self, cell: int) -> dict[int, JournalEntry]:
+        """Return the finished chunks of a cell by number.
 
         Raises:
             StoreError: Its journal cannot be read.
         """
-        return Journal(self.folder(cell) / Store.JOURNAL).read()
+        return Journal(self.cell_folder(cell) / Store.JOURNAL).read_entries()
 
     def status(self) -> list[CellStatus]:
-        """How far each cell is, from the journals alone.
+        """Return the progress of each cell, from the journals alone.
 
         Raises:
             StoreError: A journal cannot be read.
         """
-        found = []
-        for k, c in enumerate(self._data["cells"]):
-            entries = self.entries(k)
-            count, rest = -(-c["rows"] // c["chunk"]), c["rows"] % c["chunk"]
+        states = []
+        for number, cell in enumerate(self._data["cells"]):
+            entries = self.cell_entries(number)
+            count, last_rows = -(-cell["rows"] // cell["chunk"]), cell["rows"] % cell["chunk"]
             done = [e for n, e in entries.items() if n < count]
-            short = c["chunk"] - rest if rest and count - 1 in entries else 0
-            found.append(
+            missing_rows = cell["chunk"] - last_rows if last_rows and count - 1 in entries else 0
+            states.append(
                 CellStatus(
-                    name=c["name"],
-                    labels=c["labels"],
+                    name=cell["name"],
+                    labels=cell["labels"],
                     chunks=count,
-                    rows=c["rows"],
+                    rows=cell["rows"],
                     chunks_done=len(done),
-                    rows_done=len(done) * c["chunk"] - short,
+                    rows_done=len(done) * cell["chunk"] - missing_rows,
                     seconds=sum(e.seconds for e in done),
                     makers=tuple(sorted({e.maker for e in done})),
                 )
             )
-        return found
+        return states
 
     @property
-    def complete(self) -> bool:
-        """Every cell is."""
-        return all(s.complete for s in self.status())
+    def is_complete(self) -> bool:
+        """True if every cell is complete."""
+        return all(s.is_complete for s in self.status())
 
     @property
     def makers(self) -> list[dict[str, Any]]:
@@ -262,23 +266,23 @@ class Study(Result):
 
     @property
     def runs(self) -> list[dict[str, Any]]:
-        """When it was run, on what, for how long; a run that was killed is not among them."""
+        """Start, machine, and duration of each run, except runs that were killed."""
         return self.made.runs
 
     def describe(self) -> list[str]:
-        """How far it is, in a sentence."""
+        """Return the progress in a sentence."""
         cells = self.status()
         done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
         word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
-        spent = duration(sum(s.seconds for s in cells))
+        spent = format_duration(sum(s.seconds for s in cells))
         return [f"{self.name} ({self.path}): {done:,} of {total:,} chunks, {word}, {spent} of processor time to compute"]
 
     # ---- computing -------------------------------------------------------------------------------------------------
 
-    @says("computing the study")
+    @reports_progress("computing the study")
     def run(
         self,
-        cells: Sequence[Cell],
+        cells: Sequence[SweepCell],
         runner: Runner,
         progress: Progress | None = None,
         *,
@@ -293,7 +297,7 @@ class Study(Result):
             progress: Called after every chunk.
             stop: Asked now and then; once it says True, what is at work is finished and committed, and no more begun.
             part: ``(1, 3)``: only the first of three shares, for machines that never see each other; see
-                :func:`holdfast.engine.merge`.
+                :func:`holdfast.engine.merge_studies`.
 
         Returns:
             Cells that could not be computed, by name, and why.
@@ -302,74 +306,81 @@ class Study(Result):
             StoreError: The folder belongs to other cells, another program is at work in it, the disk is full, or the cluster
                 is gone. What was committed is safe.
         """
-        if described(self.name, self.seed, cells, "")["digest"] != self.digest:
+        if study_document(self.name, self.seed, cells, "")["digest"] != self.digest:
             raise StoreError(f"'{self.path}' holds another study; give another folder")
-        with held(self.path, LOCK):
-            return Work(self, cells, progress).run(runner, stop, part)
+        with lock_folder(self.path, STUDY_LOCK_FILE):
+            return StudyRun(self, cells, progress).run(runner, stop, part)
 
     # ---- checking and joining --------------------------------------------------------------------------------------
 
-    @says("reading the study")
-    def verify(self, progress: Progress | None = None) -> list[Damage]:
-        """Read every committed chunk and compare its checksum; damaged ones are missing from then on, to be run again.
+    @reports_progress("reading the study")
+    def verify(self, progress: Progress | None = None) -> list[DamagedChunk]:
+        """Read every committed chunk and compare its checksum; damaged chunks count as missing and are computed by the next
+        run.
 
         A cell that was begun and of which nothing is left counts too.
 
         Raises:
             StoreError: Another program is at work in the folder, or it is not writable.
         """
-        found: list[Damage] = []
-        with held(self.path, LOCK):
-            total, at = sum(s.chunks_done for s in self.status()), 0
-            begun = self.begun
-            for k, c in enumerate(self._data["cells"]):
-                if k in begun and not self.entries(k):
-                    found.append(Damage(c["name"], None, "it was begun, and nothing of it is left"))
-                    self._begun.drop([k])
-                if not reading.exists(self.folder(k)):
+        damaged: list[DamagedChunk] = []
+        with lock_folder(self.path, STUDY_LOCK_FILE):
+            total, position = sum(s.chunks_done for s in self.status()), 0
+            begun = self.begun_cells
+            for number, cell in enumerate(self._data["cells"]):
+                if number in begun and not self.cell_entries(number):
+                    damaged.append(DamagedChunk(cell["name"], None, "it was begun, and nothing of it is left"))
+                    self._begun.drop([number])
+                if not reading.path_exists(self.cell_folder(number)):
                     continue
-                store = self.store(k)
-                bad = []
-                for chunk in store.done:
+                store = self.cell_store(number)
+                bad_chunks = []
+                for chunk in store.committed_chunks:
                     try:
-                        store.checked(chunk)
+                        store.read_checked(chunk)
                     except StoreError as error:
-                        bad.append(chunk)
-                        found.append(Damage(c["name"], chunk, str(error)))
-                    at += 1
+                        bad_chunks.append(chunk)
+                        damaged.append(DamagedChunk(cell["name"], chunk, str(error)))
+                    position += 1
                     if progress is not None:
-                        progress(at, total, None)
-                if bad:
-                    store.drop(bad)
-                    if not store.done:
-                        self._begun.drop([k])
-        return found
+                        progress(position, total, None)
+                if bad_chunks:
+                    store.drop_chunks(bad_chunks)
+                    if not store.committed_chunks:
+                        self._begun.drop([number])
+        return damaged
 
 
-def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[str, Any]:
-    """The file of a study."""
+def study_document(name: str, seed: int, cells: Sequence[SweepCell], source: str) -> dict[str, Any]:
+    """Return the content of the study file."""
     data: dict[str, Any] = {
-        "format": _FORMAT,
-        "version": _VERSION,
+        "format": _STUDY_FORMAT,
+        "version": _STUDY_VERSION,
         "name": name,
         "seed": seed,
         "source": source,
         "cells": [
-            {"name": c.name, "labels": dict(c.labels)} | {k: getattr(c, k) for k in ("rows", "chunk", "summed", "digest")}
-            for c in cells
+            {"name": cell.name, "labels": dict(cell.labels)}
+            | {key: getattr(cell, key) for key in ("rows", "chunk", "summed", "digest")}
+            for cell in cells
         ],
     }
-    return {**data, "digest": _digest(data)}
+    return {**data, "digest": _study_digest(data)}
 
 
 def _is_cell(data: Any) -> bool:
     kinds = {"labels": dict, "rows": int, "chunk": int, "digest": str}
     if not isinstance(data, dict) or not all(isinstance(data.get(k), kind) for k, kind in kinds.items()):
         return False
-    return is_plain(data.get("name")) and data["rows"] >= 0 and data["chunk"] >= 1 and not too_many(data["rows"], data["chunk"])
+    return (
+        is_plain_name(data.get("name"))
+        and data["rows"] >= 0
+        and data["chunk"] >= 1
+        and not exceeds_limits(data["rows"], data["chunk"])
+    )
 
 
-def _digest(data: Mapping[str, Any]) -> str:
+def _study_digest(data: Mapping[str, Any]) -> str:
     try:
         text = json.dumps([data["seed"], [[c["name"], c["rows"], c["chunk"], c["digest"]] for c in data["cells"]]])
     except (KeyError, TypeError):

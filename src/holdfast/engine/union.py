@@ -1,4 +1,4 @@
-"""Folders of one study from machines that never saw each other become one."""
+"""Merge folders of one study that different machines computed."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.engine.folder import held
+from holdfast.engine.folder import lock_folder
 from holdfast.engine.store import Store
-from holdfast.engine.study import LOCK, Study
+from holdfast.engine.study import STUDY_LOCK_FILE, Study
 from holdfast.engine.work import Progress
 from holdfast.errors import StoreError
 from holdfast.files import reading
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.result import Result
 
 
 @dataclass(frozen=True, kw_only=True)
-class Merged(Result):
-    """What a merge did.
+class MergeReport(Result):
+    """Result of a merge.
 
     Attributes:
         study: That was merged into.
@@ -39,7 +39,7 @@ class Merged(Result):
     apart: tuple[tuple[str, int], ...]
 
     def describe(self) -> list[str]:
-        """What was added and what was there, who computed it, and how far the study is now."""
+        """Return the added and existing chunks, the machines, and the progress of the study in sentences."""
         lines = [f"{self.study.path}: {self.added} chunks added, {self.both} were there already, bit for bit the same"]
         if self.close:
             lines.append(f"{self.close} chunks were there already, alike to 1e-12")
@@ -59,15 +59,15 @@ class Merged(Result):
         return [*lines, *self.study.describe()]
 
     def to_dict(self) -> dict[str, Any]:
-        """How many chunks of each kind, and who computed them."""
+        """Return the number of chunks of each kind and the machines that computed them."""
         apart = [{"cell": c, "chunk": k + 1} for c, k in self.apart]
         counts = {"added": self.added, "same": self.both, "within_1e-12": self.close}
         return {**counts, "different": apart, "made_by": self.study.makers}
 
 
-@says("joining the studies")
-def merge(path: str | Path, folders: Sequence[str | Path], progress: Progress | None = None) -> Merged:
-    """Take over what other folders of a study have and this one lacks.
+@reports_progress("joining the studies")
+def merge_studies(path: str | Path, folders: Sequence[str | Path], progress: Progress | None = None) -> MergeReport:
+    """Copy the chunks that other folders of a study have and this folder lacks.
 
     Chunks computed by the same versions on the same kind of processor have the same bits; otherwise values agree to 1e-12,
     which is checked for the chunks that several folders have.
@@ -83,67 +83,69 @@ def merge(path: str | Path, folders: Sequence[str | Path], progress: Progress | 
     others = [Study.open(folder) for folder in folders]
     if not others:
         raise StoreError("there is nothing to merge; name the folder to merge into and one or more to take from")
-    study = Study.open(path) if reading.exists(Path(path)) else None
+    study = Study.open(path) if reading.path_exists(Path(path)) else None
     for other in others:
         (study or others[0]).check_same(other)
     study = study or others[0].copy(path)
-    with held(study.path, LOCK):
-        work = _Merge(study, sum(s.chunks_done for o in others for s in o.status()), progress)
+    with lock_folder(study.path, STUDY_LOCK_FILE):
+        merging = _Merging(study, sum(s.chunks_done for o in others for s in o.status()), progress)
         for other in others:
-            work.take(other)
-        study.made.add(r for o in others for r in o.runs)
-    return Merged(study=study, added=work.added, both=work.both, close=work.close, apart=tuple(work.apart))
+            merging.take_from(other)
+        study.made.add_runs(r for o in others for r in o.runs)
+    return MergeReport(study=study, added=merging.added, both=merging.both, close=merging.close, apart=tuple(merging.apart))
 
 
-class _Merge:
-    """A merge at work; its counts are those of :class:`Merged`."""
+class _Merging:
+    """Merge in progress; its counts are those of :class:`MergeReport`."""
 
     def __init__(self, study: Study, total: int, progress: Progress | None) -> None:
         self._study, self._total, self._progress = study, total, progress
         self.added = self.both = self.close = self._at = 0
         self.apart: list[tuple[str, int]] = []
 
-    def take(self, other: Study) -> None:
-        """What another folder has."""
-        numbers = [self._study.made.number(m) for m in other.makers]
-        for k, cell in enumerate(other.cells):
-            if not other.entries(k):
+    def take_from(self, other: Study) -> None:
+        """Copy the chunks of another folder."""
+        numbers = [self._study.made.machine_number(machine) for machine in other.makers]
+        for number, cell in enumerate(other.cells):
+            if not other.cell_entries(number):
                 continue
-            source = other.store(k)
+            source = other.cell_store(number)
             source.check_current()
             rows, chunk = source.shape
-            mine = Store.create(self._study.folder(k), source.plan, source.columns, rows=rows, chunk=chunk, journal=True)
-            if source.done and k not in self._study.begun:
-                self._study.note_begun(k)
-            for part in source.done:
-                self._chunk(cell["name"], part, source, mine, numbers)
+            mine = Store.create(
+                self._study.cell_folder(number), source.plan, source.columns, rows=rows, chunk=chunk, journal=True
+            )
+            if source.committed_chunks and number not in self._study.begun_cells:
+                self._study.record_begun(number)
+            for part in source.committed_chunks:
+                self._take_chunk(cell["name"], part, source, mine, numbers)
                 self._at += 1
                 if self._progress is not None:
                     self._progress(self._at, self._total, None)
 
-    def _chunk(self, cell: str, chunk: int, source: Store, mine: Store, numbers: list[int]) -> None:
-        entry, have = source.entries[chunk], mine.entries.get(chunk)
-        if have is not None and have.digest == entry.digest:
+    def _take_chunk(self, cell: str, chunk: int, source: Store, mine: Store, numbers: list[int]) -> None:
+        entry, own_entry = source.entries[chunk], mine.entries.get(chunk)
+        if own_entry is not None and own_entry.digest == entry.digest:
             self.both += 1
             return
         try:
-            values = source.checked(chunk)
+            values = source.read_checked(chunk)
         except StoreError as error:
             raise StoreError(
                 f"chunk {chunk + 1} of cell '{cell}' in '{source.path}' is damaged ({error}); give 'holdfast study verify' "
                 "with that folder, then compute it again"
             ) from error
-        if have is None:
+        if own_entry is None:
             maker = numbers[entry.maker] if entry.maker < len(numbers) else 0
-            mine.write(chunk, values, entry.seconds, maker=maker)
+            mine.commit_chunk(chunk, values, entry.seconds, maker=maker)
             self.added += 1
-        elif _alike(mine.read(chunk, list(values)), values):
+        elif _are_equal(mine.read_chunk(chunk, list(values)), values):
             self.close += 1
         else:
             self.apart.append((cell, chunk))
 
 
-def _alike(a: Mapping[str, NDArray[Any]], b: Mapping[str, NDArray[Any]]) -> bool:
+def _are_equal(a: Mapping[str, NDArray[Any]], b: Mapping[str, NDArray[Any]]) -> bool:
     for name, x in a.items():
         y = b[name]
         if x.dtype.kind != "f":

@@ -1,4 +1,4 @@
-"""Whether the chunks of studies are as they were written."""
+"""Check that the chunks of studies are unchanged."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
-from holdfast.engine.state import Damage
+from holdfast.engine.state import DamagedChunk
 from holdfast.engine.study import Study
 from holdfast.engine.work import Progress
 from holdfast.errors import StoreError
 from holdfast.result import Result
-from holdfast.words import counted
+from holdfast.words import format_count
 
 
 @dataclass(frozen=True, kw_only=True)
-class Verification(Result):
-    """What verifying found.
+class StudyVerification(Result):
+    """Result of the verification of studies.
 
     Attributes:
         studies: Those that were read, as they are now.
@@ -25,27 +25,27 @@ class Verification(Result):
     """
 
     studies: tuple[Study, ...]
-    damage: tuple[tuple[Damage, ...], ...]
+    damage: tuple[tuple[DamagedChunk, ...], ...]
 
     def describe(self) -> list[str]:
-        """For each study what is damaged; or that it is sound, and what was not there to be read."""
+        """Return for each study its damage, or that it is sound and which chunks are missing."""
         lines = []
-        for study, found in zip(self.studies, self.damage, strict=True):
-            lines += [f"{study.path}: {_sentence(d)}" for d in found] or _sound(study)
+        for study, damage in zip(self.studies, self.damage, strict=True):
+            lines += [f"{study.path}: {_describe_damage(d)}" for d in damage] or _describe_sound_study(study)
         return lines
 
     def to_dict(self) -> dict[str, Any]:
-        """What is damaged; chunks from 1."""
+        """Return the damage, with chunks counted from 1."""
         return {
             "damaged": [
                 {"folder": str(study.path), "cell": d.cell, "chunk": None if d.chunk is None else d.chunk + 1, "what": d.what}
-                for study, found in zip(self.studies, self.damage, strict=True)
-                for d in found
+                for study, damage in zip(self.studies, self.damage, strict=True)
+                for d in damage
             ]
         }
 
     def require_ok(self) -> Self:
-        """Itself, if nothing is damaged.
+        """Return the object itself, or raise an error if anything is damaged.
 
         Raises:
             StoreError: Something is.
@@ -53,13 +53,13 @@ class Verification(Result):
         count = sum(map(len, self.damage))
         if count:
             raise StoreError(
-                f"{counted(count, 'damaged chunk')}, missing from now on; 'holdfast study run' computes them again"
+                f"{format_count(count, 'damaged chunk')}, missing from now on; 'holdfast study run' computes them again"
             )
         return self
 
 
-def verify(folders: Sequence[str | Path], progress: Progress | None = None) -> Verification:
-    """:meth:`Study.verify` of each folder.
+def verify_studies(folders: Sequence[str | Path], progress: Progress | None = None) -> StudyVerification:
+    """Call :meth:`Study.verify` for each folder.
 
     Args:
         folders: Of the studies.
@@ -69,19 +69,19 @@ def verify(folders: Sequence[str | Path], progress: Progress | None = None) -> V
         StoreError: A folder is no study, another program is at work in it, or it is not writable.
     """
     studies = tuple(Study.open(folder) for folder in folders)
-    return Verification(studies=studies, damage=tuple(tuple(study.verify(progress)) for study in studies))
+    return StudyVerification(studies=studies, damage=tuple(tuple(study.verify(progress)) for study in studies))
 
 
-def _sentence(d: Damage) -> str:
+def _describe_damage(d: DamagedChunk) -> str:
     which = f"cell '{d.cell}' is lost" if d.chunk is None else f"chunk {d.chunk + 1} of cell '{d.cell}' is damaged"
     return f"{which}: {d.what}"
 
 
-def _sound(study: Study) -> list[str]:
+def _describe_sound_study(study: Study) -> list[str]:
     cells = study.status()
     done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
-    rest = "" if done == total else f"; {total - done} of {total} are not computed"
-    empty = [s.name for s in cells if not s.chunks_done]
-    more = f" and {len(empty) - 3} more" if len(empty) > 3 else ""
-    nothing = f"nothing is computed of {counted(len(empty), 'cell')}: {', '.join(empty[:3])}{more}"
-    return [f"{study.path}: {done} chunks, all sound{rest}", *([nothing] if empty else [])]
+    missing_text = "" if done == total else f"; {total - done} of {total} are not computed"
+    empty_cells = [s.name for s in cells if not s.chunks_done]
+    more_text = f" and {len(empty_cells) - 3} more" if len(empty_cells) > 3 else ""
+    nothing = f"nothing is computed of {format_count(len(empty_cells), 'cell')}: {', '.join(empty_cells[:3])}{more_text}"
+    return [f"{study.path}: {done} chunks, all sound{missing_text}", *([nothing] if empty_cells else [])]

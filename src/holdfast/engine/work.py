@@ -1,4 +1,4 @@
-"""One run of a study: what is missing is computed, and committed as it comes."""
+"""Run of a study: compute the missing chunks and commit each as it finishes."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
-from holdfast.engine.job import Cell
-from holdfast.engine.journal import Entry
-from holdfast.engine.makers import Made
-from holdfast.engine.runner import Runner, Stop, Task
+from holdfast.engine.job import SweepCell
+from holdfast.engine.journal import JournalEntry
+from holdfast.engine.makers import RunLog
+from holdfast.engine.runner import ChunkTask, Runner, Stop
 from holdfast.engine.store import Store
 from holdfast.errors import HoldfastError
 
@@ -21,52 +21,52 @@ Progress = Callable[[int, int, float | None], None]
 """Called with the chunks done, the chunks in all, and the seconds that are probably left."""
 
 
-class _Study(Protocol):
-    """The folder that a run reads and writes; see :class:`holdfast.engine.Study`."""
+class _StudyFolder(Protocol):
+    """Interface of the folder that a run reads and writes; see :class:`holdfast.engine.Study`."""
 
-    made: Made
+    made: RunLog
 
     @property
     def seed(self) -> int: ...
     @property
-    def begun(self) -> frozenset[int]: ...
-    def folder(self, cell: int) -> Path: ...
-    def store(self, cell: int) -> Store: ...
-    def entries(self, cell: int) -> dict[int, Entry]: ...
-    def note_begun(self, cell: int) -> None: ...
+    def begun_cells(self) -> frozenset[int]: ...
+    def cell_folder(self, cell: int) -> Path: ...
+    def cell_store(self, cell: int) -> Store: ...
+    def cell_entries(self, cell: int) -> dict[int, JournalEntry]: ...
+    def record_begun(self, cell: int) -> None: ...
 
 
-class Work:
-    """One run of a study."""
+class StudyRun:
+    """Run of a study."""
 
-    def __init__(self, study: _Study, cells: Sequence[Cell], progress: Progress | None) -> None:
+    def __init__(self, study: _StudyFolder, cells: Sequence[SweepCell], progress: Progress | None) -> None:
         self._study, self._cells, self._progress = study, cells, progress
         self._missing: dict[int, list[int]] = {}
         self._stores: dict[int, Store] = {}
         self._left: dict[int, int] = {}
         self._numbers: list[dict[str, Any]] = study.made.makers
-        self._begun = set(study.begun)
+        self._begun = set(study.begun_cells)
         self._problems: dict[str, HoldfastError] = {}
 
     def run(self, runner: Runner, stop: Stop, part: tuple[int, int]) -> dict[str, HoldfastError]:
         """See :meth:`Study.run`."""
-        at = -1
-        for k, cell in enumerate(self._cells):
-            done = self._sound(k)
-            mine = []
-            for n in range(cell.count):
-                at += 1
-                if n not in done and at % part[1] == part[0] - 1:
-                    mine.append(n)
-            if mine:
-                self._missing[k] = mine
-                self._left[k] = len(mine)
-        total, done_before = at + 1, at + 1 - sum(self._left.values())
+        last_cell = -1
+        for number, cell in enumerate(self._cells):
+            done = self._sound_entries(number)
+            own_chunks = []
+            for chunk in range(cell.count):
+                last_cell += 1
+                if chunk not in done and last_cell % part[1] == part[0] - 1:
+                    own_chunks.append(chunk)
+            if own_chunks:
+                self._missing[number] = own_chunks
+                self._left[number] = len(own_chunks)
+        total, done_before = last_cell + 1, last_cell + 1 - sum(self._left.values())
         committed, begin, started = 0, time.monotonic(), datetime.now(UTC)
         if self._progress is not None:
             self._progress(done_before, total, None)
         try:
-            for result in runner.results(self._tasks(), stop):
+            for result in runner.results(self._iterate_tasks(), stop):
                 cell = self._cells[result.task.cell]
                 if result.columns is None:
                     assert result.problem is not None
@@ -75,52 +75,52 @@ class Work:
                 self._commit(result.task, result.columns, result.seconds, result.made)
                 committed += 1
                 if self._progress is not None:
-                    rest = total - done_before - committed
-                    self._progress(done_before + committed, total, rest * (time.monotonic() - begin) / committed)
+                    remaining = total - done_before - committed
+                    self._progress(done_before + committed, total, remaining * (time.monotonic() - begin) / committed)
         finally:
             if committed:
-                self._note(runner.about, started, time.monotonic() - begin, committed)
+                self._log_run(runner.about, started, time.monotonic() - begin, committed)
         return self._problems
 
-    def _sound(self, k: int) -> dict[int, Entry]:
-        """Chunks that are done and whose files are as long as they were; the others are dropped."""
-        if not self._study.folder(k).exists():
+    def _sound_entries(self, k: int) -> dict[int, JournalEntry]:
+        """Return the finished chunks whose files have their recorded length, and drop the others."""
+        if not self._study.cell_folder(k).exists():
             return {}
-        entries = self._study.entries(k)
+        entries = self._study.cell_entries(k)
         if not entries:
             return {}
-        store = self._study.store(k)
-        lost = [n for n, e in store.entries.items() if store.size(n) != e.size]
-        if lost:
-            store.drop(lost)
+        store = self._study.cell_store(k)
+        lost_chunks = [n for n, e in store.entries.items() if store.chunk_size(n) != e.size]
+        if lost_chunks:
+            store.drop_chunks(lost_chunks)
         return dict(store.entries)
 
-    def _tasks(self) -> Iterator[Task]:
-        for k, numbers in self._missing.items():
-            cell = self._cells[k]
-            for n in numbers:
+    def _iterate_tasks(self) -> Iterator[ChunkTask]:
+        for number, numbers in self._missing.items():
+            cell = self._cells[number]
+            for chunk in numbers:
                 if cell.name in self._problems:
                     break
-                yield Task(k, cell.job, cell.part(n, self._study.seed))
+                yield ChunkTask(number, cell.job, cell.chunk_at(chunk, self._study.seed))
 
-    def _commit(self, task: Task, columns: Mapping[str, NDArray[Any]], seconds: float, made: dict[str, Any]) -> None:
-        k, cell = task.cell, self._cells[task.cell]
-        if k not in self._stores:
-            folder = self._study.folder(k)
-            self._stores[k] = Store.create(
-                folder, cell.plan, cell.job.columns(), rows=cell.stored[0], chunk=cell.stored[1], journal=True
+    def _commit(self, task: ChunkTask, columns: Mapping[str, NDArray[Any]], seconds: float, made: dict[str, Any]) -> None:
+        number, cell = task.cell, self._cells[task.cell]
+        if number not in self._stores:
+            folder = self._study.cell_folder(number)
+            self._stores[number] = Store.create(
+                folder, cell.plan, cell.job.columns(), rows=cell.stored_shape[0], chunk=cell.stored_shape[1], journal=True
             )
         if made not in self._numbers:
-            self._study.made.number(made)
+            self._study.made.machine_number(made)
             self._numbers = self._study.made.makers
-        self._stores[k].write(task.chunk.number, columns, seconds, maker=self._numbers.index(made))
-        if k not in self._begun:
-            self._study.note_begun(k)
-            self._begun.add(k)
-        self._left[k] -= 1
-        if not self._left[k]:
-            del self._stores[k]
+        self._stores[number].commit_chunk(task.chunk.number, columns, seconds, maker=self._numbers.index(made))
+        if number not in self._begun:
+            self._study.record_begun(number)
+            self._begun.add(number)
+        self._left[number] -= 1
+        if not self._left[number]:
+            del self._stores[number]
 
-    def _note(self, runner: str, started: datetime, seconds: float, chunks: int) -> None:
+    def _log_run(self, runner: str, started: datetime, seconds: float, chunks: int) -> None:
         when = started.isoformat(timespec="seconds")
-        self._study.made.add([{"started": when, "seconds": round(seconds, 3), "on": runner, "chunks": chunks}])
+        self._study.made.add_runs([{"started": when, "seconds": round(seconds, 3), "on": runner, "chunks": chunks}])

@@ -1,4 +1,4 @@
-"""Where a failed arm stops: stationary points, their curves and basins, and limit cycles."""
+"""Stationary points of a failed arm, their curves and basins, and limit cycles."""
 
 from holdfast._lazy import offer
 

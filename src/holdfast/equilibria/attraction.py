@@ -1,4 +1,6 @@
-"""Where starts end up: the share of each stationary point, and for two healthy joints the borders of the basins."""
+"""The basins of a failed arm: the fraction of starts at each stationary point, and the basin boundaries of two
+healthy joints.
+"""
 
 from __future__ import annotations
 
@@ -9,20 +11,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import LARGEST, checked, real_numbers
+from holdfast.arguments import LARGEST_EXACT_INTEGER, check_arguments, require_real_numbers
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
-from holdfast.equilibria.points import StationaryPoints, classified, search
+from holdfast.equilibria.points import StationaryPoints, classify_points, find_stationary_points
 from holdfast.equilibria.stability import Kind
-from holdfast.equilibria.system import RestSystem, distinct
+from holdfast.equilibria.system import RestSystem, select_distinct
 from holdfast.errors import InputError
-from holdfast.failures import LockedAt, locks_given
-from holdfast.notice import says
+from holdfast.failures import LockedAt, locks_with_values
+from holdfast.notice import reports_progress
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.result import Result
 from holdfast.simulation.closed_loop import simulate
-from holdfast.simulation.runs import Outcome, Runs
+from holdfast.simulation.runs import RunOutcome, Runs
 from holdfast.solvers import joint_space
 
 if TYPE_CHECKING:
@@ -33,19 +35,19 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-STARTS = 2000
-NEAR = 1e-2  # rad (and m): a run that ends nearer than this to a stationary point ended there
-ARRIVED, MOVING, UNDECIDED, STUCK = -1, -2, -3, -4
-_WORDS = {ARRIVED: "target", STUCK: "stuck on a continuum", MOVING: "moving", UNDECIDED: "undecided"}
-_OFFSET, _LENGTH = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
-_SLOW = 1e-6  # rad/s: here it ends, at a source
-_SPACING = 0.02
-_STALLED = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps
+DEFAULT_STARTS = 2000
+END_TOLERANCE = 1e-2  # rad (and m): a run that ends nearer than this to a stationary point ended there
+END_AT_TARGET, END_MOVING, END_UNDECIDED, END_STUCK = -1, -2, -3, -4
+_END_WORDS = {END_AT_TARGET: "target", END_STUCK: "stuck on a continuum", END_MOVING: "moving", END_UNDECIDED: "undecided"}
+_BOUNDARY_OFFSET_RAD, _BOUNDARY_LENGTH_RAD = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
+_SOURCE_SPEED_RAD_S = 1e-6  # rad/s: here it ends, at a source
+_LINE_SPACING = 0.02
+_STALL_STEPS = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Basins(Result):
-    """Where N starts ended.
+    """Ends of the motions from N starts.
 
     Attributes:
         points: Stationary points; those at which runs ended are among them.
@@ -71,47 +73,47 @@ class Basins(Result):
 
     @property
     def shares(self) -> list[tuple[str, Interval]]:
-        """Where starts ended, solutions and sinks always, and the share of starts with its exact interval."""
-        always = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
-        codes = sorted({*self.end.tolist(), *np.flatnonzero(always).tolist()}, key=lambda k: (k < 0, abs(k)))
-        return [(self.name(k), Interval.of(int((self.end == k).sum()), len(self.end), self.confidence)) for k in codes]
+        """Ends of the starts, always with solutions and sinks, and the fraction of starts of each with its exact interval."""
+        is_isolated_end = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
+        codes = sorted({*self.end.tolist(), *np.flatnonzero(is_isolated_end).tolist()}, key=lambda code: (code < 0, abs(code)))
+        return [(self.name(code), Interval.of(int((self.end == code).sum()), len(self.end), self.confidence)) for code in codes]
 
     def name(self, code: int) -> str:
-        """A value of ``end`` for people: the kind and number from 1 of a point, or a word."""
-        return _WORDS[code] if code < 0 else f"{Kind(self.points.kind[code]).word} {code + 1}"
+        """Return a value of ``end`` as text: the kind and number from 1 of a point, or a word."""
+        return _END_WORDS[code] if code < 0 else f"{Kind(self.points.kind[code]).word} {code + 1}"
 
     @property
     def converged(self) -> Interval:
-        """Share of starts that reach the target."""
-        converged = np.asarray(self.runs.code) == Outcome.CONVERGED
+        """Fraction of starts that reach the target."""
+        converged = np.asarray(self.runs.code) == RunOutcome.CONVERGED
         return Interval.of(int(converged.sum()), len(self.end), self.confidence)
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the fraction of starts that reach the target in a few sentences."""
         return [self.points.describe()[0], f"{self.converged} of {len(self.end)} starts reach the target"]
 
     def to_xarray(self) -> xr.Dataset:
-        """The starts with their ends: one row each, rad and m; see ``end`` for the codes."""
+        """Return the starts with their ends, one row each, rad and m; see ``end`` for the codes."""
         import xarray as xr
 
         values = {"start": (("start_number", "joint"), self.starts), "end": ("start_number", self.end)}
         return xr.Dataset(values, {"joint": list(self.points.law.arm.joint_names)})
 
 
-@checked
-@says("simulating the basins")
+@check_arguments
+@reports_progress("simulating the basins")
 def basins(
     law: Law,
     target: ArrayLike,
     locked: LockedAt,
     *,
-    starts: int | ArrayLike = STARTS,
+    starts: int | ArrayLike = DEFAULT_STARTS,
     grid: int | None = None,
     seed: int = 0,
     time_limit: float | None = None,
     confidence: float = 0.95,
 ) -> Basins:
-    """Which starts of a failed arm reach the target, and where the others end.
+    """Determine which starts of a failed arm reach the target, and where the others end.
 
     Starts are drawn uniformly between the limits of the healthy joints, over the whole turn where there are none, and each is
     simulated; its end is matched with the stationary points of :func:`holdfast.stationary_points`.
@@ -132,120 +134,128 @@ def basins(
     Source: Goel et al. 2005, Fig. 8. Matching, shares and intervals are ours.
     """
     check_confidence(confidence)
-    (joints, values), pose = locks_given(law.arm, locked), target_pose(law.task, target)
+    (joints, values), target_matrix = locks_with_values(law.arm, locked), target_pose(law.task, target)
     generator = np.random.default_rng(seed)
-    system = RestSystem(law, pose, joints)
-    moving = tuple(int(k) for k in np.flatnonzero(system.healthy))
-    points = search(system, values, generator)
-    q0 = _starts(law, moving, starts, grid, generator)
+    system = RestSystem(law, target_matrix, joints)
+    moving_joints = tuple(int(joint) for joint in np.flatnonzero(system.healthy))
+    points = find_stationary_points(system, values, generator)
+    q0 = _make_starts(law, moving_joints, starts, grid, generator)
     q0[:, list(joints)] = values
-    runs = simulate(law, q0, pose, locked=list(joints), time_limit=time_limit)
-    points = _completed(system, points, runs)
-    shape = None if grid is None else (grid, grid)
-    lines = tuple(_boundaries(system, points)) if len(moving) == 2 else ()
+    runs = simulate(law, q0, target_matrix, locked=list(joints), time_limit=time_limit)
+    points = _add_missed_points(system, points, runs)
+    grid_shape = None if grid is None else (grid, grid)
+    boundaries = tuple(_trace_boundaries(system, points)) if len(moving_joints) == 2 else ()
     return Basins(
         points=points,
         starts=q0,
-        end=_ends(system, points, runs),
+        end=_match_ends(system, points, runs),
         runs=runs,
         confidence=confidence,
-        boundaries=lines,
-        shape=shape,
-        healthy=moving,
+        boundaries=boundaries,
+        shape=grid_shape,
+        healthy=moving_joints,
     )
 
 
-def _starts(
+def _make_starts(
     law: Law, moving: Sequence[int], starts: int | ArrayLike, grid: int | None, generator: np.random.Generator
 ) -> Array:
     arm = law.arm
-    low, high = finite_limits(arm)
+    lower, upper = finite_limits(arm)
     if grid is not None:
         if len(moving) != 2 or grid < 2:
             raise InputError(
                 f"grid is {grid} with {len(moving)} healthy joints; it takes two healthy joints and 2 or more cells"
             )
-        share = (np.arange(grid) + 0.5) / grid
+        fractions = (np.arange(grid) + 0.5) / grid
         q = np.zeros((grid * grid, arm.n))
-        first, second = np.meshgrid(share, share, indexing="ij")
-        for k, x in zip(moving, (first, second), strict=True):
-            q[:, k] = low[k] + (high[k] - low[k]) * x.ravel()
+        first, second = np.meshgrid(fractions, fractions, indexing="ij")
+        for joint, grid_values in zip(moving, (first, second), strict=True):
+            q[:, joint] = lower[joint] + (upper[joint] - lower[joint]) * grid_values.ravel()
         return q
     if np.ndim(starts) == 0:
-        number = float(real_numbers(starts, "starts"))
-        if not 1 <= number <= LARGEST or number != int(number):
+        number = float(require_real_numbers(starts, "starts"))
+        if not 1 <= number <= LARGEST_EXACT_INTEGER or number != int(number):
             raise InputError(f"starts is {number:g}; it must be a whole number of 1 or more, or configurations")
         count = int(number)
-        return np.asarray(generator.uniform(low, high, (count, arm.n)))
+        return np.asarray(generator.uniform(lower, upper, (count, arm.n)))
     return np.atleast_2d(arm.check_configurations(np.asarray(starts, dtype=np.float64))).copy()
 
 
-def _completed(system: RestSystem, points: StationaryPoints, runs: Runs) -> StationaryPoints:
-    """With points added at which runs stopped though the search did not find them."""
-    stuck = _finals(system, runs)[runs.code == Outcome.STUCK]
-    new = distinct(system.law.arm, stuck, points.q, NEAR)
-    if not len(new):
+def _add_missed_points(system: RestSystem, points: StationaryPoints, runs: Runs) -> StationaryPoints:
+    """Add the points at which runs stopped and which the search did not find."""
+    stuck_ends = _final_configurations(system, runs)[runs.code == RunOutcome.STUCK]
+    new_points = select_distinct(system.law.arm, stuck_ends, points.q, END_TOLERANCE)
+    if not len(new_points):
         return points
-    exact = system.settled(new)
-    new = np.where(np.isfinite(exact) & (np.abs(exact - new) < NEAR), exact, new)
-    return classified(
-        system, points.at, np.concatenate([points.q, distinct(system.law.arm, new, points.q, NEAR)]), points.starts
+    refined = system.refine_points(new_points)
+    new_points = np.where(np.isfinite(refined) & (np.abs(refined - new_points) < END_TOLERANCE), refined, new_points)
+    return classify_points(
+        system,
+        points.at,
+        np.concatenate([points.q, select_distinct(system.law.arm, new_points, points.q, END_TOLERANCE)]),
+        points.starts,
     )
 
 
-def _finals(system: RestSystem, runs: Runs) -> Array:
-    """(N, n) where the runs ended, joints that the task does not notice at 0, as in stationary points."""
+def _final_configurations(system: RestSystem, runs: Runs) -> Array:
+    """Return (N, n) the ends of the runs, with joints that do not move the task at 0, as in stationary points."""
     q = runs.q_final.copy()
     q[:, list(system.idle)] = 0.0
     return q
 
 
-def _ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> Indices:
-    """(N,) see :class:`Basins`."""
-    codes = {Outcome.CONVERGED: ARRIVED, Outcome.STUCK: STUCK, Outcome.MOVING: MOVING, Outcome.UNDECIDED: UNDECIDED}
-    end = np.array([codes[Outcome(c)] for c in runs.code], dtype=np.int64)
-    free, finals = points.law.arm.without_limits, _finals(system, runs)
-    reached = points.kind == Kind.SOLUTION
-    for outcome, alike in ((Outcome.CONVERGED, reached), (Outcome.STUCK, ~reached)):
-        rows, among = np.flatnonzero(runs.code == outcome), np.flatnonzero(alike & ~points.continuum)
-        if rows.size and among.size:
-            away, nearest = joint_space.nearest(free, points.q[among], finals[rows])
-            end[rows[away < NEAR]] = among[nearest[away < NEAR]]
-    return end
+def _match_ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> Indices:
+    """Match the ends of runs (N,) with stationary points; see :class:`Basins`."""
+    codes = {
+        RunOutcome.CONVERGED: END_AT_TARGET,
+        RunOutcome.STUCK: END_STUCK,
+        RunOutcome.MOVING: END_MOVING,
+        RunOutcome.UNDECIDED: END_UNDECIDED,
+    }
+    end_codes = np.array([codes[RunOutcome(code)] for code in runs.code], dtype=np.int64)
+    unlimited_arm, finals = points.law.arm.without_limits, _final_configurations(system, runs)
+    is_solution = points.kind == Kind.SOLUTION
+    for outcome, is_candidate in ((RunOutcome.CONVERGED, is_solution), (RunOutcome.STUCK, ~is_solution)):
+        run_rows, candidates = np.flatnonzero(runs.code == outcome), np.flatnonzero(is_candidate & ~points.continuum)
+        if run_rows.size and candidates.size:
+            distance, nearest = joint_space.find_nearest(unlimited_arm, points.q[candidates], finals[run_rows])
+            end_codes[run_rows[distance < END_TOLERANCE]] = candidates[nearest[distance < END_TOLERANCE]]
+    return end_codes
 
 
-def _boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[Array]:
-    """The stable manifolds of the saddles, followed backwards in time at unit speed."""
+def _trace_boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[Array]:
+    """Trace the stable manifolds of the saddles backwards in time at unit speed."""
     rates = system.linear.field(system.pose, system.healthy)
 
-    def back(_: float, q: Array) -> Array:
-        now = rates(q)
-        return np.asarray(-now / max(float(np.linalg.norm(now)), 1e-12))
+    def reversed_field(_: float, q: Array) -> Array:
+        joint_rates = rates(q)
+        return np.asarray(-joint_rates / max(float(np.linalg.norm(joint_rates)), 1e-12))
 
     for q in points.q[points.kind == Kind.SADDLE]:
         matrix = system.linear.matrices(q[None], system.pose, system.healthy)[0]
         values, vectors = np.linalg.eig(matrix)
-        into = np.zeros(len(q))
-        into[system.healthy] = vectors[:, np.argmin(values.real)].real
-        for side in (1.0, -1.0):
-            start = q + side * _OFFSET * into / np.linalg.norm(into)
-            yield _line(back, start, lambda q: float(np.linalg.norm(rates(q))) < _SLOW)
+        direction = np.zeros(len(q))
+        direction[system.healthy] = vectors[:, np.argmin(values.real)].real
+        for sign in (1.0, -1.0):
+            start = q + sign * _BOUNDARY_OFFSET_RAD * direction / np.linalg.norm(direction)
+            yield _integrate_line(reversed_field, start, lambda q: float(np.linalg.norm(rates(q))) < _SOURCE_SPEED_RAD_S)
 
 
-def _line(speed: Callable[[float, Array], Array], start: Array, ended: Callable[[Array], bool]) -> Array:
-    """(P, n) a line of unit speed from its start to its end, or to where it cannot go on, as at a singular configuration."""
+def _integrate_line(speed: Callable[[float, Array], Array], start: Array, is_end: Callable[[Array], bool]) -> Array:
+    """Return (P, n) a line of unit speed from its start to its end, or to a singular configuration where it cannot continue."""
     from scipy.integrate import RK45, OdeSolution
 
-    solver = RK45(speed, 0.0, start, _LENGTH, rtol=1e-8, atol=1e-10, max_step=0.1)
-    times, pieces = [0.0], []
+    solver = RK45(speed, 0.0, start, _BOUNDARY_LENGTH_RAD, rtol=1e-8, atol=1e-10, max_step=0.1)
+    times, interpolants = [0.0], []
     while solver.status == "running":
         if solver.step() is not None:  # why no step is small enough
             break
         times.append(solver.t)
-        pieces.append(solver.dense_output())
-        stalled = len(times) > _STALLED and times[-1] - times[-1 - _STALLED] < _SPACING
-        if stalled or (solver.t > _SPACING and ended(solver.y)):  # nothing ends where it begins, where all is slow
+        interpolants.append(solver.dense_output())
+        is_stalled = len(times) > _STALL_STEPS and times[-1] - times[-1 - _STALL_STEPS] < _LINE_SPACING
+        if is_stalled or (solver.t > _LINE_SPACING and is_end(solver.y)):  # nothing ends where it begins, where all is slow
             break
-    if not pieces:
+    if not interpolants:
         return start[None]
-    return np.asarray(OdeSolution(times, pieces)(np.arange(0, times[-1], _SPACING)).T)
+    return np.asarray(OdeSolution(times, interpolants)(np.arange(0, times[-1], _LINE_SPACING)).T)

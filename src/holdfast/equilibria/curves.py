@@ -1,4 +1,6 @@
-"""The curves that stationary points make as the value of one locked joint changes, and where on them the arm gets stuck."""
+"""The curves that stationary points form as the value of one locked joint changes, and the parts of them where the arm gets
+stuck.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds
-from holdfast.equilibria.system import RestSystem, wrapped
+from holdfast.equilibria.system import RestSystem, wrap_angles
 from holdfast.result import Result
 
 if TYPE_CHECKING:
@@ -21,14 +23,14 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Arc = tuple[float, float]
 
-TURN = 2 * np.pi
-TOUCH = 3e-5  # rad (and m): arcs this far apart are one; where curves cross, ends are known to about 1e-5
-NEARBY = 0.1  # rad (and m): sampled values this near are told as one range
+FULL_TURN_RAD = 2 * np.pi
+ARC_TOLERANCE = 3e-5  # rad (and m): arcs this far apart are one; where curves cross, ends are known to about 1e-5
+SAMPLE_RADIUS = 0.1  # rad (and m): sampled values this near are told as one range
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of a curve on which the kind does not change.
+    """A section of a curve on which the kind does not change.
 
     Attributes:
         kind: Of all its points but its ends.
@@ -78,7 +80,7 @@ class Curve:
 
     @property
     def locked(self) -> Array:
-        """(K,) the locked value, rad (or m)."""
+        """(K,) values of the locked joint, rad (or m)."""
         return self.q[:, self.joint]
 
     @property
@@ -87,9 +89,13 @@ class Curve:
         return self.arcs(Kind.SINK)
 
     def arcs(self, kind: Kind) -> list[Arc]:
-        """Locked values of each segment of a kind, ``(lower, upper)``."""
-        ends = [sorted((float(self.locked[s.first]), float(self.locked[s.last]))) for s in self.segments if s.kind == kind]
-        return [(low, high) for low, high in ends]
+        """Return the locked values of each segment of a kind, ``(lower, upper)``."""
+        arc_ends = [
+            sorted((float(self.locked[segment.first]), float(self.locked[segment.last])))
+            for segment in self.segments
+            if segment.kind == kind
+        ]
+        return [(lower, upper) for lower, upper in arc_ends]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -125,74 +131,88 @@ class Curves(Result):
         value. Outside no sink was found, which does not exclude limit cycles or slow motion beside degenerate values.
         """
         arcs = [arc for curve in self.curves if not curve.degenerate for arc in curve.sinks]
-        return merged(arcs, turning=not self.law.arm.joints[self.joint].prismatic)
+        return merge_arcs(arcs, is_revolute=not self.law.arm.joints[self.joint].prismatic)
 
     @property
     def degenerate_angles(self) -> list[float]:
         """Locked values, by size, of whole curves of stationary points; rad from -pi to pi (or m)."""
-        values = [np.median(c.q, axis=0) for c in self.curves if c.degenerate]
+        values = [np.median(curve.q, axis=0) for curve in self.curves if curve.degenerate]
         if not values:
             return []
-        angles = np.sort(wrapped(self.law.arm, np.array(values))[:, self.joint])
-        return [float(x) for x in angles[np.r_[True, np.diff(angles) > 1e-6]]]
+        angles = np.sort(wrap_angles(self.law.arm, np.array(values))[:, self.joint])
+        return [float(angle) for angle in angles[np.r_[True, np.diff(angles) > 1e-6]]]
 
     def at(self, value: float) -> Array:
-        """(P, n) stationary points at one locked value, rad (or m): where curves that are not degenerate pass it."""
+        """Return (P, n) the stationary points at one locked value, rad (or m), on the curves that are not degenerate."""
         arm = self.law.arm
-        found = [np.empty((0, arm.n))]
+        points = [np.empty((0, arm.n))]
         for curve in self.curves:
             if curve.degenerate:
                 continue
-            away = curve.locked - value
+            differences = curve.locked - value
             if not arm.joints[self.joint].prismatic:
-                away = (away + np.pi) % TURN - np.pi
-            crosses = np.flatnonzero((away[1:] * away[:-1] <= 0) & (np.abs(np.diff(away)) < 1.0) & (away[:-1] != 0))
-            share = away[crosses] / (away[crosses] - away[crosses + 1])
-            q = curve.q[crosses] + share[:, None] * (curve.q[crosses + 1] - curve.q[crosses])
+                differences = (differences + np.pi) % FULL_TURN_RAD - np.pi
+            crossings = np.flatnonzero(
+                (differences[1:] * differences[:-1] <= 0) & (np.abs(np.diff(differences)) < 1.0) & (differences[:-1] != 0)
+            )
+            fraction = differences[crossings] / (differences[crossings] - differences[crossings + 1])
+            q = curve.q[crossings] + fraction[:, None] * (curve.q[crossings + 1] - curve.q[crossings])
             q[:, self.joint] = value
-            found.append(self._system.settled(q))
-        return wrapped(arm, np.concatenate(found))
+            points.append(self._system.refine_points(q))
+        return wrap_angles(arm, np.concatenate(points))
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the curves and their sinks in a few sentences."""
         arm = self.law.arm
         factor, unit = arm.joints[self.joint].shown
-        name = arm.joint_names[self.joint]
+        joint_name = arm.joint_names[self.joint]
         lines = [
-            f"{arm.title} under {self.law.describe()}, {name} locked at any value: {len(self)} curves, {self.starts} starts"
+            f"{arm.title} under {self.law.describe()}, {joint_name} locked at any value: {len(self)} curves, "
+            f"{self.starts} starts"
         ]
-        arcs = ", ".join(f"{factor * a:.3f} to {factor * b:.3f}" for a, b in self.sink_arcs)
-        lines.append(f"sinks with {name} at {arcs} {unit}" if arcs else "no sinks were found")
-        values = ", ".join(f"{factor * x:.4f}" for x in self.degenerate_angles)
-        lines += [f"whole curves of stationary points with {name} at {values} {unit}"] if values else []
+        arcs = ", ".join(f"{factor * lower:.3f} to {factor * upper:.3f}" for lower, upper in self.sink_arcs)
+        lines.append(f"sinks with {joint_name} at {arcs} {unit}" if arcs else "no sinks were found")
+        values = ", ".join(f"{factor * angle:.4f}" for angle in self.degenerate_angles)
+        lines += [f"whole curves of stationary points with {joint_name} at {values} {unit}"] if values else []
         if len(self.loose):
-            stuck = self.loose.attracting
-            near = merged([(float(x) - NEARBY, float(x) + NEARBY) for x in self.loose.q[stuck, self.joint]], unit == "deg")
-            arcs = ", ".join(f"{factor * (a + NEARBY):.0f} to {factor * (b - NEARBY):.0f}" for a, b in near)
-            where = f", about {arcs} {unit}" if near else ""
-            lines.append(f"{len(self.loose)} samples of surfaces of stationary points, {int(stuck.sum())} attracting{where}")
+            is_attracting = self.loose.attracting
+            stuck_arcs = merge_arcs(
+                [
+                    (float(angle) - SAMPLE_RADIUS, float(angle) + SAMPLE_RADIUS)
+                    for angle in self.loose.q[is_attracting, self.joint]
+                ],
+                unit == "deg",
+            )
+            arcs = ", ".join(
+                f"{factor * (lower + SAMPLE_RADIUS):.0f} to {factor * (upper - SAMPLE_RADIUS):.0f}"
+                for lower, upper in stuck_arcs
+            )
+            arc_text = f", about {arcs} {unit}" if stuck_arcs else ""
+            lines.append(
+                f"{len(self.loose)} samples of surfaces of stationary points, {int(is_attracting.sum())} attracting{arc_text}"
+            )
         return lines
 
 
-def merged(arcs: Sequence[Arc], turning: bool) -> list[Arc]:
-    """Arcs ``(lower, upper)`` united; of a revolute joint modulo whole turns, each with lower in [-pi, pi)."""
-    if not turning:
-        return _united(sorted(arcs))
-    starts = [((low + np.pi) % TURN - np.pi, high - low) for low, high in arcs]
-    united = _united(sorted((low, low + size) for low, size in starts))
+def merge_arcs(arcs: Sequence[Arc], is_revolute: bool) -> list[Arc]:
+    """Merge arcs ``(lower, upper)``; of a revolute joint modulo full turns, each with lower in [-pi, pi)."""
+    if not is_revolute:
+        return _join_overlapping(sorted(arcs))
+    starts = [((lower + np.pi) % FULL_TURN_RAD - np.pi, upper - lower) for lower, upper in arcs]
+    joined = _join_overlapping(sorted((lower, lower + length) for lower, length in starts))
     # What reaches beyond pi comes round to the first arcs.
-    while len(united) > 1 and united[0][0] + TURN <= united[-1][1] + TOUCH:
-        _, high = united.pop(0)
-        united[-1] = (united[-1][0], max(united[-1][1], high + TURN))
-    return [(-np.pi, np.pi)] if any(high - low >= TURN - TOUCH for low, high in united) else united
+    while len(joined) > 1 and joined[0][0] + FULL_TURN_RAD <= joined[-1][1] + ARC_TOLERANCE:
+        _, upper = joined.pop(0)
+        joined[-1] = (joined[-1][0], max(joined[-1][1], upper + FULL_TURN_RAD))
+    return [(-np.pi, np.pi)] if any(upper - lower >= FULL_TURN_RAD - ARC_TOLERANCE for lower, upper in joined) else joined
 
 
-def _united(arcs: Sequence[Arc]) -> list[Arc]:
-    """Sorted arcs on a line, those that touch made one."""
-    out: list[Arc] = []
-    for low, high in arcs:
-        if out and low <= out[-1][1] + TOUCH:
-            out[-1] = (out[-1][0], max(out[-1][1], high))
+def _join_overlapping(arcs: Sequence[Arc]) -> list[Arc]:
+    """Join sorted arcs on a line where they touch."""
+    joined: list[Arc] = []
+    for lower, upper in arcs:
+        if joined and lower <= joined[-1][1] + ARC_TOLERANCE:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], upper))
         else:
-            out.append((low, high))
-    return out
+            joined.append((lower, upper))
+    return joined

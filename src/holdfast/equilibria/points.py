@@ -1,4 +1,4 @@
-"""Where a failed arm can stop with its joint locked at a given value: all points found, and what they are."""
+"""The points at which a failed arm can stop with its joint locked at a given value, and their kinds."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
-from holdfast.equilibria.stability import Kind, Kinds, attracts, kinds
-from holdfast.equilibria.system import RestSystem, distinct, idle_joints, wrapped
-from holdfast.notice import Progress, told
+from holdfast.equilibria.stability import Kind, Kinds, classify_kinds, is_attracting
+from holdfast.equilibria.system import RestSystem, idle_joints, select_distinct, wrap_angles
+from holdfast.notice import Progress, ignore_progress
 from holdfast.result import Result
 from holdfast.simulation.system import tool_errors
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-WAVE, PATIENCE, MOST_WAVES = 256, 3, 40
-SAME, SAME_DEGENERATE = 1e-5, 0.05  # rad (and m): points nearer than this are one
-SAMPLE = 256  # points of a continuum that are kept
+WAVE_STARTS, MAX_IDLE_WAVES, MAX_WAVES = 256, 3, 40
+POINT_TOLERANCE, CONTINUUM_SPACING = 1e-5, 0.05  # rad (and m): points nearer than this are one
+MAX_CONTINUUM_POINTS = 256  # points of a continuum that are kept
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -64,13 +64,13 @@ class StationaryPoints(Result):
         return len(self.q)
 
     def of_kind(self, *chosen: Kind) -> StationaryPoints:
-        """Only the points of these kinds."""
+        """Return only the points of these kinds."""
         return self._subset(np.isin(self.kind, chosen))
 
     @property
     def kinds(self) -> list[str]:
         """``solution``, ``sink``, ``saddle``, ``source`` or ``degenerate`` of each point."""
-        return [Kind(k).word for k in self.kind]
+        return [Kind(kind).word for kind in self.kind]
 
     @property
     def position_error(self) -> Array:
@@ -89,7 +89,7 @@ class StationaryPoints(Result):
     @property
     def attracting(self) -> Flags:
         """(P,) True for sinks, and for points that repel in no direction: those of a continuum that the arm can end on."""
-        return attracts(self.eigenvalues)
+        return is_attracting(self.eigenvalues)
 
     @property
     def balance(self) -> int:
@@ -98,26 +98,33 @@ class StationaryPoints(Result):
         By Poincare and Hopf the sum for two healthy joints that turn without end is 0 where J is regular everywhere, which
         tells of points that were missed.
         """
-        alone = ~self.continuum & np.isfinite(self.eigenvalues).all(axis=1)
-        signs = int(np.sign(np.prod(self.eigenvalues[alone], axis=1).real).sum())
-        return -signs if self.eigenvalues.shape[1] % 2 else signs
+        is_isolated = ~self.continuum & np.isfinite(self.eigenvalues).all(axis=1)
+        sign_sum = int(np.sign(np.prod(self.eigenvalues[is_isolated], axis=1).real).sum())
+        return -sign_sum if self.eigenvalues.shape[1] % 2 else sign_sum
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the stationary points by kind in a few sentences."""
         arm = self.law.arm
-        where = ", ".join(f"{arm.joint_names[k]} at {_shown(arm, k, x)}" for k, x in zip(self.locked, self.at, strict=True))
-        lines = [f"{arm.title} under {self.law.describe()}, locked: {where}; {self.starts} starts"]
-        idle = [arm.joint_names[k] for k in idle_joints(self.law) if k not in self.locked]
-        if idle:
-            lines.append(f"the task does not notice {', '.join(idle)}, shown at 0")
+        lock_text = ", ".join(
+            f"{arm.joint_names[joint]} at {_format_value(arm, joint, value)}"
+            for joint, value in zip(self.locked, self.at, strict=True)
+        )
+        lines = [f"{arm.title} under {self.law.describe()}, locked: {lock_text}; {self.starts} starts"]
+        idle_names = [arm.joint_names[joint] for joint in idle_joints(self.law) if joint not in self.locked]
+        if idle_names:
+            lines.append(f"the task does not notice {', '.join(idle_names)}, shown at 0")
         for kind in Kind:
-            here = self.kind == kind
-            if (here & ~self.continuum).any():
-                lines.append(f"{int((here & ~self.continuum).sum())} x {kind.word}")
-            loose = here & self.continuum
-            if loose.any():
-                attracting = "" if kind == Kind.SOLUTION else f", {int((loose & self.attracting).sum())} of them attracting"
-                lines.append(f"{int(loose.sum())} x {kind.word}, sampled from points that are not isolated{attracting}")
+            is_of_kind = self.kind == kind
+            if (is_of_kind & ~self.continuum).any():
+                lines.append(f"{int((is_of_kind & ~self.continuum).sum())} x {kind.word}")
+            is_continuum = is_of_kind & self.continuum
+            if is_continuum.any():
+                attracting_text = (
+                    "" if kind == Kind.SOLUTION else f", {int((is_continuum & self.attracting).sum())} of them attracting"
+                )
+                lines.append(
+                    f"{int(is_continuum.sum())} x {kind.word}, sampled from points that are not isolated{attracting_text}"
+                )
         return lines
 
     def _subset(self, rows: Flags | NDArray[np.intp]) -> StationaryPoints:
@@ -125,65 +132,73 @@ class StationaryPoints(Result):
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
 
-def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> StationaryPoints:
-    """All stationary points that random starts find with the locked joints at (k,)."""
+def find_stationary_points(
+    system: RestSystem, locked_values: Array, generator: np.random.Generator, report_progress: Progress = ignore_progress
+) -> StationaryPoints:
+    """Find all stationary points that random starts reach with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
-    spare = int(system.healthy.sum()) > system.law.task.m
-    reached, first = _gathered(system, at, system.solutions, generator, 1 if spare else MOST_WAVES, told)
-    stuck, second = _gathered(system, at, system.stuck, generator, MOST_WAVES, advance)
-    return classified(system, at, np.concatenate([reached, stuck]), first + second)
+    has_spare_joints = int(system.healthy.sum()) > system.law.task.m
+    solutions, solution_starts = _gather_points(
+        system, locked_values, system.find_solutions, generator, 1 if has_spare_joints else MAX_WAVES, ignore_progress
+    )
+    stuck_points, stuck_starts = _gather_points(system, locked_values, system.find_stuck, generator, MAX_WAVES, report_progress)
+    return classify_points(system, locked_values, np.concatenate([solutions, stuck_points]), solution_starts + stuck_starts)
 
 
-def _gathered(
+def _gather_points(
     system: RestSystem,
-    at: Array,
+    locked_values: Array,
     attempt: Callable[[Array], Array],
     generator: np.random.Generator,
-    most: int,
-    advance: Progress,
+    max_waves: int,
+    report_progress: Progress,
 ) -> tuple[Array, int]:
-    """Stationary points (P, n) from waves of starts, until some waves bring none that is isolated and new; how many starts."""
+    """Return stationary points (P, n) from waves of starts, until some waves bring none that is isolated and new, and the
+    starts used.
+    """
     arm = system.law.arm
-    alone, loose = np.empty((0, arm.n)), np.empty((0, arm.n))
-    starts = idle = 0
-    for _ in range(most):
-        z = system.starts(WAVE, generator)
-        z[:, list(system.joints)] = at
-        starts += WAVE
-        found = wrapped(arm, attempt(z))
-        firm = system.isolated(found)
-        fresh = distinct(arm, found[firm], alone, SAME)
-        alone = np.concatenate([alone, fresh])
-        loose = np.concatenate([loose, distinct(arm, found[~firm], loose, SAME_DEGENERATE)])[:SAMPLE]
-        idle = 0 if len(fresh) else idle + 1
-        advance(starts, starts + (PATIENCE - idle) * WAVE)  # if nothing new comes
-        if idle == PATIENCE:
+    isolated, continuum = np.empty((0, arm.n)), np.empty((0, arm.n))
+    starts = idle_waves = 0
+    for _ in range(max_waves):
+        z = system.sample_starts(WAVE_STARTS, generator)
+        z[:, list(system.locked_joints)] = locked_values
+        starts += WAVE_STARTS
+        candidates = wrap_angles(arm, attempt(z))
+        is_isolated = system.is_isolated(candidates)
+        new_points = select_distinct(arm, candidates[is_isolated], isolated, POINT_TOLERANCE)
+        isolated = np.concatenate([isolated, new_points])
+        continuum = np.concatenate([continuum, select_distinct(arm, candidates[~is_isolated], continuum, CONTINUUM_SPACING)])[
+            :MAX_CONTINUUM_POINTS
+        ]
+        idle_waves = 0 if len(new_points) else idle_waves + 1
+        report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if nothing new comes
+        if idle_waves == MAX_IDLE_WAVES:
             break
-    return np.concatenate([alone, loose]), starts
+    return np.concatenate([isolated, continuum]), starts
 
 
-def classified(system: RestSystem, at: Array, q: Array, starts: int) -> StationaryPoints:
-    """Stationary points q (P, n) with what there is to know of them, by kind and error."""
+def classify_points(system: RestSystem, locked_values: Array, q: Array, starts: int) -> StationaryPoints:
+    """Return stationary points q (P, n) with their properties, sorted by kind and error."""
     arm, healthy = system.law.arm, system.healthy
-    rates, error, scaled = system.linear.rates(q, system.pose)
+    rates, error, scaled_error = system.linear.rates(q, system.pose)
     eigenvalues = system.eigenvalues(q)
-    kind = kinds(eigenvalues, scaled)
+    point_kinds = classify_kinds(eigenvalues, scaled_error)
     points = StationaryPoints(
         law=system.law,
         target=system.pose,
-        locked=system.joints,
-        at=at,
+        locked=system.locked_joints,
+        at=locked_values,
         q=q,
-        kind=kind,
+        kind=point_kinds,
         eigenvalues=eigenvalues,
         error=error,
         residual=np.linalg.norm(rates[:, healthy], axis=1),
-        continuum=~system.isolated(q),
+        continuum=~system.is_isolated(q),
         within_limits=np.asarray(((q >= arm.lower) & (q <= arm.upper)).all(axis=1)),
         starts=starts,
     )
-    return points._subset(np.lexsort((np.round(scaled, 9), ~points.attracting, kind)))
+    return points._subset(np.lexsort((np.round(scaled_error, 9), ~points.attracting, point_kinds)))
 
 
-def _shown(arm: Arm, k: int, value: float) -> str:
-    return f"{value:.4g} m" if arm.joints[k].prismatic else f"{np.rad2deg(value):.4f} deg"
+def _format_value(arm: Arm, joint: int, value: float) -> str:
+    return f"{value:.4g} m" if arm.joints[joint].prismatic else f"{np.rad2deg(value):.4f} deg"

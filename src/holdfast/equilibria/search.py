@@ -1,4 +1,4 @@
-"""Looking for stationary points of a failed arm: at given values of the locked joints, or curves over the value of one."""
+"""Search for stationary points of a failed arm, at given values of the locked joints or as curves over the value of one."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curves
-from holdfast.equilibria.points import StationaryPoints, search
+from holdfast.equilibria.points import StationaryPoints, find_stationary_points
 from holdfast.equilibria.system import RestSystem
-from holdfast.equilibria.tracing import trace
-from holdfast.failures import Locked, LockedAnywhere, LockedAt, locks_given, read_locks
-from holdfast.notice import working
+from holdfast.equilibria.tracing import trace_curves
+from holdfast.failures import Locked, LockedAnywhere, LockedAt, locks_with_values, read_locks
+from holdfast.notice import report_work
 
 
 @overload
@@ -24,9 +24,9 @@ def stationary_points(law: Law, target: ArrayLike, locked: LockedAt, *, seed: in
 def stationary_points(law: Law, target: ArrayLike, locked: LockedAnywhere, *, seed: int = ...) -> Curves: ...
 @overload
 def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int = ...) -> StationaryPoints | Curves: ...
-@checked
+@check_arguments
 def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int = 0) -> StationaryPoints | Curves:
-    """Where the arm can stop while its controller does not know that joints have locked.
+    """Find where the arm can stop while its controller has no information about the locked joints.
 
     With ``{joint: value}``, all stationary points that were found for these values of the locked joints: solutions, where the
     target is reached, and erroneous ones, where only locked joints are commanded. They are looked for from random starts, until
@@ -49,11 +49,13 @@ def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int 
 
     Source: Goel et al. 2005, Theorem 1 as corrected, eq. (18) to (22). Looking for all points is ours.
     """
-    pose = target_pose(law.task, target)
-    locks = read_locks(law.arm, locked)
-    if list(locks.values()) == [None] and law.arm.n > 1:
-        with working("tracing stationary points") as advance:
-            return trace(law, pose, next(iter(locks)), seed, advance=advance)
-    joints, values = locks_given(law.arm, locks)
-    with working("looking for stationary points") as advance:
-        return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed), advance)
+    target_matrix = target_pose(law.task, target)
+    lock_values = read_locks(law.arm, locked)
+    if list(lock_values.values()) == [None] and law.arm.n > 1:
+        with report_work("tracing stationary points") as advance:
+            return trace_curves(law, target_matrix, next(iter(lock_values)), seed, report_progress=advance)
+    joints, values = locks_with_values(law.arm, lock_values)
+    with report_work("looking for stationary points") as report_progress:
+        return find_stationary_points(
+            RestSystem(law, target_matrix, joints), values, np.random.default_rng(seed), report_progress
+        )

@@ -1,4 +1,4 @@
-"""Curves of erroneous rest over the value of one locked joint: predictor along the tangent, corrector back to the curve.
+"""Curves of erroneous rest over the value of one locked joint, by a predictor along the tangent and a corrector.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, section on tracing stationary manifolds. In the equations used here the
 curves run smoothly through configurations where J loses rank and through the target.
@@ -14,164 +14,179 @@ from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curve, Curves
-from holdfast.equilibria.equations import TOLERANCE
-from holdfast.equilibria.events import marked
-from holdfast.equilibria.points import classified
-from holdfast.equilibria.system import RestSystem, wrapped
-from holdfast.notice import Progress, told
+from holdfast.equilibria.equations import EQUATION_TOLERANCE
+from holdfast.equilibria.events import mark_events
+from holdfast.equilibria.points import classify_points
+from holdfast.equilibria.system import RestSystem, wrap_angles
+from holdfast.notice import Progress, ignore_progress
 from holdfast.solvers.curve_tracing import Component, distance_to_curve
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SPACING = 0.04  # of the unknowns, rad and m
-WAVE, PATIENCE, MOST_WAVES = 128, 3, 30
-_NEWTON = 6
-_SHORTEST = 2.0**-12  # of the spacing: the curve ends where no longer step succeeds
-_STRAIGHT = 0.97  # least cosine between tangents at the two ends of a step
-_LONGEST = 200.0  # rad: longer curves are cut
-_FAR = 50.0  # m: a prismatic joint beyond it has left
-_ON_CURVE = 0.15  # of the spacing: a seed nearer than this to a traced curve lies on it
-_SURFACE = 1e-6  # of the largest singular value: points with a smaller one than that are not on one curve
-_MOST_LOOSE = 512
-_NEW = 0.2  # of a curve's points must lie on no other curve
-_CONSTANT = 1e-6  # rad (and m): a locked value that changes less along a whole curve is one value
+CURVE_SPACING = 0.04  # of the unknowns, rad and m
+WAVE_STARTS, MAX_IDLE_WAVES, MAX_WAVES = 128, 3, 30
+_NEWTON_STEPS = 6
+_MIN_STEP_FRACTION = 2.0**-12  # of the spacing: the curve ends where no longer step succeeds
+_MIN_TANGENT_COSINE = 0.97  # least cosine between tangents at the two ends of a step
+_MAX_LENGTH_RAD = 200.0  # rad: longer curves are cut
+_MAX_TRAVEL_M = 50.0  # m: a prismatic joint beyond it has left
+_ON_CURVE_FRACTION = 0.15  # of the spacing: a seed nearer than this to a traced curve lies on it
+_SURFACE_TOLERANCE = 1e-6  # of the largest singular value: points with a smaller one than that are not on one curve
+_MAX_LOOSE_POINTS = 512
+_NEW_FRACTION = 0.2  # of a curve's points must lie on no other curve
+_CONSTANT_TOLERANCE = 1e-6  # rad (and m): a locked value that changes less along a whole curve is one value
 
 
-def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPACING, advance: Progress = told) -> Curves:
-    """All curves of erroneous rest that a random start converges to; see :func:`holdfast.equilibria.stationary_points`."""
+def trace_curves(
+    law: Law,
+    pose: Array,
+    joint: int,
+    seed: int = 0,
+    spacing: float = CURVE_SPACING,
+    report_progress: Progress = ignore_progress,
+) -> Curves:
+    """Trace all curves of erroneous rest to which a random start converges; see
+    :func:`holdfast.equilibria.stationary_points`.
+    """
     system = RestSystem(law, pose, (joint,))
-    tracer = Tracer(system, joint, spacing)
-    found, loose, starts = tracer.all(np.random.default_rng(seed), advance)
+    tracer = RestCurveTracer(system, joint, spacing)
+    curves, loose_points, starts = tracer.find_curves(np.random.default_rng(seed), report_progress)
     return Curves(
         law=law,
         target=pose,
         joint=joint,
-        curves=tuple(found),
-        loose=classified(system, np.array([np.nan]), loose, starts),
+        curves=tuple(curves),
+        loose=classify_points(system, np.array([np.nan]), loose_points, starts),
         starts=starts,
         _system=system,
     )
 
 
-class Tracer:
-    """Follows the curves of one law, target and locked joint."""
+class RestCurveTracer:
+    """Tracer of the curves of one law, target, and locked joint."""
 
     def __init__(self, system: RestSystem, joint: int, spacing: float) -> None:
         self.system, self.joint, self.spacing = system, joint, spacing
         self._arm = system.law.arm.without_limits
         self._n = system.law.arm.n
 
-    def all(self, generator: np.random.Generator, advance: Progress = told) -> tuple[list[Curve], Array, int]:
-        """Every curve that a start converges to, until some waves bring no new one; points on none; how many starts."""
-        found: list[Curve] = []
-        loose = np.empty((0, self._n))
-        starts = idle = 0
-        for _ in range(MOST_WAVES):
-            z = self.system.seeds(WAVE, generator)
-            starts += WAVE
-            known = len(found)
-            curved = self._curved(z)
-            loose = np.concatenate([loose, z[~curved, : self._n]])[:_MOST_LOOSE]
-            left = self._off(z[curved], found)
-            while len(left):
-                curve = self._curve(left[0])
-                left = left[1:]
+    def find_curves(
+        self, generator: np.random.Generator, report_progress: Progress = ignore_progress
+    ) -> tuple[list[Curve], Array, int]:
+        """Find every curve to which a start converges, until some waves bring no new one, the points on none, and the starts
+        used.
+        """
+        curves: list[Curve] = []
+        loose_points = np.empty((0, self._n))
+        starts = idle_waves = 0
+        for _ in range(MAX_WAVES):
+            z = self.system.find_seeds(WAVE_STARTS, generator)
+            starts += WAVE_STARTS
+            known_count = len(curves)
+            is_on_curve = self._is_on_curve(z)
+            loose_points = np.concatenate([loose_points, z[~is_on_curve, : self._n]])[:_MAX_LOOSE_POINTS]
+            remaining = self._select_off_curves(z[is_on_curve], curves)
+            while len(remaining):
+                curve = self._trace_curve(remaining[0])
+                remaining = remaining[1:]
                 if curve is not None:
                     # A seed where the equations are flat can lie beside a curve that is known.
-                    if len(self._off(curve.q, found)) > _NEW * len(curve.q):
-                        found.append(curve)
-                    left = self._off(left, [curve])
-            idle = 0 if len(found) > known else idle + 1
-            advance(starts, starts + (PATIENCE - idle) * WAVE)  # if nothing new comes
-            if idle == PATIENCE:
+                    if len(self._select_off_curves(curve.q, curves)) > _NEW_FRACTION * len(curve.q):
+                        curves.append(curve)
+                    remaining = self._select_off_curves(remaining, [curve])
+            idle_waves = 0 if len(curves) > known_count else idle_waves + 1
+            report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if nothing new comes
+            if idle_waves == MAX_IDLE_WAVES:
                 break
-        return found, wrapped(self.system.law.arm, loose), starts
+        return curves, wrap_angles(self.system.law.arm, loose_points), starts
 
-    def _curved(self, z: Array) -> Flags:
-        """(N,) whether the points near z (N, size) make one curve, and not a surface or one with several u for one q."""
+    def _is_on_curve(self, z: Array) -> Flags:
+        """Return (N,) True where the points near z (N, size) form one curve, and no surface or curve with several u
+        for one q.
+        """
         if not len(z):
             return np.zeros(0, dtype=bool)
-        _, slopes = self.system.values(z)
-        _, size, right = np.linalg.svd(slopes)
+        _, jacobian = self.system.evaluate(z)
+        _, singular_values, right_vectors = np.linalg.svd(jacobian)
         return np.asarray(
-            (size[:, -1] > _SURFACE * size[:, 0])
-            & (np.linalg.norm(right[:, -1, : -2 - self.system.law.task.m], axis=1) > _SURFACE)
+            (singular_values[:, -1] > _SURFACE_TOLERANCE * singular_values[:, 0])
+            & (np.linalg.norm(right_vectors[:, -1, : -2 - self.system.law.task.m], axis=1) > _SURFACE_TOLERANCE)
         )
 
-    def _off(self, z: Array, curves: Sequence[Curve]) -> Array:
-        """Those of z (N, size) that lie on none of the curves."""
+    def _select_off_curves(self, z: Array, curves: Sequence[Curve]) -> Array:
+        """Select those of z (N, size) that lie on none of the curves."""
         for curve in curves:
             if len(z):
                 component = Component(
                     q=curve.q[:-1] if curve.closed else curve.q, closed=curve.closed, bounded_by=(None, None), length=0.0
                 )
-                z = z[distance_to_curve(self._arm, component, z[:, : self._n]) > _ON_CURVE * self.spacing]
+                z = z[distance_to_curve(self._arm, component, z[:, : self._n]) > _ON_CURVE_FRACTION * self.spacing]
         return z
 
-    def _curve(self, seed: Array) -> Curve | None:
-        start, tangent, sound = self._corrected(seed, None)
-        if not sound:
+    def _trace_curve(self, seed: Array) -> Curve | None:
+        start, tangent, is_found = self._correct_point(seed, None)
+        if not is_found:
             return None
-        ahead, closed = self._follow(start, tangent)
-        points = ahead
+        forward_points, closed = self._follow_curve(start, tangent)
+        points = forward_points
         if not closed:
-            behind, _ = self._follow(start, -tangent)
-            points = behind[:0:-1] + ahead
+            backward_points, _ = self._follow_curve(start, -tangent)
+            points = backward_points[:0:-1] + forward_points
         if len(points) < 3:
             return None
         z = np.array(points)
-        if not self.system.holds(z):
+        if not self.system.is_law_at_rest(z):
             return None
-        constant = float(np.ptp(z[:, self.joint])) < _CONSTANT
-        return marked(self.system, self.joint, z, closed, constant)
+        is_constant = float(np.ptp(z[:, self.joint])) < _CONSTANT_TOLERANCE
+        return mark_events(self.system, self.joint, z, closed, is_constant)
 
-    def _follow(self, z: Array, tangent: Array) -> tuple[list[Array], bool]:
-        """Points of the curve one way from z, and whether it came back to z."""
-        points, start, first = [z], z, tangent
-        step, length, bend = self.spacing, 0.0, np.zeros_like(z)
-        sliding = self.system.law.arm.prismatic
-        while length < _LONGEST:
-            new, direction, sound = self._corrected(z + step * tangent + (step * step / 2) * bend, tangent)
-            moved = float(np.linalg.norm(new - z))
-            if not sound or direction @ tangent < _STRAIGHT or not 0.3 * step < moved < 1.7 * step:
+    def _follow_curve(self, z: Array, tangent: Array) -> tuple[list[Array], bool]:
+        """Return the points of the curve in one direction from z, and whether it came back to z."""
+        points, start, start_tangent = [z], z, tangent
+        step, length, curvature = self.spacing, 0.0, np.zeros_like(z)
+        is_prismatic = self.system.law.arm.prismatic
+        while length < _MAX_LENGTH_RAD:
+            next_point, direction, is_found = self._correct_point(z + step * tangent + (step * step / 2) * curvature, tangent)
+            distance = float(np.linalg.norm(next_point - z))
+            if not is_found or direction @ tangent < _MIN_TANGENT_COSINE or not 0.3 * step < distance < 1.7 * step:
                 step /= 2
-                if step < _SHORTEST * self.spacing:
+                if step < _MIN_STEP_FRACTION * self.spacing:
                     break
                 continue
-            if len(points) > 2 and self._passes(start, first, z, new):
-                points.append(self._same_turn(start, z))
+            if len(points) > 2 and self._passes_start(start, start_tangent, z, next_point):
+                points.append(self._match_turn(start, z))
                 return points, True
-            points.append(new)
-            z, bend, tangent, length = new, (direction - tangent) / moved, direction, length + moved
-            if np.abs(z[: self._n][sliding]).max(initial=0.0) > _FAR:
+            points.append(next_point)
+            z, curvature, tangent, length = next_point, (direction - tangent) / distance, direction, length + distance
+            if np.abs(z[: self._n][is_prismatic]).max(initial=0.0) > _MAX_TRAVEL_M:
                 break
             step = min(1.5 * step, self.spacing)
         return points, False
 
-    def _corrected(self, z: Array, tangent: Array | None) -> tuple[Array, Array, bool]:
-        """The point of the curve in the plane through z across the tangent, its unit tangent, and whether there is one.
+    def _correct_point(self, z: Array, tangent: Array | None) -> tuple[Array, Array, bool]:
+        """Return the point of the curve in the plane through z across the tangent, its unit tangent, and whether there is one.
 
         Without a tangent, the nearest point, with its tangent either way.
         """
         if tangent is None:
-            values, slopes = self.system.values(z[None])
+            values, jacobian = self.system.evaluate(z[None])
             tangent = np.zeros_like(z)
-            tangent[self.system.active] = np.linalg.svd(slopes[0])[2][-1]
+            tangent[self.system.active] = np.linalg.svd(jacobian[0])[2][-1]
         active = self.system.active
-        square = np.empty((active.size, active.size))
-        right = np.zeros((active.size, 2))
-        square[-1], right[-1, 1] = tangent[active], 1.0
-        for _ in range(_NEWTON):
-            values, slopes = self.system.values(z[None])
-            square[:-1], right[:-1, 0] = slopes[0], values[0]
+        matrix = np.empty((active.size, active.size))
+        right_sides = np.zeros((active.size, 2))
+        matrix[-1], right_sides[-1, 1] = tangent[active], 1.0
+        for _ in range(_NEWTON_STEPS):
+            values, jacobian = self.system.evaluate(z[None])
+            matrix[:-1], right_sides[:-1, 0] = jacobian[0], values[0]
             try:
-                step = np.linalg.solve(square, right)
+                step = np.linalg.solve(matrix, right_sides)
             except np.linalg.LinAlgError:
                 break
             if not np.isfinite(step).all():
                 break
-            if np.linalg.norm(values[0]) < TOLERANCE:
+            if np.linalg.norm(values[0]) < EQUATION_TOLERANCE:
                 direction = np.zeros_like(z)
                 direction[active] = step[:, 1] / np.linalg.norm(step[:, 1])
                 return z, direction, True
@@ -179,23 +194,26 @@ class Tracer:
             z[active] -= step[:, 0]
         return z, tangent, False
 
-    def _passes(self, start: Array, first: Array, z: Array, new: Array) -> bool:
-        """Whether the step from z to new passes the start, modulo whole turns, in its direction."""
+    def _passes_start(self, start: Array, start_tangent: Array, z: Array, next_point: Array) -> bool:
+        """Return True if the step from z to new passes the start, modulo full turns, in its direction."""
         n = self._n
-        step, gap = (new - z)[:n], self._difference(start[:n], z[:n])
-        size = max(float(step @ step), 1e-30)
-        share = float(gap @ step) / size
-        across = float(np.linalg.norm(gap - share * step))
-        return 0 < share <= 1 and across < 0.1 * np.sqrt(size) and float(first[:n] @ step) > 0
+        step, difference = (next_point - z)[:n], self._joint_difference(start[:n], z[:n])
+        squared_length = max(float(step @ step), 1e-30)
+        fraction = float(difference @ step) / squared_length
+        lateral_distance = float(np.linalg.norm(difference - fraction * step))
+        return 0 < fraction <= 1 and lateral_distance < 0.1 * np.sqrt(squared_length) and float(start_tangent[:n] @ step) > 0
 
-    def _same_turn(self, start: Array, z: Array) -> Array:
-        """The start as the next point after z: in the same turn, with u, c and s of the same signs."""
+    def _match_turn(self, start: Array, z: Array) -> Array:
+        """Return the start as the next point after z: in the same turn, with u, c, and s of the same signs."""
         n = self._n
-        q = z[:n] + self._difference(start[:n], z[:n])
+        q = z[:n] + self._joint_difference(start[:n], z[:n])
         signs = itertools.product((1, -1), repeat=3)
-        choices = [np.concatenate([q, a * start[n:-2], [b * start[-2], c * start[-1]]]) for a, b, c in signs]
-        choices = [c for c in choices if np.linalg.norm(self.system.values(c[None])[0]) < 1e-8]
-        return min(choices, key=lambda c: float(np.linalg.norm(c - z)))
+        choices = [
+            np.concatenate([q, first_sign * start[n:-2], [second_sign * start[-2], choice * start[-1]]])
+            for first_sign, second_sign, choice in signs
+        ]
+        choices = [choice for choice in choices if np.linalg.norm(self.system.evaluate(choice[None])[0]) < 1e-8]
+        return min(choices, key=lambda choice: float(np.linalg.norm(choice - z)))
 
-    def _difference(self, a: Array, b: Array) -> Array:
-        return np.asarray(wrapped(self.system.law.arm, a - b))
+    def _joint_difference(self, a: Array, b: Array) -> Array:
+        return np.asarray(wrap_angles(self.system.law.arm, a - b))

@@ -1,4 +1,4 @@
-"""Failure modes: which joints may fail, and what is known to have failed."""
+"""Failure modes: sets of joints that may fail, and the known failures of an arm."""
 
 from holdfast._lazy import offer
 

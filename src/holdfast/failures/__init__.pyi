@@ -5,7 +5,7 @@ from holdfast.failures.degraded import LockedAt as LockedAt
 from holdfast.failures.degraded import LockedValues as LockedValues
 from holdfast.failures.degraded import degraded_at as degraded_at
 from holdfast.failures.degraded import locks_at as locks_at
-from holdfast.failures.degraded import locks_given as locks_given
+from holdfast.failures.degraded import locks_with_values as locks_with_values
 from holdfast.failures.degraded import read_locks as read_locks
 from holdfast.failures.sets import FailureSets as FailureSets
 from holdfast.failures.sets import FailureSpec as FailureSpec

@@ -1,4 +1,4 @@
-"""What is known to have failed: joints that are locked, and joints that move less far or less fast than they should."""
+"""Known failures of an arm: locked joints, and joints with a reduced range or speed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files import output
 
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, init=False)
 class Degraded:
-    """An arm some of whose joints are locked, have lost a part of their range, or are slower than they should be.
+    """Arm with joints that are locked, have a reduced range, or are slower than specified.
 
     It is a box of limits and speeds, and is taken as ``locked=`` wherever a known lock is. In a file (:meth:`load`)::
 
@@ -43,7 +43,7 @@ class Degraded:
     ranges: Mapping[str, tuple[float, float]]
     speeds: Mapping[str, float]
 
-    @checked
+    @check_arguments
     def __init__(
         self,
         arm: Arm,
@@ -52,7 +52,7 @@ class Degraded:
         ranges: Mapping[Any, ArrayLike] | None = None,
         speeds: Mapping[Any, float] | None = None,
     ) -> None:
-        """What is degraded of an arm; joints by name or index from 0, several at once as they come.
+        """Describe the failures of an arm, with joints by name or index from 0.
 
         Args:
             arm: The healthy arm.
@@ -65,8 +65,8 @@ class Degraded:
                 joint's limits, a fraction that is out of bounds or of a joint without a velocity limit; or nothing is degraded.
         """
         stands = {arm.joint_names[k]: value for k, value in sorted(read_locks(arm, locked).items())}
-        left = {name: _range(arm, name, ends) for name, ends in _by_name(arm, ranges or {}, "ranges").items()}
-        slow = {name: _fraction(arm, name, value) for name, value in _by_name(arm, speeds or {}, "speeds").items()}
+        left = {name: _check_range(arm, name, ends) for name, ends in _values_by_name(arm, ranges or {}, "ranges").items()}
+        slow = {name: _check_fraction(arm, name, value) for name, value in _values_by_name(arm, speeds or {}, "speeds").items()}
         if not (stands or left or slow):
             raise InputError(f"nothing of '{arm.name}' is degraded; give locked, ranges or speeds")
         for name in [*left, *slow]:
@@ -78,12 +78,12 @@ class Degraded:
     @property
     def lo(self) -> Array:
         """(n,) lower limits in force, rad or m; of a locked joint its value, NaN where that is not known (see :meth:`at`)."""
-        return self._limits(0)
+        return self._limits_on_side(0)
 
     @property
     def hi(self) -> Array:
         """(n,) upper limits in force, likewise."""
-        return self._limits(1)
+        return self._limits_on_side(1)
 
     @property
     def v(self) -> Array:
@@ -114,35 +114,35 @@ class Degraded:
         return replace(self, locked={self.arm.joint_names[k]: x for k, x in locks_at(self.arm, self.locked, here).items()})
 
     def require_values(self) -> Degraded:
-        """Itself, or :class:`holdfast.InputError` if a joint is locked without a value."""
+        """Return the object itself, or raise :class:`holdfast.InputError` if a joint is locked without a value."""
         unknown = [repr(name) for name, value in self.locked.items() if value is None]
         if unknown:
             raise InputError(f"locked gives no value for {' and '.join(unknown)}; give {{joint: value}}, rad or m")
         return self
 
     def require_arm(self, arm: Arm) -> Degraded:
-        """Itself, or :class:`holdfast.InputError` if it is of another arm."""
+        """Return the object itself, or raise :class:`holdfast.InputError` if it belongs to another arm."""
         if self.arm.fingerprint != arm.fingerprint:
             raise InputError(f"what is degraded belongs to '{self.arm.name}', not to '{arm.name}'; make it with this arm")
         return self
 
-    def _limits(self, side: int) -> Array:
+    def _limits_on_side(self, side: int) -> Array:
         bounds: Array = np.stack([self.limited.lower, self.limited.upper])[side]
         for name, value in self.locked.items():
             bounds[self.arm.joint_index(name)] = np.nan if value is None else value
         return bounds
 
     @classmethod
-    @checked
+    @check_arguments
     def load(cls, path: str | Path, arm: Arm) -> Degraded:
-        """What a YAML file says of an arm.
+        """Read the failures of an arm from a YAML file.
 
         Raises:
             InputError: The file cannot be read, or an entry is wrong; the sentence says which.
         """
         from pydantic import ValidationError
 
-        from holdfast.files.yaml import Number, Strict, content, sentence
+        from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
 
         class File(Strict):
             locked: list[str] | dict[str, Number | None] | None = None
@@ -150,10 +150,10 @@ class Degraded:
             speed: dict[str, Number] | None = None
 
         try:
-            read = File.model_validate(content(Path(path), "holdfast.Degraded", "locked, range or speed"))
-            return cls(arm, locked=read.locked or (), ranges=read.range, speeds=read.speed)
+            file_content = File.model_validate(read_mapping(Path(path), "holdfast.Degraded", "locked, range or speed"))
+            return cls(arm, locked=file_content.locked or (), ranges=file_content.range, speeds=file_content.speed)
         except ValidationError as error:
-            raise InputError(f"failure file '{path}': {sentence(error, File)}") from error
+            raise InputError(f"failure file '{path}': {describe_error(error, File)}") from error
         except HoldfastError as error:
             raise InputError(f"failure file '{path}': {error}") from error
 
@@ -162,7 +162,7 @@ class Degraded:
         said = {"locked": self.locked, "range": {k: list(x) for k, x in self.ranges.items()}, "speed": self.speeds}
         return {key: dict(values) for key, values in said.items() if values}
 
-    @checked
+    @check_arguments
     def save(self, path: str | Path) -> Path:
         """Write the file that :meth:`load` reads, with every digit.
 
@@ -171,28 +171,28 @@ class Degraded:
         """
         import yaml
 
-        output.replaced(Path(path), yaml.safe_dump(self.to_dict(), sort_keys=False, allow_unicode=True), "failure")
+        output.replace_file(Path(path), yaml.safe_dump(self.to_dict(), sort_keys=False, allow_unicode=True), "failure")
         return Path(path)
 
     def mark(self, joint: str) -> str:
-        """What is said beside a joint in a table: ``locked``, ``less range``, ``slower``, or nothing."""
-        said = ("locked", self.locked), ("less range", self.ranges), ("slower", self.speeds)
-        return ", ".join(word for word, names in said if joint in names)
+        """Return the mark of a joint in a table: ``locked``, ``less range``, ``slower``, or nothing."""
+        marks = ("locked", self.locked), ("less range", self.ranges), ("slower", self.speeds)
+        return ", ".join(word for word, names in marks if joint in names)
 
     def describe(self) -> str:
-        """What is degraded, in one phrase: ``panda_joint4 locked at -68.8 deg and panda_joint1 at 30 % of its speed``."""
-        said = []
+        """Return the failures in one phrase: ``panda_joint4 locked at -68.8 deg and panda_joint1 at 30 % of its speed``."""
+        phrases = []
         for name in self.arm.joint_names:
             factor, unit = self.arm.joints[self.arm.joint_index(name)].shown
             if name in self.locked:
                 value = self.locked[name]
-                said.append(f"{name} locked" + ("" if value is None else f" at {factor * value:.4g} {unit}"))
+                phrases.append(f"{name} locked" + ("" if value is None else f" at {factor * value:.4g} {unit}"))
             if name in self.ranges:
                 low, high = self.ranges[name]
-                said.append(f"{name} within {factor * low:.4g} to {factor * high:.4g} {unit}")
+                phrases.append(f"{name} within {factor * low:.4g} to {factor * high:.4g} {unit}")
             if name in self.speeds:
-                said.append(f"{name} at {100 * self.speeds[name]:.4g} % of its speed")
-        return " and ".join(said)
+                phrases.append(f"{name} at {100 * self.speeds[name]:.4g} % of its speed")
+        return " and ".join(phrases)
 
 
 # {joint: value}, rad or m; {joint: None}, or the joints alone, for where they are. Joints by name or index from 0.
@@ -204,21 +204,21 @@ _Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str
 Locked = str | int | Sequence[str | int] | _Mapping | Degraded
 
 
-def _by_name(arm: Arm, given: Mapping[Any, Any], what: str) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+def _values_by_name(arm: Arm, given: Mapping[Any, Any], what: str) -> dict[str, Any]:
+    values: dict[str, Any] = {}
     for joint, value in given.items():
         name = arm.joint_names[arm.joint_index(joint)]
-        if name in found:
+        if name in values:
             raise InputError(f"{what} gives joint '{name}' twice; give each joint once")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
-def _range(arm: Arm, name: str, given: ArrayLike) -> tuple[float, float]:
+def _check_range(arm: Arm, name: str, ends_given: ArrayLike) -> tuple[float, float]:
     joint = arm.joints[arm.joint_index(name)]
-    ends = real_numbers(given, f"the range of '{name}'", f"(low, high), {joint.unit}")
+    ends = require_real_numbers(ends_given, f"the range of '{name}'", f"(low, high), {joint.unit}")
     if ends.shape != (2,) or not np.isfinite(ends).all():
-        raise InputError(f"the range of '{name}' is {given!r}; give (low, high), two finite numbers, {joint.unit}")
+        raise InputError(f"the range of '{name}' is {ends_given!r}; give (low, high), two finite numbers, {joint.unit}")
     low, high = ends.tolist()
     if not low < high:
         advice = "swap them" if low > high else "a joint that cannot move is locked"
@@ -231,8 +231,8 @@ def _range(arm: Arm, name: str, given: ArrayLike) -> tuple[float, float]:
     return low, high
 
 
-def _fraction(arm: Arm, name: str, given: Any) -> float:
-    number = real_numbers(given, f"the speed of '{name}'", "a fraction of its velocity limit")
+def _check_fraction(arm: Arm, name: str, given: Any) -> float:
+    number = require_real_numbers(given, f"the speed of '{name}'", "a fraction of its velocity limit")
     if number.ndim or not 0 < number <= 1:
         raise InputError(f"the speed of '{name}' is {given!r}; give a fraction of its velocity limit, above 0 and at most 1")
     if not np.isfinite(arm.joints[arm.joint_index(name)].velocity):
@@ -241,7 +241,7 @@ def _fraction(arm: Arm, name: str, given: Any) -> float:
 
 
 def degraded_at(arm: Arm, locked: Locked, at: Array) -> Degraded | None:
-    """What is degraded, of joints locked where they are with their values in ``at`` (n,); None if nothing is.
+    """Return the failures of joints locked at their values in ``at`` (n,); None if nothing has failed.
 
     Raises:
         InputError: As for :func:`read_locks`; a :class:`Degraded` of another arm.
@@ -253,7 +253,7 @@ def degraded_at(arm: Arm, locked: Locked, at: Array) -> Degraded | None:
 
 
 def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
-    """The locked joints by index, as given, each with its value, rad or m; None: where it is.
+    """Return the locked joints by index in the given order, each with its value in rad or m, or None for its present value.
 
     Raises:
         InputError: No such joint, one given twice, a value that is not a finite number, or a range or speed in a
@@ -271,36 +271,38 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
     if not isinstance(locked, Iterable):
         raise InputError(f"locked is {locked!r}; it must be a joint, joints, or {{joint: value}}")
     given = list(locked.items()) if isinstance(locked, Mapping) else [(joint, None) for joint in locked]
-    found: dict[int, float | None] = {}
+    locks: dict[int, float | None] = {}
     for joint, value in given:
         k = arm.joint_index(joint)
         name, unit = arm.joint_names[k], arm.joints[k].unit
-        if k in found:
+        if k in locks:
             raise InputError(f"joint '{name}' is locked twice; give each joint once")
-        found[k] = None
+        locks[k] = None
         if value is not None:
-            number = real_numbers(value, f"the lock of '{name}'", f"a number, {unit}")
+            number = require_real_numbers(value, f"the lock of '{name}'", f"a number, {unit}")
             if number.ndim or not np.isfinite(number):
                 raise InputError(f"joint '{name}' is locked at {value}; give a finite number, {unit}")
-            found[k] = float(number)
-    return found
+            locks[k] = float(number)
+    return locks
 
 
 def locks_at(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
-    """What :func:`read_locks` reads, in the arm's order, with the values of ``at`` (n,) for joints locked where they are."""
+    """Return the locks that :func:`read_locks` reads in the arm's order, with the values of ``at`` (n,) for joints without a
+    value.
+    """
     return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
 
 
-def locks_given(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], Array]:
-    """The locked joints (k,) in the order given and their values (k,), for what needs a value of each and a joint left.
+def locks_with_values(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], Array]:
+    """Return the locked joints (k,) in the given order and their values (k,), requiring a value of each and a free joint.
 
     Raises:
         InputError: As for :func:`read_locks`; a joint without a value; no joint, or all.
     """
-    found = read_locks(arm, locked)
-    if not 1 <= len(found) < arm.n:
-        raise InputError(f"locked names {len(found)} joints of '{arm.name}'; give 1 to {arm.n - 1}")
-    unknown = [repr(arm.joint_names[k]) for k, value in found.items() if value is None]
+    locks = read_locks(arm, locked)
+    if not 1 <= len(locks) < arm.n:
+        raise InputError(f"locked names {len(locks)} joints of '{arm.name}'; give 1 to {arm.n - 1}")
+    unknown = [repr(arm.joint_names[k]) for k, value in locks.items() if value is None]
     if unknown:
         raise InputError(f"locked gives no value for {' and '.join(unknown)}; give {{joint: value}}, rad or m")
-    return tuple(found), np.array(list(found.values()), dtype=np.float64)
+    return tuple(locks), np.array(list(locks.values()), dtype=np.float64)

@@ -1,4 +1,4 @@
-"""Failure modes: which joints may fail, each alone or several together.
+"""Sets of joints that may fail, each alone or several together.
 
 A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
 is a locked joint as well.
@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from holdfast.errors import InputError, TaskError
-from holdfast.grammar import FAILURES, TASKS, is_count
-from holdfast.notice import aside
+from holdfast.grammar import FAILURE_SET_SIZES, TASK_SIZES, is_count
+from holdfast.notice import warn_now
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
 
-_MOST = 5000
+_MAX_FAILURE_SETS = 5000
 
 
 def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
-    """The sets of joints that fail together, as indices from 0.
+    """Return the sets of joints that fail together, as indices from 0.
 
     Args:
         arm: The arm.
@@ -38,10 +38,11 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         InputError: There is no such joint.
     """
     if isinstance(failures, str):
-        failures = FAILURES.get(failures, failures)
+        failures = FAILURE_SET_SIZES.get(failures, failures)
     if isinstance(failures, str):
         raise TaskError(
-            f"failures '{failures}' is not known; use {', '.join(map(repr, FAILURES))}, a number of joints, or a list of sets"
+            f"failures '{failures}' is not known; use {', '.join(map(repr, FAILURE_SET_SIZES))}, a number of joints, or a "
+            f"list of sets"
         )
     if isinstance(failures, (int, np.integer)):
         if not 1 <= failures < arm.n:
@@ -49,22 +50,24 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
     else:
         try:
-            sets = [arm.joint_indices([f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
+            sets = [
+                arm.joint_indices([failed] if isinstance(failed, (str, int, np.integer)) else failed) for failed in failures
+            ]
         except TypeError as error:
             raise TaskError(f"failures are {failures!r}; give a list of sets, each a joint or several joints") from error
     if not sets or any(not s or len(set(s)) != len(s) for s in sets):
         raise TaskError("each failure must name at least one joint, and each of its joints once")
     if len(set(sets)) != len(sets):
         raise TaskError("a set of joints is listed twice among the failures; list each once")
-    if len(sets) > _MOST:
-        raise TaskError(f"{len(sets)} failure sets are too many for one kernel; give {_MOST} or fewer")
+    if len(sets) > _MAX_FAILURE_SETS:
+        raise TaskError(f"{len(sets)} failure sets are too many for one kernel; give {_MAX_FAILURE_SETS} or fewer")
     return tuple(sets)
 
 
 def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None:
     """Raise :class:`TaskError` unless every failed arm still has at least as many joints as the task has rows."""
     if arm.n <= rows:
-        fewer = [f"{name} ({m})" for name, m in TASKS.items() if m < min(rows, arm.n)]
+        fewer = [f"{name} ({m})" for name, m in TASK_SIZES.items() if m < min(rows, arm.n)]
         advice = f"choose a task with fewer rows, for example {fewer[0]}" if fewer else "no task of this arm is redundant"
         raise TaskError(
             f"'{arm.name}' is not redundant for task '{task}': {arm.n} joints for {rows} rows, "
@@ -79,12 +82,12 @@ def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None
 
 
 def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
-    """Names for people and files: joint names, joined by ``+``."""
+    """Return names for users and files: joint names, joined by ``+``."""
     return ["+".join(arm.joint_names[k] for k in s) for s in sets]
 
 
 def single_joints(arm: Arm, failures: FailureSpec | None) -> list[int]:
-    """The joints of :func:`failure_sets`, for what locks one at a time; none for None.
+    """Return the joints of :func:`failure_sets` for analyses that lock one joint at a time; none for None.
 
     Raises:
         TaskError: As for :func:`failure_sets`; a set of several joints.
@@ -98,13 +101,13 @@ def single_joints(arm: Arm, failures: FailureSpec | None) -> list[int]:
 
 
 def read_joint(arm: Arm, text: str) -> int:
-    """A joint by name or number from 1, as an index from 0."""
+    """Read a joint by name or number from 1, as an index from 0."""
     text = text.strip()
     if text in arm.joint_names:
         k = arm.joint_index(text)
         if is_count(text) and 1 <= int(text) <= arm.n and int(text) != k + 1:
             other = arm.joint_names[int(text) - 1]
-            aside(f"'{text}' is taken as the name of joint {k + 1}, not as number {text}, which is joint '{other}'")
+            warn_now(f"'{text}' is taken as the name of joint {k + 1}, not as number {text}, which is joint '{other}'")
         return k
     if is_count(text):
         if 1 <= int(text) <= arm.n:
@@ -114,9 +117,9 @@ def read_joint(arm: Arm, text: str) -> int:
 
 
 def read_failures(arm: Arm, text: str) -> FailureSpec:
-    """Failures as people write them, as the library takes them: ``single``, ``2``, ``joint2; joint1+joint4``."""
+    """Read failures as users write them: ``single``, ``2``, ``joint2; joint1+joint4``."""
     text = text.strip()
-    if text in FAILURES:
+    if text in FAILURE_SET_SIZES:
         return text
     # A lone number could be a joint or how many: it is how many, as --help says.
     if is_count(text):

@@ -1,4 +1,4 @@
-"""Timed joint faults: what may happen in an episode, drawn alike on every machine, and put into simulators."""
+"""Timed joint faults: drawn for each episode identically on every machine, and injected into simulators."""
 
 from holdfast._lazy import offer
 

@@ -19,11 +19,11 @@ from holdfast.faults.kinds import sensor_noise as sensor_noise
 from holdfast.faults.kinds import slipping_clutch as slipping_clutch
 from holdfast.faults.kinds import weak as weak
 from holdfast.faults.learning.recording import Episode as Episode
-from holdfast.faults.learning.recording import recorded as recorded
-from holdfast.faults.learning.success_rate import Success as Success
-from holdfast.faults.learning.success_rate import success as success
+from holdfast.faults.learning.recording import read_episodes as read_episodes
+from holdfast.faults.learning.success_rate import SuccessRate as SuccessRate
+from holdfast.faults.learning.success_rate import success_rate as success_rate
 from holdfast.faults.learning.vector import FaultVectorEnv as FaultVectorEnv
 from holdfast.faults.learning.wrapper import FaultWrapper as FaultWrapper
 from holdfast.faults.log import Log as Log
-from holdfast.faults.scheme import Faults as Faults
+from holdfast.faults.scheme import FaultModel as FaultModel
 from holdfast.faults.scheme import load as load

@@ -1,4 +1,4 @@
-"""The actuators that drive some joints of a MuJoCo model, and how strong they are."""
+"""Actuators that drive some joints of a MuJoCo model, and their strength."""
 
 from __future__ import annotations
 
@@ -13,67 +13,72 @@ from holdfast.errors import InputError
 from holdfast.faults.events import FaultEvent
 
 
-class Actuators:
-    """Those of n joints, given by their numbers in the model.
+class JointActuators:
+    """Actuators of n joints, which are given by their numbers in the model.
 
     Attributes:
-        all: Numbers of all of them.
-        driven: Numbers of the joints of the model that have one.
+        numbers: Numbers of all of them.
+        driven_joints: Numbers of the joints of the model that have one.
     """
 
     def __init__(self, mujoco: ModuleType, model: Any, ids: Sequence[int]) -> None:
         on_joint = [int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)]
-        kinds, joints = np.asarray(model.actuator_trntype), np.asarray(model.actuator_trnid).reshape(-1, 2)[:, 0]
-        self._fixed = int(mujoco.mjtGain.mjGAIN_FIXED), int(mujoco.mjtBias.mjBIAS_NONE)
+        transmission_types, joints = np.asarray(model.actuator_trntype), np.asarray(model.actuator_trnid).reshape(-1, 2)[:, 0]
+        self._fixed_gain_and_bias = int(mujoco.mjtGain.mjGAIN_FIXED), int(mujoco.mjtBias.mjBIAS_NONE)
         self._model, self._ids = model, ids
-        there = np.isin(kinds, on_joint)
-        self.driven = joints[there].tolist()
-        self._of = [np.flatnonzero(there & (joints == k)) for k in ids]
-        self.all = np.concatenate([*self._of, np.zeros(0, dtype=np.int64)]).astype(np.int64)
-        self.note()
+        drives_joint = np.isin(transmission_types, on_joint)
+        self.driven_joints = joints[drives_joint].tolist()
+        self._by_joint = [np.flatnonzero(drives_joint & (joints == joint_id)) for joint_id in ids]
+        self.numbers = np.concatenate([*self._by_joint, np.zeros(0, dtype=np.int64)]).astype(np.int64)
+        self.read_efforts()
 
-    def note(self) -> None:
-        """Take the efforts from the model as it is now, without faults."""
-        self._efforts = [self._strength(j) for j in range(len(self._ids))]
+    def read_efforts(self) -> None:
+        """Read the efforts from the current model, without faults."""
+        self._efforts = [self._compute_effort(joint) for joint in range(len(self._ids))]
 
-    def of(self, joint: int) -> NDArray[np.int64]:
-        """Numbers of those of a joint."""
-        return self._of[joint]
+    def numbers_of_joint(self, joint: int) -> NDArray[np.int64]:
+        """Return the numbers of the actuators of a joint."""
+        return self._by_joint[joint]
 
-    def require(self, event: FaultEvent) -> None:
-        """Refuse a fault of a motor that is not there.
+    def require_actuator(self, event: FaultEvent) -> None:
+        """Raise an error for a motor fault of a joint without an actuator.
 
         Raises:
             InputError: The joint has no actuator of its own.
         """
-        names = [self._model.joint(k).name for k in self._ids]
-        if not self._of[names.index(event.joint)].size:
+        names = [self._model.joint(joint_id).name for joint_id in self._ids]
+        if not self._by_joint[names.index(event.joint)].size:
             raise InputError(f"'{event.kind}' is a fault of a motor, and '{event.joint}' has none; choose another")
 
-    def effort(self, joint: int, event: FaultEvent) -> float:
-        """What all motors of a joint can give, N m or N.
+    def total_effort(self, joint: int, event: FaultEvent) -> float:
+        """Return the total effort of all motors of a joint, N m or N.
 
         Raises:
             InputError: Nothing in the model limits them.
         """
-        found = self._efforts[joint]
-        if found is None:
+        effort = self._efforts[joint]
+        if effort is None:
             raise InputError(
                 f"'{event.kind}' of '{event.joint}' needs the effort of its motor, and the model states none; give it "
                 "actuatorfrcrange, forcerange or ctrlrange"
             )
-        return found
+        return effort
 
-    def _strength(self, joint: int) -> float | None:
-        m, k, total = self._model, self._ids[joint], 0.0
-        if m.jnt_actfrclimited[k]:
-            return float(np.abs(m.jnt_actfrcrange[k]).max())
-        for a in self._of[joint]:
-            gear = abs(float(m.actuator_gear[a, 0]))
-            if m.actuator_forcelimited[a]:
-                total += gear * float(np.abs(m.actuator_forcerange[a]).max())
-            elif m.actuator_ctrllimited[a] and (m.actuator_gaintype[a], m.actuator_biastype[a]) == self._fixed:
-                total += gear * float(np.abs(m.actuator_ctrlrange[a]).max() * abs(m.actuator_gainprm[a, 0]))
+    def _compute_effort(self, joint: int) -> float | None:
+        model, joint_id, total = self._model, self._ids[joint], 0.0
+        if model.jnt_actfrclimited[joint_id]:
+            return float(np.abs(model.jnt_actfrcrange[joint_id]).max())
+        for actuator in self._by_joint[joint]:
+            gear = abs(float(model.actuator_gear[actuator, 0]))
+            if model.actuator_forcelimited[actuator]:
+                total += gear * float(np.abs(model.actuator_forcerange[actuator]).max())
+            elif (
+                model.actuator_ctrllimited[actuator]
+                and (model.actuator_gaintype[actuator], model.actuator_biastype[actuator]) == self._fixed_gain_and_bias
+            ):
+                total += gear * float(
+                    np.abs(model.actuator_ctrlrange[actuator]).max() * abs(model.actuator_gainprm[actuator, 0])
+                )
             else:
                 return None
-        return total if self._of[joint].size else None
+        return total if self._by_joint[joint].size else None

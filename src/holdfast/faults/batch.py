@@ -1,4 +1,4 @@
-"""Episodes of faults as arrays: for simulators that run many at once, and for people to look at."""
+"""Episodes of faults as arrays, for simulators that run many at once and for reports."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.faults.entry import KINDS, PARAMETERS
+from holdfast.faults.entry import KINDS, PARAMETERS_BY_KIND
 from holdfast.faults.events import FaultEvents
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
-_MOST = 3  # parameters of a kind
+_MAX_PARAMETERS = 3  # parameters of a kind
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FaultBatch(Result):
-    """The faults of N episodes, at most one for each of the n joints in an episode: the first.
+    """Faults of N episodes, at most one for each of the n joints in an episode: the first.
 
     Attributes:
         joints: Names of the n joints.
@@ -47,7 +47,7 @@ class FaultBatch(Result):
         return len(self.episodes)
 
     def times_of(self, joints: Sequence[str]) -> Array:
-        """(N, n) when each of these joints locks, s: an episode for each run of :func:`holdfast.simulate`.
+        """Return the times (N, n) at which these joints lock, s: an episode for each run of :func:`holdfast.simulate`.
 
         Raises:
             InputError: See :meth:`holdfast.faults.FaultEvents.times_of`.
@@ -55,30 +55,30 @@ class FaultBatch(Result):
         return np.array([events.times_of(joints) for events in self.episodes])
 
     def describe(self) -> list[str]:
-        """How many episodes have how many faults."""
-        count = [len(events) for events in self.episodes]
-        of = "1 episode" if len(count) == 1 else f"{len(count)} episodes"
-        lines = [f"{sum(count)} faults in {of}, seed {self.seed}; {count.count(0)} without any"]
+        """Return the number of episodes and faults in a sentence."""
+        fault_counts = [len(events) for events in self.episodes]
+        episode_text = "1 episode" if len(fault_counts) == 1 else f"{len(fault_counts)} episodes"
+        lines = [f"{sum(fault_counts)} faults in {episode_text}, seed {self.seed}; {fault_counts.count(0)} without any"]
         if self.left_out:
             lines.append(f"{self.left_out} come after another of the same joint, and are not in the arrays")
         return lines
 
 
-def batch_of(joints: tuple[str, ...], episodes: Sequence[FaultEvents], *, seed: int, first: int) -> FaultBatch:
-    """The arrays of some episodes."""
+def make_batch(joints: tuple[str, ...], episodes: Sequence[FaultEvents], *, seed: int, first: int) -> FaultBatch:
+    """Return the faults of episodes as arrays."""
     shape = len(episodes), len(joints)
-    kind, onset, end = np.full(shape, -1), np.full(shape, np.inf), np.full(shape, np.inf)
-    parameter, left_out = np.full((*shape, _MOST), np.nan), 0
-    for e, events in enumerate(episodes):
+    kinds, onsets, ends = np.full(shape, -1), np.full(shape, np.inf), np.full(shape, np.inf)
+    parameters, omitted_count = np.full((*shape, _MAX_PARAMETERS), np.nan), 0
+    for row, events in enumerate(episodes):
         for event in events:
-            j = joints.index(event.joint)
-            if kind[e, j] >= 0:
-                left_out += 1
+            column = joints.index(event.joint)
+            if kinds[row, column] >= 0:
+                omitted_count += 1
                 continue
-            kind[e, j], onset[e, j], end[e, j] = KINDS.index(event.kind), event.onset, event.end
-            known = [name for names in PARAMETERS.get(event.kind, ()) for name in names]
+            kinds[row, column], onsets[row, column], ends[row, column] = KINDS.index(event.kind), event.onset, event.end
+            parameter_names = [name for names in PARAMETERS_BY_KIND.get(event.kind, ()) for name in names]
             for name, value in event.parameters.items():
                 if not isinstance(value, str):
-                    parameter[e, j, known.index(name)] = value
-    arrays: dict[str, Any] = {"kind": kind, "onset": onset, "end": end, "parameter": parameter}
-    return FaultBatch(joints=joints, seed=seed, first=first, episodes=tuple(episodes), left_out=left_out, **arrays)
+                    parameters[row, column, parameter_names.index(name)] = value
+    arrays: dict[str, Any] = {"kind": kinds, "onset": onsets, "end": ends, "parameter": parameters}
+    return FaultBatch(joints=joints, seed=seed, first=first, episodes=tuple(episodes), left_out=omitted_count, **arrays)

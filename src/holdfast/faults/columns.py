@@ -15,14 +15,21 @@ from pydantic import ValidationError, model_validator
 
 from holdfast.errors import InputError
 from holdfast.files import reading
-from holdfast.files.yaml import Strict, content, sentence
+from holdfast.files.yaml import Strict, describe_error, read_mapping
 
 Array = NDArray[np.float64]
 
-_TIME = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-_LENGTH = {"m": 1.0, "mm": 1e-3}
-_JOINT = {"rad": 1.0, "deg": np.pi / 180, **_LENGTH}
-_UNITS = {"t": _TIME, "q_ref": _JOINT, "q": _JOINT, "tau": {"N m": 1.0}, "x": _LENGTH, "quat": {}}  # the first: if not given
+_TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+_LENGTH_UNITS = {"m": 1.0, "mm": 1e-3}
+_JOINT_UNITS = {"rad": 1.0, "deg": np.pi / 180, **_LENGTH_UNITS}
+_ARRAY_UNITS = {
+    "t": _TIME_UNITS,
+    "q_ref": _JOINT_UNITS,
+    "q": _JOINT_UNITS,
+    "tau": {"N m": 1.0},
+    "x": _LENGTH_UNITS,
+    "quat": {},
+}  # the first: if not given
 
 
 class _Column(Strict):
@@ -31,8 +38,8 @@ class _Column(Strict):
 
     @model_validator(mode="before")
     @classmethod
-    def _alone(cls, data: Any) -> Any:
-        """A column in its usual unit is its name alone."""
+    def _parse_name_alone(cls, data: Any) -> Any:
+        """Accept a column in its usual unit by its name alone."""
         return {"column": data} if isinstance(data, (str, list)) else data
 
 
@@ -45,8 +52,8 @@ class _Columns(Strict):
     quat: _Column = _Column(column="quat_*")
 
 
-def read(path: Path, columns: str | Path | None) -> dict[str, Array]:
-    """Arrays of a table (.csv, .parquet) in SI units, by their names in a log; what is not there is left out.
+def read_arrays(path: Path, columns: str | Path | None) -> dict[str, Array]:
+    """Read the arrays of a table (.csv, .parquet) in SI units, by their names in a log; missing optional columns are left out.
 
     Args:
         path: The file.
@@ -55,77 +62,83 @@ def read(path: Path, columns: str | Path | None) -> dict[str, Array]:
     Raises:
         InputError: Either cannot be read, a column is not there, or it does not hold numbers.
     """
-    told = _Columns() if columns is None else _described(columns)
-    with reading.guarded(advice="give an .npz, .csv or .parquet file"):
-        raw = reading.raw(path)
-    names, numbers = (_parquet if path.suffix.lower() == ".parquet" else _csv)(raw)
-    found = {}
-    for name, one in told:
-        chosen = _named(one.column, names)
-        gone = [column for column in chosen if column not in names] if chosen else [one.column]
-        if not gone:
-            size = _UNITS[name][one.unit] if one.unit else 1.0
-            found[name] = np.column_stack([numbers(column) for column in chosen]) * size
-        elif name in told.model_fields_set or name in ("t", "q_ref", "q"):
-            some = ", ".join(f"'{x}'" for x in names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
-            raise InputError(f"it has no column '{gone[0]}' for {name}, but {some}; name them in a file of columns (--columns)")
-    return {**found, "t": found["t"][:, 0]}
+    layout = _Columns() if columns is None else _read_layout(columns)
+    with reading.guard_reading(advice="give an .npz, .csv or .parquet file"):
+        content_bytes = reading.read_bytes(path)
+    column_names, numbers = (_parse_parquet if path.suffix.lower() == ".parquet" else _parse_csv)(content_bytes)
+    arrays = {}
+    for name, column in layout:
+        selected = _expand_columns(column.column, column_names)
+        missing = [column_name for column_name in selected if column_name not in column_names] if selected else [column.column]
+        if not missing:
+            unit_factor = _ARRAY_UNITS[name][column.unit] if column.unit else 1.0
+            arrays[name] = np.column_stack([numbers(column_name) for column_name in selected]) * unit_factor
+        elif name in layout.model_fields_set or name in ("t", "q_ref", "q"):
+            available = ", ".join(f"'{name_shown}'" for name_shown in column_names[:8]) + (
+                f" and {len(column_names) - 8} more" if len(column_names) > 8 else ""
+            )
+            raise InputError(
+                f"it has no column '{missing[0]}' for {name}, but {available}; name them in a file of columns (--columns)"
+            )
+    return {**arrays, "t": arrays["t"][:, 0]}
 
 
-def _described(columns: str | Path) -> _Columns:
+def _read_layout(columns: str | Path) -> _Columns:
     try:
-        told = _Columns.model_validate(content(Path(columns), "holdfast.faults.Log.load", "q and q_ref"))
-        for name, one in told:
-            if one.unit is not None and one.unit not in _UNITS[name]:
-                raise InputError(f"{name}: unit '{one.unit}' is not known; use {', '.join(_UNITS[name]) or 'none'}")
-        return told
+        layout = _Columns.model_validate(read_mapping(Path(columns), "holdfast.faults.Log.load", "q and q_ref"))
+        for name, column in layout:
+            if column.unit is not None and column.unit not in _ARRAY_UNITS[name]:
+                raise InputError(f"{name}: unit '{column.unit}' is not known; use {', '.join(_ARRAY_UNITS[name]) or 'none'}")
+        return layout
     except ValidationError as error:
-        raise InputError(f"columns '{columns}': {sentence(error, _Columns, ('str', 'list[str]'))}") from error
+        raise InputError(f"columns '{columns}': {describe_error(error, _Columns, ('str', 'list[str]'))}") from error
     except InputError as error:
         raise InputError(f"columns '{columns}': {error}") from error
 
 
-def _named(column: str | list[str], names: Collection[str]) -> list[str]:
-    """Those of a list, or of a pattern in which ``*`` is a joint's number, from 0 or 1 without gaps."""
+def _expand_columns(column: str | list[str], names: Collection[str]) -> list[str]:
+    """Return the columns of a list, or of a pattern in which ``*`` is a joint's number, from 0 or 1 without gaps."""
     if not isinstance(column, str) or "*" not in column:
         return [column] if isinstance(column, str) else column
     pattern = re.compile(r"(\d+)".join(map(re.escape, column.split("*", 1))))
-    found = {int(match[1]): name for name in names if (match := pattern.fullmatch(name))}
-    numbers = sorted(found)
+    by_number = {int(match[1]): name for name in names if (match := pattern.fullmatch(name))}
+    numbers = sorted(by_number)
     if numbers and (numbers[0] > 1 or numbers[-1] - numbers[0] >= len(numbers)):
         raise InputError(f"its columns {column} have a gap: their numbers are {', '.join(map(str, numbers))}")
-    return [found[k] for k in numbers]
+    return [by_number[number] for number in numbers]
 
 
-def _csv(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
-    """Names, and a column's numbers; empty cells are NaN. Commas, semicolons or tabs part cells, as in the first line."""
+def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
+    """Return the names and a function for the numbers of a column; empty cells are NaN. The first line decides the
+    delimiter.
+    """
     lines = raw.decode("utf-8-sig", "replace").splitlines()
-    mark = max(",;\t", key=(lines[0] if lines else "").count)
+    delimiter = max(",;\t", key=(lines[0] if lines else "").count)
     try:
-        rows = [(k, row) for k, row in enumerate(csv.reader(lines, delimiter=mark), start=1) if row]
+        rows = [(line_number, row) for line_number, row in enumerate(csv.reader(lines, delimiter=delimiter), start=1) if row]
     except csv.Error as error:  # a cell of more than 131,072 characters, or a NUL character
         raise InputError(f"it is no table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error
     if len(rows) < 2:
         raise InputError("it has no rows of numbers; give a header and a line for each sample")
     header = [name.strip() for name in rows[0][1]]
-    for k, row in rows:
+    for line_number, row in rows:
         if len(row) != len(header):
-            raise InputError(f"line {k} has {len(row)} cells, and the first line {len(header)}")
+            raise InputError(f"line {line_number} has {len(row)} cells, and the first line {len(header)}")
 
-    def numbers(name: str) -> Array:
-        at, found = header.index(name), []
-        for k, row in rows[1:]:
+    def read_numbers(name: str) -> Array:
+        index, values = header.index(name), []
+        for line_number, row in rows[1:]:
             try:
-                found.append(float((row[at] if mark == "," else row[at].replace(",", ".")).strip() or "nan"))
+                values.append(float((row[index] if delimiter == "," else row[index].replace(",", ".")).strip() or "nan"))
             except ValueError as error:
-                raise InputError(f"line {k} has '{row[at]}' in column '{name}'; give numbers") from error
-        return np.array(found)
+                raise InputError(f"line {line_number} has '{row[index]}' in column '{name}'; give numbers") from error
+        return np.array(values)
 
-    return header, numbers
+    return header, read_numbers
 
 
-def arrow() -> tuple[Any, Any]:
-    """Of pyarrow the package and what reads Parquet.
+def import_pyarrow() -> tuple[Any, Any]:
+    """Import pyarrow and its Parquet reader.
 
     Raises:
         InputError: It is not installed.
@@ -138,8 +151,8 @@ def arrow() -> tuple[Any, Any]:
     return pyarrow, parquet
 
 
-def _parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
-    pyarrow, parquet = arrow()
+def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
+    pyarrow, parquet = import_pyarrow()
     try:
         # Threads of pyarrow end the whole process where they still run when Python ends.
         table = parquet.read_table(io.BytesIO(raw), use_threads=False, pre_buffer=False)
@@ -147,25 +160,27 @@ def _parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
         raise InputError("it is no Parquet file that can be read; give one with columns t, q_ref_1, ..., q_1, ...") from error
     names = []
     for field in table.schema:
-        lengths = _list_lengths(pyarrow, table[field.name]) if pyarrow.types.is_nested(field.type) else 0
+        lengths = _get_list_length(pyarrow, table[field.name]) if pyarrow.types.is_nested(field.type) else 0
         names += [field.name, *(f"{field.name}[{k}]" for k in range(lengths))]
 
-    def numbers(name: str) -> Array:
-        entry = re.fullmatch(r"(.*)\[(\d+)\]", name)
-        whole, chosen = (entry[1], int(entry[2])) if name not in table.column_names and entry else (name, None)
+    def read_numbers(name: str) -> Array:
+        indexed_name = re.fullmatch(r"(.*)\[(\d+)\]", name)
+        base_name, chosen = (
+            (indexed_name[1], int(indexed_name[2])) if name not in table.column_names and indexed_name else (name, None)
+        )
         try:
-            if not _list_lengths(pyarrow, table[whole]):
+            if not _get_list_length(pyarrow, table[base_name]):
                 with np.errstate(invalid="ignore"):  # a signaling NaN becomes a quiet one
-                    return np.asarray(table[whole], dtype=np.float64)
-            values = np.array(table[whole].to_pylist(), dtype=np.float64)
+                    return np.asarray(table[base_name], dtype=np.float64)
+            values = np.array(table[base_name].to_pylist(), dtype=np.float64)
         except Exception as error:  # lists of unequal lengths, text, dates, damaged pages
-            raise InputError(f"column '{whole}' does not hold numbers or lists of numbers of one length") from error
+            raise InputError(f"column '{base_name}' does not hold numbers or lists of numbers of one length") from error
         return values if chosen is None else values[:, chosen]
 
-    return names, numbers
+    return names, read_numbers
 
 
-def _list_lengths(pyarrow: Any, column: Any) -> int:
+def _get_list_length(pyarrow: Any, column: Any) -> int:
     """Return the length of the lists in a column, 0 where it holds single values."""
     if not pyarrow.types.is_nested(column.type) or not len(column):
         return 0

@@ -1,4 +1,4 @@
-"""One entry of a fault model: a family of faults, its joints, when and how badly."""
+"""Entry of a fault model: a family of faults with its joints, times, and parameters."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass, field
 from typing import Any, Literal, get_args
 
 from holdfast.errors import InputError
-from holdfast.faults.spread import Spread
+from holdfast.faults.spread import ParameterDistribution
 
 Kind = Literal[
     "locked",
@@ -25,10 +25,10 @@ Kind = Literal[
     "slipping_clutch",
 ]
 KINDS: tuple[Kind, ...] = get_args(Kind)
-SENSOR = frozenset({"sensor_bias", "sensor_drift", "sensor_freeze", "sensor_noise"})
-TORQUE = frozenset({"limp", "weak", "friction"})
+SENSOR_KINDS = frozenset({"sensor_bias", "sensor_drift", "sensor_freeze", "sensor_noise"})
+TORQUE_KINDS = frozenset({"limp", "weak", "friction"})
 # The parameters of each kind: sets of names of which one is given, the whole of it unless it says otherwise.
-PARAMETERS: dict[str, tuple[tuple[str, ...], ...]] = {
+PARAMETERS_BY_KIND: dict[str, tuple[tuple[str, ...], ...]] = {
     "locked": (("at",),),
     "weak": (("gain",), ("ceiling",)),
     "friction": (("coulomb", "viscous"),),
@@ -38,10 +38,10 @@ PARAMETERS: dict[str, tuple[tuple[str, ...], ...]] = {
     "sensor_drift": (("rate",),),
     "sensor_noise": (("deviation",),),
 }
-SIGNED = frozenset({"travel", "bias", "rate"})  # the sign is drawn
-_PARTIAL = frozenset({"coulomb", "viscous", "lower", "upper"})  # one of the two is enough
+SIGNED_PARAMETERS = frozenset({"travel", "bias", "rate"})  # the sign is drawn
+_OPTIONAL_PARAMETERS = frozenset({"coulomb", "viscous", "lower", "upper"})  # one of the two is enough
 # Least and greatest of each number, and whether the ends belong to it.
-_BOUNDS: dict[str, tuple[float, float, bool]] = {
+_PARAMETER_BOUNDS: dict[str, tuple[float, float, bool]] = {
     "gain": (0.0, 1.0, False),
     "ceiling": (0.0, 1.0, False),
     "coulomb": (0.0, math.inf, True),
@@ -58,7 +58,7 @@ _BOUNDS: dict[str, tuple[float, float, bool]] = {
 
 @dataclass(frozen=True)
 class Fault:
-    """One entry: a family of faults. Functions such as :func:`holdfast.faults.locked` make one.
+    """Entry of a fault model: a family of faults. Functions such as :func:`holdfast.faults.locked` make one.
 
     A number may be drawn in every episode: a tuple ``(a, b)`` and ``{"uniform": [a, b]}`` are even between a and b,
     ``{"loguniform": [a, b]}`` even in the logarithm, ``{"exponential": mean}``, and ``{"choice": [a, b, ...]}``.
@@ -95,13 +95,13 @@ class Fault:
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise InputError(f"kind '{self.kind}' is not known; use {', '.join(KINDS)}")
-        self._set("joints", (self.joints,) if isinstance(self.joints, str) else self.joints and tuple(self.joints))
-        self._set("weights", self.weights and tuple(map(float, self.weights)))
+        self._assign_field("joints", (self.joints,) if isinstance(self.joints, str) else self.joints and tuple(self.joints))
+        self._assign_field("weights", self.weights and tuple(map(float, self.weights)))
         self._check_joints()
-        self._set("parameters", self._read_parameters())
+        self._assign_field("parameters", self._read_parameters())
         self._check_time()
 
-    def _set(self, name: str, value: Any) -> None:
+    def _assign_field(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
 
     def _check_joints(self) -> None:
@@ -110,42 +110,54 @@ class Fault:
         if self.weights is not None:
             if self.joints is None or len(self.weights) != len(self.joints):
                 raise InputError(f"'{self.kind}' has {len(self.weights)} weights; give one for each of its joints, by name")
-            if not all(math.isfinite(w) and w >= 0 for w in self.weights) or not any(self.weights):
+            if not all(math.isfinite(weight) and weight >= 0 for weight in self.weights) or not any(self.weights):
                 raise InputError(f"weights of '{self.kind}' are {list(self.weights)}; they must be 0 or more, one above 0")
-        most = sum(w > 0 for w in self.weights) if self.weights else len(self.joints) if self.joints else math.inf
-        if isinstance(self.together, bool) or self.together != int(self.together) or not 1 <= self.together <= most:
+        max_joints = (
+            sum(weight > 0 for weight in self.weights) if self.weights else len(self.joints) if self.joints else math.inf
+        )
+        if isinstance(self.together, bool) or self.together != int(self.together) or not 1 <= self.together <= max_joints:
             raise InputError(f"together of '{self.kind}' is {self.together}; it is a whole number, 1 to that of its joints")
 
     def _read_parameters(self) -> dict[str, Any]:
         given = {name: value for name, value in self.parameters.items() if value is not None}
-        choices = PARAMETERS.get(self.kind, ())
-        known = [name for names in choices for name in names]
+        choices = PARAMETERS_BY_KIND.get(self.kind, ())
+        known_names = [name for names in choices for name in names]
         for name in given:
-            if name not in known:
-                takes = f"takes {', '.join(known)}" if known else "takes no parameter"
-                raise InputError(f"'{self.kind}' has no parameter '{name}'; it {takes}")
+            if name not in known_names:
+                allowed_text = f"takes {', '.join(known_names)}" if known_names else "takes no parameter"
+                raise InputError(f"'{self.kind}' has no parameter '{name}'; it {allowed_text}")
         if self.kind == "locked" and given.get("at", "here") == "here":
             return {"at": "here"}
-        fits = [names for names in choices if set(given) and set(given) <= set(names)]
-        whole = [names for names in fits if set(given) == set(names) or set(names) <= _PARTIAL]
-        if choices and not whole:
+        candidates = [names for names in choices if set(given) and set(given) <= set(names)]
+        complete = [names for names in candidates if set(given) == set(names) or set(names) <= _OPTIONAL_PARAMETERS]
+        if choices and not complete:
             raise InputError(f"'{self.kind}' must have {' or '.join(' and '.join(names) for names in choices)}")
         # In the order of the table: which uniform number draws which does not depend on the caller's order.
-        return {name: self._bounded(name, given[name]) for name in known if name in given}
+        return {name: self._parse_bounded(name, given[name]) for name in known_names if name in given}
 
-    def _bounded(self, name: str, value: Any) -> Spread:
-        spread = Spread.of(value, f"{name} of '{self.kind}'")
-        least, most, closed = _BOUNDS.get(name, (-math.inf, math.inf, True))
-        low, high = spread.ends
-        inside = least <= low and high <= most if closed else least < low and (high < most or math.isinf(most))
-        if spread.law == "exponential":
-            inside = math.isinf(most)
-        if not inside:
-            wanted = f"between {least:g} and {most:g}" if math.isfinite(most) else "0 or more" if closed else f"above {least:g}"
-            sign = "; its sign is drawn" if name in SIGNED else ""
-            shown = f"{low:g}" if low == high else f"from {low:g} to {high:g}"
-            raise InputError(f"{name} of '{self.kind}' is {shown}; it must be {wanted}{sign}")
-        return spread
+    def _parse_bounded(self, name: str, value: Any) -> ParameterDistribution:
+        distribution = ParameterDistribution.from_value(value, f"{name} of '{self.kind}'")
+        minimum, maximum, includes_ends = _PARAMETER_BOUNDS.get(name, (-math.inf, math.inf, True))
+        lower, upper = distribution.ends
+        is_inside = (
+            minimum <= lower and upper <= maximum
+            if includes_ends
+            else minimum < lower and (upper < maximum or math.isinf(maximum))
+        )
+        if distribution.law == "exponential":
+            is_inside = math.isinf(maximum)
+        if not is_inside:
+            expected_text = (
+                f"between {minimum:g} and {maximum:g}"
+                if math.isfinite(maximum)
+                else "0 or more"
+                if includes_ends
+                else f"above {minimum:g}"
+            )
+            sign_text = "; its sign is drawn" if name in SIGNED_PARAMETERS else ""
+            range_text = f"{lower:g}" if lower == upper else f"from {lower:g} to {upper:g}"
+            raise InputError(f"{name} of '{self.kind}' is {range_text}; it must be {expected_text}{sign_text}")
+        return distribution
 
     def _check_time(self) -> None:
         if not (isinstance(self.probability, (int, float)) and 0 <= self.probability <= 1):
@@ -158,11 +170,13 @@ class Fault:
             raise InputError(f"'{self.kind}' has both onset and rate_per_hour; the rate says when it begins: give one of them")
         if (self.on is None) != (self.off is None):
             raise InputError(f"'{self.kind}' has only one of on and off; a fault that comes and goes has both")
-        self._set("onset", None if self.rate_per_hour else self._bounded("onset", 0.0 if self.onset is None else self.onset))
-        self._set("duration", None if self.duration is None else self._bounded("duration", self.duration))
+        self._assign_field(
+            "onset", None if self.rate_per_hour else self._parse_bounded("onset", 0.0 if self.onset is None else self.onset)
+        )
+        self._assign_field("duration", None if self.duration is None else self._parse_bounded("duration", self.duration))
 
     def stored(self) -> dict[str, Any]:
-        """As files have it; what is as it comes is left out."""
+        """Return the entry as files store it, without default values."""
         data: dict[str, Any] = {"kind": self.kind}
         values = {
             "joints": self.joints and list(self.joints),
@@ -170,7 +184,9 @@ class Fault:
             "probability": None if self.probability == 1 else self.probability,
             "together": None if self.together == 1 else self.together,
             "rate_per_hour": self.rate_per_hour,
-            "onset": None if self.onset is None or self.onset == Spread("number", (0.0,)) else self.onset.stored(),
+            "onset": None
+            if self.onset is None or self.onset == ParameterDistribution("number", (0.0,))
+            else self.onset.stored(),
             "duration": self.duration and self.duration.stored(),
             "on": self.on,
             "off": self.off,

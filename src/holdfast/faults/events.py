@@ -1,4 +1,4 @@
-"""What happens in one episode: faults with their joints, times and numbers."""
+"""Faults of one episode, with their joints, times, and parameters."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from holdfast.faults.entry import Kind
 
 @dataclass(frozen=True)
 class FaultEvent:
-    """One fault in one episode.
+    """Fault of one joint in one episode.
 
     Attributes:
         kind: One of the kinds, as ``locked``.
@@ -36,46 +36,46 @@ class FaultEvent:
     parameters: Mapping[str, float | str] = field(default_factory=dict, hash=False)
 
     def active(self, time: float) -> bool:
-        """Whether it is there at a time, s."""
+        """Return True if the fault is present at a time, s."""
         return self.onset <= time < self.end
 
     def stored(self) -> dict[str, Any]:
-        """In types that JSON has; ``end`` is None for a fault that stays."""
+        """Return the event in JSON types; ``end`` is None for a permanent fault."""
         end = None if math.isinf(self.end) else self.end
         return {"kind": self.kind, "joint": self.joint, "onset": self.onset, "end": end, **self.parameters}
 
     @classmethod
     def from_stored(cls, data: Mapping[str, Any]) -> FaultEvent:
-        """What :meth:`stored` gave."""
-        rest = {name: value for name, value in data.items() if name not in ("kind", "joint", "onset", "end")}
+        """Return the event from the data of :meth:`stored`."""
+        parameters = {name: value for name, value in data.items() if name not in ("kind", "joint", "onset", "end")}
         end = math.inf if data["end"] is None else data["end"]
-        return cls(data["kind"], data["joint"], data["onset"], end=end, parameters=rest)
+        return cls(data["kind"], data["joint"], data["onset"], end=end, parameters=parameters)
 
     def sentence(self) -> str:
-        """For people: ``panda_joint4: weak from 0.812 s on (gain 0.41)``."""
-        numbers = ", ".join(f"{name} {x:.4g}" for name, x in self.parameters.items() if not isinstance(x, str))
-        until = "on" if math.isinf(self.end) else f"to {self.end:.4g} s"
-        return f"{self.joint}: {self.kind} from {self.onset:.4g} s {until}{f' ({numbers})' if numbers else ''}"
+        """Return a sentence such as ``panda_joint4: weak from 0.812 s on (gain 0.41)``."""
+        numbers = ", ".join(f"{name} {value:.4g}" for name, value in self.parameters.items() if not isinstance(value, str))
+        end_text = "on" if math.isinf(self.end) else f"to {self.end:.4g} s"
+        return f"{self.joint}: {self.kind} from {self.onset:.4g} s {end_text}{f' ({numbers})' if numbers else ''}"
 
 
 class FaultEvents(tuple[FaultEvent, ...]):
-    """The faults of an episode, a tuple in the order of onset, joint and kind."""
+    """Faults of an episode, a tuple in the order of onset, joint, and kind."""
 
     __slots__ = ()
 
     def __new__(cls, events: Iterable[FaultEvent] = ()) -> FaultEvents:  # noqa: D102
-        return super().__new__(cls, sorted(events, key=lambda e: (e.onset, e.joint, e.kind, e.end)))
+        return super().__new__(cls, sorted(events, key=lambda event: (event.onset, event.joint, event.kind, event.end)))
 
     def times_of(self, joints: Sequence[str]) -> NDArray[np.float64]:
-        """(n,) when each of these joints locks, s, infinite for never: for :func:`holdfast.simulate`.
+        """Return the times (n,) at which these joints lock, s, infinite for never: for :func:`holdfast.simulate`.
 
         Raises:
             InputError: Another joint, a fault of another kind, or a lock that is over again or elsewhere than at the joint.
         """
         times = np.full(len(joints), np.inf)
         for event in self:
-            stays = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
-            if not stays or event.parameters.get("at", "here") != "here":
+            is_permanent = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
+            if not is_permanent or event.parameters.get("at", "here") != "here":
                 raise InputError(
                     f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
                     "--physics, or use holdfast.simulate_faults"
@@ -87,6 +87,6 @@ class FaultEvents(tuple[FaultEvent, ...]):
 
     @property
     def id(self) -> str:
-        """SHA-256, in hexadecimal digits, of the events as JSON with sorted keys and no spaces: alike on every machine."""
+        """SHA-256, in hexadecimal digits, of the events as JSON with sorted keys and no spaces; identical on every machine."""
         text = json.dumps([event.stored() for event in self], sort_keys=True, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(text.encode()).hexdigest()

@@ -1,4 +1,4 @@
-"""Whether a goal is within reach of an arm with faults at all: success counts against what was feasible."""
+"""Feasibility of a goal for an arm with faults, because success counts relative to the feasible episodes."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
-from holdfast.faults.entry import SENSOR
+from holdfast.faults.entry import SENSOR_KINDS
 from holdfast.faults.events import FaultEvent
 from holdfast.reach import reachable_when_locked
 from holdfast.recovery import recover
-from holdfast.recovery.question import task_of
-from holdfast.recovery.rows import row_solver
+from holdfast.recovery.question import choose_task
+from holdfast.recovery.rows import make_row_solver
 from holdfast.solvers import solve_ik
 
 Array = NDArray[np.float64]
 Answer = Literal["yes", "no", "not found", "unknown"]
 
-_LOCKS = frozenset({"locked", "slipping_clutch"})
-_BRAKED = frozenset({"limp", *SENSOR})
-_YIELD = 0.02  # rad or m, of a stop
-_EXACT = 1e-6  # m and rad: what a motion to the goal itself may be off
-_CONFIGURATIONS = 64  # of a goal at which a weak motor is asked to carry the arm
+_LOCKING_KINDS = frozenset({"locked", "slipping_clutch"})
+_BRAKED_KINDS = frozenset({"limp", *SENSOR_KINDS})
+_STOP_COMPLIANCE = 0.02  # rad or m, of a stop
+_EXACT_TOLERANCE = 1e-6  # m and rad: what a motion to the goal itself may be off
+_GRAVITY_TEST_CONFIGURATIONS = 64  # of a goal at which a weak motor is asked to carry the arm
 
 
 @dataclass(frozen=True)
 class Feasibility:
-    """Whether a goal is within reach.
+    """Feasibility of a goal.
 
     Attributes:
         answer: ``yes``; ``no``, which is proved; ``not found``, which proves nothing; or ``unknown``.
@@ -58,7 +58,7 @@ def feasible(
     restarts: int = 100,
     tolerance: float = 1e-6,
 ) -> Feasibility:
-    """Whether the tool of an arm with faults can be at a goal, within the joints' limits. No obstacles are looked at.
+    """Check if the tool of an arm with faults can reach a goal within the joint limits. Obstacles are ignored.
 
     A locked joint stays where it is; a free-swinging joint, and one whose sensor cannot be trusted, is locked by its brake. A
     weak motor must carry the arm against gravity at some configuration of the goal. Friction and speed make a goal late, not
@@ -81,108 +81,138 @@ def feasible(
     Raises:
         InputError: A goal of another shape, or an unknown joint.
     """
-    where = np.asarray(goal, dtype=np.float64)
-    if where.shape not in ((3,), (4, 4)):
-        raise InputError(f"goal has shape {where.shape}; it must be a position (3,) or a pose (4, 4), m")
-    if within is not None and where.ndim == 1:
+    target = np.asarray(goal, dtype=np.float64)
+    if target.shape not in ((3,), (4, 4)):
+        raise InputError(f"goal has shape {target.shape}; it must be a position (3,) or a pose (4, 4), m")
+    if within is not None and target.ndim == 1:
         raise InputError("within is about the tool's z axis, and the goal is a position (3,); give a pose (4, 4), m")
-    rows = task or ("position" if where.ndim == 1 else "pose")
-    rows = rows if within is None else task_of(arm, rows, None, within)
+    task_rows = task or ("position" if target.ndim == 1 else "pose")
+    task_rows = task_rows if within is None else choose_task(arm, task_rows, None, within)
     pose = np.eye(4)
-    pose[: len(where), 3 if where.ndim == 1 else slice(None)] = where
-    held = {e.joint: _within(arm, e.joint, x) for e, x in places.items() if e.kind in _LOCKS or (brakes and e.kind in _BRAKED)}
-    left = [e for e in places if e.joint not in held]
-    swinging = next((e for e in left if e.kind == "limp"), None)
-    weak = {e.joint: float(e.parameters.get("gain", e.parameters.get("ceiling", 0.0))) for e in left if e.kind == "weak"}
+    pose[: len(target), 3 if target.ndim == 1 else slice(None)] = target
+    locked_values = {
+        event.joint: _snap_to_limits(arm, event.joint, position)
+        for event, position in places.items()
+        if event.kind in _LOCKING_KINDS or (brakes and event.kind in _BRAKED_KINDS)
+    }
+    remaining_events = [event for event in places if event.joint not in locked_values]
+    swinging = next((event for event in remaining_events if event.kind == "limp"), None)
+    weak_gains = {
+        event.joint: float(event.parameters.get("gain", event.parameters.get("ceiling", 0.0)))
+        for event in remaining_events
+        if event.kind == "weak"
+    }
     if swinging is not None:
-        weak[swinging.joint] = 0.0
-    if weak and held:
+        weak_gains[swinging.joint] = 0.0
+    if weak_gains and locked_values:
         return Feasibility("unknown", "locks and weak motors together are not looked at")
-    if weak:
-        return _carried(arm, pose, rows, within, weak, tolerance)
-    ranges = {e.joint: _range(arm, e, places[e]) for e in left if e.kind == "reduced_range"}
-    parts = [f"{joint} locked" for joint in held] + [f"{joint} within its reduced range" for joint in ranges]
-    what = f"with {' and '.join(parts)}" if parts else "by the healthy arm"
+    if weak_gains:
+        return _check_gravity_load(arm, pose, task_rows, within, weak_gains, tolerance)
+    ranges = {
+        event.joint: _reduce_range(arm, event, places[event]) for event in remaining_events if event.kind == "reduced_range"
+    }
+    conditions = [f"{joint} locked" for joint in locked_values] + [f"{joint} within its reduced range" for joint in ranges]
+    condition_text = f"with {' and '.join(conditions)}" if conditions else "by the healthy arm"
     if not 0 < tolerance <= 1:
         raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
-    if at is not None and parts:
-        left_over = Degraded(arm, locked=held, ranges=ranges)
-        recovered = _recovered(arm, left_over, at, goal=pose, within=within, rows=rows, what=what)
-        unproved = recovered.answer == "no" and tolerance > _EXACT
-        return replace(recovered, answer="not found") if unproved else recovered
-    if held and ranges:
+    if at is not None and conditions:
+        remaining_arm = Degraded(arm, locked=locked_values, ranges=ranges)
+        recovered = _check_by_recovery(
+            arm, remaining_arm, at, goal=pose, within=within, rows=task_rows, condition_text=condition_text
+        )
+        is_unproved = recovered.answer == "no" and tolerance > _EXACT_TOLERANCE
+        return replace(recovered, answer="not found") if is_unproved else recovered
+    if locked_values and ranges:
         return Feasibility("unknown", "locks and reduced ranges together need where the arm is: give at")
     if within is not None:
-        remaining = Degraded(arm, locked=held, ranges=ranges) if parts else None
-        tilted = _in_cone(arm, remaining, pose, as_task(arm, rows), within, restarts, tolerance)
+        degraded_arm = Degraded(arm, locked=locked_values, ranges=ranges) if conditions else None
+        tilted = _solve_in_cone(arm, degraded_arm, pose, as_task(arm, task_rows), within, restarts, tolerance)
         if not len(tilted):
-            return Feasibility("not found", f"no configuration of the goal was found {what}")
-        return Feasibility("yes", f"the goal is reached {what}", tilted[0])
-    if held:
-        locked = held if len(held) == 1 else Degraded(arm, locked=held)
-        found = reachable_when_locked(arm, pose, locked, task=rows, restarts=restarts, tolerance=tolerance)
+            return Feasibility("not found", f"no configuration of the goal was found {condition_text}")
+        return Feasibility("yes", f"the goal is reached {condition_text}", tilted[0])
+    if locked_values:
+        locked = locked_values if len(locked_values) == 1 else Degraded(arm, locked=locked_values)
+        solution = reachable_when_locked(arm, pose, locked, task=task_rows, restarts=restarts, tolerance=tolerance)
     else:
-        whole = Degraded(arm, ranges=ranges).limited if ranges else arm
-        found = solve_ik(whole, pose, task=rows, restarts=restarts, tolerance=tolerance)
-    if not found.success:
-        return Feasibility("not found", f"no configuration of the goal was found {what}")
-    return Feasibility("yes", f"the goal is reached {what}", np.asarray(found.q))
+        limited_arm = Degraded(arm, ranges=ranges).limited if ranges else arm
+        solution = solve_ik(limited_arm, pose, task=task_rows, restarts=restarts, tolerance=tolerance)
+    if not solution.success:
+        return Feasibility("not found", f"no configuration of the goal was found {condition_text}")
+    return Feasibility("yes", f"the goal is reached {condition_text}", np.asarray(solution.q))
 
 
-def _within(arm: Arm, name: str, place: float) -> float:
-    """Stops give way a little: a joint that is barely beyond one is at it."""
+def _snap_to_limits(arm: Arm, name: str, position: float) -> float:
+    """Return the position, or the limit if the position is barely beyond it, because stops give way a little."""
     joint = arm.joints[arm.joint_index(name)]
-    inside = float(np.clip(place, joint.lower, joint.upper))
-    return inside if abs(inside - place) <= _YIELD else place
+    limited_position = float(np.clip(position, joint.lower, joint.upper))
+    return limited_position if abs(limited_position - position) <= _STOP_COMPLIANCE else position
 
 
-def _range(arm: Arm, event: FaultEvent, place: float) -> tuple[float, float]:
-    """What is left of a joint's range, as the injector has it: where the joint is belongs to it."""
-    joint, numbers = arm.joints[arm.joint_index(event.joint)], event.parameters
-    travel = float(numbers.get("travel", 0.0))
-    low = place + travel if travel < 0 else min(float(numbers.get("lower", joint.lower)), place)
-    high = place + travel if travel > 0 else max(float(numbers.get("upper", joint.upper)), place)
-    return max(low, joint.lower), min(high, joint.upper)
+def _reduce_range(arm: Arm, event: FaultEvent, position: float) -> tuple[float, float]:
+    """Return the remaining range of a joint, with the position of the joint, as the injector sets it."""
+    joint, parameters = arm.joints[arm.joint_index(event.joint)], event.parameters
+    travel = float(parameters.get("travel", 0.0))
+    lower = position + travel if travel < 0 else min(float(parameters.get("lower", joint.lower)), position)
+    upper = position + travel if travel > 0 else max(float(parameters.get("upper", joint.upper)), position)
+    return max(lower, joint.lower), min(upper, joint.upper)
 
 
-def _in_cone(arm: Arm, left: Degraded | None, goal: Array, rows: Task, within: float, restarts: int, tolerance: float) -> Array:
-    """Search configurations (K, n) of a goal (4, 4) that leaves the tool's z axis an angle (rad), from random starts."""
-    limited, at, free = (arm, np.zeros(arm.n), np.ones(arm.n, bool)) if left is None else (left.limited, left.lo, left.moves)
-    solver = row_solver(arm, rows, within).within(limited)
+def _solve_in_cone(
+    arm: Arm, degraded: Degraded | None, goal: Array, rows: Task, within: float, restarts: int, tolerance: float
+) -> Array:
+    """Search configurations (K, n) of a goal (4, 4) whose tool z axis may deviate by an angle (rad), from random starts."""
+    limited, q_locked, is_free = (
+        (arm, np.zeros(arm.n), np.ones(arm.n, bool)) if degraded is None else (degraded.limited, degraded.lo, degraded.moves)
+    )
+    solver = make_row_solver(arm, rows, within).with_limits(limited)
     poses = np.repeat(goal[None], restarts, axis=0)
-    q = solver.run(solver.starts(restarts, at, free, np.random.default_rng(0)), poses, np.ones((restarts, solver.rows.m)), free)
-    return q[(np.abs(solver.errors(q, poses)) <= tolerance).all(axis=1)]
+    q = solver.solve(
+        solver.sample_configurations(restarts, q_locked, is_free, np.random.default_rng(0)),
+        poses,
+        np.ones((restarts, solver.rows.m)),
+        is_free,
+    )
+    return q[(np.abs(solver.compute_errors(q, poses)) <= tolerance).all(axis=1)]
 
 
-def _recovered(
-    arm: Arm, left: Degraded, at: ArrayLike, *, goal: Array, within: float | None, rows: str | Task, what: str
+def _check_by_recovery(
+    arm: Arm,
+    degraded: Degraded,
+    q_start: ArrayLike,
+    *,
+    goal: Array,
+    within: float | None,
+    rows: str | Task,
+    condition_text: str,
 ) -> Feasibility:
-    """By a motion of the arm as it is now, or a proof that there is none."""
-    found = recover(arm, left, at, goal=goal, within=within, task=rows, samples=0, clearance=False)
-    if found.ok:
-        return Feasibility("yes", f"a motion to the goal was found {what}", np.asarray(found.q[-1]))
-    if found.verdict.kind == "start":
-        return Feasibility("unknown", found.verdict.why)
-    if found.verdict.answer == "proved infeasible":
-        return Feasibility("no", f"{what} it is proved: {found.verdict.why}")
-    return Feasibility("not found", f"no motion to the goal was found {what}: {found.verdict.why}")
+    """Return the feasibility from a motion of the arm from its current configuration, or from a proof that there is none."""
+    recovery = recover(arm, degraded, q_start, goal=goal, within=within, task=rows, samples=0, clearance=False)
+    if recovery.ok:
+        return Feasibility("yes", f"a motion to the goal was found {condition_text}", np.asarray(recovery.q[-1]))
+    if recovery.verdict.kind == "start":
+        return Feasibility("unknown", recovery.verdict.why)
+    if recovery.verdict.answer == "proved infeasible":
+        return Feasibility("no", f"{condition_text} it is proved: {recovery.verdict.why}")
+    return Feasibility("not found", f"no motion to the goal was found {condition_text}: {recovery.verdict.why}")
 
 
-def _carried(
+def _check_gravity_load(
     arm: Arm, goal: Array, task: str | Task, within: float | None, gains: Mapping[str, float], tolerance: float
 ) -> Feasibility:
-    """Whether weak motors hold the arm against gravity in some configuration of the goal."""
+    """Return the feasibility from the torque of weak motors against gravity in some configuration of the goal."""
     if within is None:
-        found = solve_ik(arm, np.repeat(goal[None], _CONFIGURATIONS, axis=0), task=task, restarts=4, tolerance=tolerance)
-        q = found.q[found.success]
+        solutions = solve_ik(
+            arm, np.repeat(goal[None], _GRAVITY_TEST_CONFIGURATIONS, axis=0), task=task, restarts=4, tolerance=tolerance
+        )
+        q = solutions.q[solutions.success]
     else:
-        q = _in_cone(arm, None, goal, as_task(arm, task), within, _CONFIGURATIONS, tolerance)
+        q = _solve_in_cone(arm, None, goal, as_task(arm, task), within, _GRAVITY_TEST_CONFIGURATIONS, tolerance)
     if not len(q):
         return Feasibility("not found", "no configuration of the goal was found by the healthy arm")
     joints = [arm.joint_index(joint) for joint in gains]
-    effort = np.array([arm.joints[j].effort for j in joints]) * list(gains.values())
-    over = (np.abs(arm.gravity_torque(q)[:, joints]) - effort).max(axis=1)
-    best, names = int(over.argmin()), " and ".join(gains)
-    if over[best] > 0:
+    efforts = np.array([arm.joints[index].effort for index in joints]) * list(gains.values())
+    overloads = (np.abs(arm.gravity_torque(q)[:, joints]) - efforts).max(axis=1)
+    best, names = int(overloads.argmin()), " and ".join(gains)
+    if overloads[best] > 0:
         return Feasibility("not found", f"gravity asks more of {names} in each of {len(q)} configurations of the goal")
     return Feasibility("yes", f"{names} can carry the arm at the goal", q[best])

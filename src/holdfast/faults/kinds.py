@@ -1,4 +1,4 @@
-"""The kinds of faults, a function for each: what goes wrong with the joint, and by how much.
+"""Kinds of faults, with a function for each: its effect on the joint, and its parameters.
 
 All take ``joints`` (a name, several, or None for any joint) and, as keywords, what :class:`holdfast.faults.Fault` says of
 ``weights``, ``probability``, ``onset``, ``duration``, ``rate_per_hour``, ``together``, ``on`` and ``off``. A number may be a
@@ -11,14 +11,14 @@ from collections.abc import Mapping, Sequence
 from typing import TypedDict, Unpack
 
 from holdfast.faults.entry import Fault
-from holdfast.faults.spread import Spread
+from holdfast.faults.spread import ParameterDistribution
 
 Joints = str | Sequence[str] | None
-Value = float | tuple[float, float] | Mapping[str, float | Sequence[float]] | Spread
+Value = float | tuple[float, float] | Mapping[str, float | Sequence[float]] | ParameterDistribution
 
 
-class When(TypedDict, total=False):
-    """What every kind takes."""
+class FaultTiming(TypedDict, total=False):
+    """Options that every kind of fault accepts."""
 
     weights: Sequence[float] | None
     probability: float
@@ -30,25 +30,29 @@ class When(TypedDict, total=False):
     off: float | None
 
 
-def locked(joints: Joints = None, *, at: Value | str = "here", **when: Unpack[When]) -> Fault:
-    """The joint stops at the onset and stays; or with ``at``, rad or m, when it next passes there."""
+def locked(joints: Joints = None, *, at: Value | str = "here", **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault that stops the joint at the onset for good; with ``at``, rad or m, when the joint next passes there."""
     return Fault("locked", {"at": at}, joints, **when)
 
 
-def limp(joints: Joints = None, **when: Unpack[When]) -> Fault:
-    """The motor gives no torque: the joint is free-swinging."""
+def limp(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a motor without torque: the joint is free-swinging."""
     return Fault("limp", {}, joints, **when)
 
 
-def weak(joints: Joints = None, *, gain: Value | None = None, ceiling: Value | None = None, **when: Unpack[When]) -> Fault:
-    """The motor gives ``gain`` times its torque; or is cut off at ``ceiling`` times its effort. Either is between 0 and 1."""
+def weak(
+    joints: Joints = None, *, gain: Value | None = None, ceiling: Value | None = None, **when: Unpack[FaultTiming]
+) -> Fault:
+    """Return a fault of a motor with ``gain`` times its torque, or a torque limit of ``ceiling`` times its effort,
+    each 0 to 1.
+    """
     return Fault("weak", {"gain": gain, "ceiling": ceiling}, joints, **when)
 
 
 def friction(
-    joints: Joints = None, *, coulomb: Value | None = None, viscous: Value | None = None, **when: Unpack[When]
+    joints: Joints = None, *, coulomb: Value | None = None, viscous: Value | None = None, **when: Unpack[FaultTiming]
 ) -> Fault:
-    """More friction than before: ``coulomb``, N m (N), and ``viscous``, N m s/rad (N s/m), one of them at least."""
+    """Return a fault with more friction: ``coulomb``, N m (N), and ``viscous``, N m s/rad (N s/m), at least one of them."""
     return Fault("friction", {"coulomb": coulomb, "viscous": viscous}, joints, **when)
 
 
@@ -58,42 +62,46 @@ def reduced_range(
     travel: Value | None = None,
     lower: Value | None = None,
     upper: Value | None = None,
-    **when: Unpack[When],
+    **when: Unpack[FaultTiming],
 ) -> Fault:
-    """A stop ``travel`` away, rad or m, to a side that is drawn, of where it is then; or stops at ``lower``, ``upper``."""
+    """Return a fault with a stop ``travel``, rad or m, from the position at the onset, on a random side, or at ``lower``,
+    ``upper``.
+    """
     return Fault("reduced_range", {"travel": travel, "lower": lower, "upper": upper}, joints, **when)
 
 
-def reduced_speed(joints: Joints = None, *, velocity: Value, **when: Unpack[When]) -> Fault:
-    """The motor drives with at most effort times 1 - speed / ``velocity``, rad/s or m/s; it brakes as before."""
+def reduced_speed(joints: Joints = None, *, velocity: Value, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a motor that drives with at most effort times 1 - speed / ``velocity``, rad/s or m/s, and brakes as
+    before.
+    """
     return Fault("reduced_speed", {"velocity": velocity}, joints, **when)
 
 
-def sensor_bias(joints: Joints = None, *, bias: Value, **when: Unpack[When]) -> Fault:
-    """The sensor reads ``bias``, rad or m, too much or too little: the sign is drawn."""
+def sensor_bias(joints: Joints = None, *, bias: Value, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a sensor whose reading is off by ``bias``, rad or m, with a random sign."""
     return Fault("sensor_bias", {"bias": bias}, joints, **when)
 
 
-def sensor_drift(joints: Joints = None, *, rate: Value, **when: Unpack[When]) -> Fault:
-    """The reading departs from the joint at ``rate``, rad/s or m/s, with a sign that is drawn."""
+def sensor_drift(joints: Joints = None, *, rate: Value, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a sensor whose reading drifts at ``rate``, rad/s or m/s, with a random sign."""
     return Fault("sensor_drift", {"rate": rate}, joints, **when)
 
 
-def sensor_freeze(joints: Joints = None, **when: Unpack[When]) -> Fault:
-    """The reading stays what it was at the onset."""
+def sensor_freeze(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a sensor whose reading keeps its value from the onset."""
     return Fault("sensor_freeze", {}, joints, **when)
 
 
-def sensor_noise(joints: Joints = None, *, deviation: Value, **when: Unpack[When]) -> Fault:
-    """Normal noise of this standard deviation, rad or m, on every reading."""
+def sensor_noise(joints: Joints = None, *, deviation: Value, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a sensor with normal noise of this standard deviation, rad or m, on every reading."""
     return Fault("sensor_noise", {"deviation": deviation}, joints, **when)
 
 
-def command_dropout(joints: Joints = None, **when: Unpack[When]) -> Fault:
-    """The joint gets no new commands: the last one holds."""
+def command_dropout(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a joint that receives no new commands: the last one holds."""
     return Fault("command_dropout", {}, joints, **when)
 
 
-def slipping_clutch(joints: Joints = None, **when: Unpack[When]) -> Fault:
-    """The link stays where it is, held by its brake, while the sensor, on the motor's side, follows the reference."""
+def slipping_clutch(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
+    """Return a fault of a clutch: a brake holds the link, while the sensor, on the motor's side, follows the reference."""
     return Fault("slipping_clutch", {}, joints, **when)

@@ -1,4 +1,4 @@
-"""What a robot or a simulation recorded of its joints over time, in npz, CSV and Parquet files."""
+"""Log of the joints of a robot or a simulation over time, in npz, CSV, and Parquet files."""
 
 from __future__ import annotations
 
@@ -13,21 +13,24 @@ from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.faults import columns as tables
 from holdfast.files import reading
-from holdfast.files.output import guarded, write_table
+from holdfast.files.output import guard_writing, write_table
 
 Array = NDArray[np.float64]
-_WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one for each joint
-_NEEDED = ("t", "q_ref", "q")
-_CLOCK = 1e6  # s: later times are those of a clock
-_LEAST = 40.0  # Hz: the observer's own rate, below which it says nothing
-_SPARSE = 20  # times as many samples as there are: longer gaps are between records, not in one
+_ARRAY_WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one for each joint
+_REQUIRED_ARRAYS = ("t", "q_ref", "q")
+_MIN_CLOCK_TIME_S = 1e6  # s: later times are those of a clock
+_MIN_RATE_HZ = 40.0  # Hz: the observer's own rate, below which it says nothing
+_MAX_GAP_FACTOR = 20  # times as many samples as there are: longer gaps are between records, not in one
 _UNEVEN_FRACTION = 0.01  # of the period: time stamps that differ less from even ones are even
-_BEYOND, _FASTER = 0.5, 2.0  # rad or m beyond a limit, and of a speed limit: such references are in other units
+_MAX_LIMIT_EXCESS, _MAX_SPEED_FACTOR = (
+    0.5,
+    2.0,
+)  # rad or m beyond a limit, and of a speed limit: such references are in other units
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Log:
-    """T samples of n joints, evenly spaced.
+    """Log of T samples of n joints, evenly spaced.
 
     Where times leap, rows of NaN stand for the samples that are missing. Where the clock is uneven and the references are
     smooth over its times, the joint signals are interpolated to even times; where they are smooth over the sample number,
@@ -54,49 +57,52 @@ class Log:
     quat: Array | None = None
 
     def __post_init__(self) -> None:
-        t = np.asarray(self.t, dtype=np.float64)
-        if t.ndim != 1 or len(t) < 2 or not np.isfinite(t).all():
-            raise InputError(f"t has shape {t.shape}; it must be the finite times of two samples or more, s")
-        if not (np.diff(t) > 0).all():
-            row = int(np.flatnonzero(~(np.diff(t) > 0))[0]) + 1
-            raise InputError(f"t does not increase at row {row}: {t[row - 1]:g} s, then {t[row]:g} s")
-        object.__setattr__(self, "t", t)
+        times = np.asarray(self.t, dtype=np.float64)
+        if times.ndim != 1 or len(times) < 2 or not np.isfinite(times).all():
+            raise InputError(f"t has shape {times.shape}; it must be the finite times of two samples or more, s")
+        if not (np.diff(times) > 0).all():
+            row = int(np.flatnonzero(~(np.diff(times) > 0))[0]) + 1
+            raise InputError(f"t does not increase at row {row}: {times[row - 1]:g} s, then {times[row]:g} s")
+        object.__setattr__(self, "t", times)
         joints = np.shape(self.q)[-1] if np.ndim(self.q) == 2 else 0
-        for name, width in list(_WIDTHS.items())[1:]:
+        for name, width in list(_ARRAY_WIDTHS.items())[1:]:
             value = getattr(self, name)
-            if value is None and name not in _NEEDED:
+            if value is None and name not in _REQUIRED_ARRAYS:
                 continue
-            array, wanted = np.asarray(value, dtype=np.float64), (len(t), joints if width < 0 else width)
-            if array.shape != wanted or not joints:
-                raise InputError(f"{name} has shape {array.shape}; it must be {wanted}, a row for each time")
+            array, expected_shape = np.asarray(value, dtype=np.float64), (len(times), joints if width < 0 else width)
+            if array.shape != expected_shape or not joints:
+                raise InputError(f"{name} has shape {array.shape}; it must be {expected_shape}, a row for each time")
             object.__setattr__(self, name, array)
         if (self.x is None) != (self.quat is None):
             raise InputError("only one of x and quat is there; give the tool's position and its orientation, or neither")
-        rows = _rows_of(t)
+        rows = _assign_even_rows(times)
         count = int(rows[-1]) + 1
-        if count > _SPARSE * len(t):
+        if count > _MAX_GAP_FACTOR * len(times):
             raise InputError(
-                f"nearly all samples are missing: {len(t)} in {self.duration:.4g} s, at {count / self.duration:.4g} a second; "
+                f"nearly all samples are missing: {len(times)} in {self.duration:.4g} s, at "
+                f"{count / self.duration:.4g} a second; "
                 "give its parts as records of their own"
             )
-        if count > len(t):
-            object.__setattr__(self, "t", np.interp(np.arange(count), rows, t))
-            for name in list(_WIDTHS)[1:]:
+        if count > len(times):
+            object.__setattr__(self, "t", np.interp(np.arange(count), rows, times))
+            for name in list(_ARRAY_WIDTHS)[1:]:
                 if (value := getattr(self, name)) is not None:
-                    whole = np.full((count, value.shape[1]), np.nan)
-                    whole[rows] = value
-                    object.__setattr__(self, name, whole)
+                    padded = np.full((count, value.shape[1]), np.nan)
+                    padded[rows] = value
+                    object.__setattr__(self, name, padded)
         else:
-            even = np.linspace(t[0], t[-1], len(t))
-            if np.abs(t - even).max() > _UNEVEN_FRACTION / self.rate and _bend(_at(even, t, self.q_ref)) < _bend(self.q_ref):
-                object.__setattr__(self, "t", even)
+            even_times = np.linspace(times[0], times[-1], len(times))
+            if np.abs(times - even_times).max() > _UNEVEN_FRACTION / self.rate and _sum_squared_curvature(
+                _interpolate_at(even_times, times, self.q_ref)
+            ) < _sum_squared_curvature(self.q_ref):
+                object.__setattr__(self, "t", even_times)
                 for name in ("q_ref", "q", "tau"):
                     if (value := getattr(self, name)) is not None:
-                        object.__setattr__(self, name, _at(even, t, value))
+                        object.__setattr__(self, name, _interpolate_at(even_times, times, value))
 
     @property
     def n(self) -> int:
-        """Joints."""
+        """Number of joints."""
         return int(self.q.shape[1])
 
     @property
@@ -106,11 +112,11 @@ class Log:
 
     @property
     def duration(self) -> float:
-        """From the first sample to the last, s."""
+        """Time from the first sample to the last, s."""
         return float(self.t[-1] - self.t[0])
 
     def require(self, arm: Arm) -> None:
-        """Refuse a record that cannot be of an arm, in these units.
+        """Raise an error for a log that cannot belong to an arm in these units.
 
         Raises:
             InputError: Another number of joints, fewer than 40 samples a second, or references far beyond what joints can.
@@ -120,23 +126,30 @@ class Log:
                 f"the record has {self.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded, or name the "
                 "columns of its joints"
             )
-        if self.rate < _LEAST:
-            raise InputError(f"the record has {self.rate:.4g} samples a second; it must have {_LEAST:g} or more, with t in s")
-        for joint, q in zip(arm.joints, self.q_ref.T, strict=True):
-            low, high = np.fmin.reduce(q), np.fmax.reduce(q)
+        if self.rate < _MIN_RATE_HZ:
+            raise InputError(
+                f"the record has {self.rate:.4g} samples a second; it must have {_MIN_RATE_HZ:g} or more, with t in s"
+            )
+        for joint, reference in zip(arm.joints, self.q_ref.T, strict=True):
+            lower, upper = np.fmin.reduce(reference), np.fmax.reduce(reference)
             # A reference may leap, but not all the time.
-            speed = float(np.quantile(np.nan_to_num(np.abs(np.diff(q))), 0.9)) * self.rate
-            if low < joint.lower - _BEYOND or high > joint.upper + _BEYOND or speed > _FASTER * joint.velocity:
+            speed = float(np.quantile(np.nan_to_num(np.abs(np.diff(reference))), 0.9)) * self.rate
+            if (
+                lower < joint.lower - _MAX_LIMIT_EXCESS
+                or upper > joint.upper + _MAX_LIMIT_EXCESS
+                or speed > _MAX_SPEED_FACTOR * joint.velocity
+            ):
                 unit = joint.unit
                 raise InputError(
-                    f"q_ref of '{joint.name}' is from {low:.4g} to {high:.4g} {unit} at {speed:.3g} {unit}/s, and the joint's "
+                    f"q_ref of '{joint.name}' is from {lower:.4g} to {upper:.4g} {unit} at {speed:.3g} {unit}/s, and "
+                    f"the joint's "
                     f"limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a record "
                     f"in {unit} and s, its joints in the arm's order"
                 )
 
     @classmethod
     def load(cls, file: str | Path, *, columns: str | Path | None = None, latency: float = 0.0) -> Log:
-        """From ``.npz`` with arrays of these names, or CSV or Parquet with columns ``t, q_ref_1, ..., q_1, ..., x_1, ...``.
+        """Load ``.npz`` with arrays of these names, or CSV or Parquet with columns ``t, q_ref_1, ..., q_1, ..., x_1, ...``.
 
         Columns of other names or units are described in a YAML file; what it leaves out is as above.
 
@@ -158,33 +171,33 @@ class Log:
         path = Path(file)
         try:
             if path.suffix.lower() in (".csv", ".parquet"):
-                arrays = dict(tables.read(path, columns))
+                arrays = dict(tables.read_arrays(path, columns))
             else:
                 if columns is not None:
                     raise InputError("a file of columns is for .csv and .parquet")
-                arrays = _from_npz(path)
-            missing = [name for name in _NEEDED if name not in arrays]
+                arrays = _read_npz(path)
+            missing = [name for name in _REQUIRED_ARRAYS if name not in arrays]
             if missing:
                 raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
-            if arrays["t"].ndim == 1 and (arrays["t"][:1] > _CLOCK).any():
+            if arrays["t"].ndim == 1 and (arrays["t"][:1] > _MIN_CLOCK_TIME_S).any():
                 arrays["t"] = arrays["t"] - arrays["t"][0]
-            return cls(**arrays)._earlier(latency)
+            return cls(**arrays)._shift_pose(latency)
         except InputError as error:
             raise InputError(f"log '{path}': {error}") from error
 
-    def _earlier(self, latency: float) -> Log:
-        """With the pose in the rows of the times at which it was taken."""
+    def _shift_pose(self, latency: float) -> Log:
+        """Shift the pose to the rows of the times at which it was taken."""
         rows = round(latency * self.rate)
         if not 0 <= latency < self.duration:
             raise InputError(f"latency is {latency:g} s; it must be 0 or more and shorter than the record")
         if rows == 0 or self.x is None or self.quat is None:
             return self
-        late = np.full((rows, 7), np.nan)
-        moved = np.concatenate([np.column_stack([self.x, self.quat])[rows:], late])
-        return replace(self, x=moved[:, :3], quat=moved[:, 3:])
+        missing = np.full((rows, 7), np.nan)
+        shifted = np.concatenate([np.column_stack([self.x, self.quat])[rows:], missing])
+        return replace(self, x=shifted[:, :3], quat=shifted[:, 3:])
 
     def save(self, file: str | Path, **more: Array) -> Path:
-        """Write ``.npz`` (single precision but for the time) or, by its name, CSV or Parquet.
+        """Write ``.npz`` (single precision except for the time) or, by its name, CSV or Parquet.
 
         Args:
             file: Path.
@@ -195,50 +208,63 @@ class Log:
             StoreError: It cannot be written.
         """
         path = Path(file)
-        given = {name: value for name in _WIDTHS if (value := getattr(self, name)) is not None}
+        available = {name: value for name in _ARRAY_WIDTHS if (value := getattr(self, name)) is not None}
         if path.suffix.lower() in (".csv", ".parquet"):
-            header = ["t", *(f"{name}_{k + 1}" for name, a in given.items() if a.ndim == 2 for k in range(a.shape[1]))]
-            rows = np.column_stack(list(given.values()))
+            header = [
+                "t",
+                *(
+                    f"{name}_{column + 1}"
+                    for name, array in available.items()
+                    if array.ndim == 2
+                    for column in range(array.shape[1])
+                ),
+            ]
+            rows = np.column_stack(list(available.values()))
             if path.suffix.lower() == ".csv":
                 return write_table(path, "log", header, rows)
-            pyarrow, parquet = tables.arrow()
-            with guarded(path, "log", "choose another path"):
+            pyarrow, parquet = tables.import_pyarrow()
+            with guard_writing(path, "log", "choose another path"):
                 parquet.write_table(pyarrow.table(dict(zip(header, rows.T, strict=True))), path)
             return path
-        with guarded(path, "log", "choose another path"), path.open("wb") as stream:
-            arrays = {**given, **more}
-            np.savez_compressed(stream, **{x: a if x == "t" else a.astype(np.float32) for x, a in arrays.items()})
+        with guard_writing(path, "log", "choose another path"), path.open("wb") as stream:
+            arrays = {**available, **more}
+            np.savez_compressed(
+                stream,
+                **{
+                    array_name: array if array_name == "t" else array.astype(np.float32) for array_name, array in arrays.items()
+                },
+            )
         return path
 
 
-def _rows_of(t: Array) -> NDArray[np.int64]:
+def _assign_even_rows(t: Array) -> NDArray[np.int64]:
     """Return the row of each sample on an even grid; rows between them are missing samples.
 
     An uneven clock shifts times to and fro about their grid, a gap shifts all later ones; the closer grid is taken.
     """
     steps = np.diff(t)
-    even = np.arange(len(t), dtype=np.int64)
+    even_rows = np.arange(len(t), dtype=np.int64)
     period = steps[steps <= 1.5 * np.median(steps)].mean()
-    counts = np.maximum(np.rint(np.minimum(steps / period, _SPARSE * len(t) + 1)), 1)
-    gapped = np.r_[0, np.cumsum(counts)].astype(np.int64)
-    return min((gapped, even), key=lambda rows: float(np.std(t * (rows[-1] / (t[-1] - t[0])) - rows)))
+    counts = np.maximum(np.rint(np.minimum(steps / period, _MAX_GAP_FACTOR * len(t) + 1)), 1)
+    gapped_rows = np.r_[0, np.cumsum(counts)].astype(np.int64)
+    return min((gapped_rows, even_rows), key=lambda candidate: float(np.std(t * (candidate[-1] / (t[-1] - t[0])) - candidate)))
 
 
-def _at(times: Array, t: Array, values: Array) -> Array:
+def _interpolate_at(times: Array, t: Array, values: Array) -> Array:
     """Return values (T, n), known at ``t``, at other times."""
     return np.stack([np.interp(times, t, column) for column in values.T], axis=1)
 
 
-def _bend(values: Array) -> float:
+def _sum_squared_curvature(values: Array) -> float:
     """Return the sum of squared second differences of values (T, n)."""
     return float(np.nansum(np.diff(values, n=2, axis=0) ** 2))
 
 
-def _from_npz(path: Path) -> dict[str, Array]:
-    with reading.guarded(advice="give an .npz or .csv file"):
-        content = reading.raw(path)
+def _read_npz(path: Path) -> dict[str, Array]:
+    with reading.guard_reading(advice="give an .npz or .csv file"):
+        content = reading.read_bytes(path)
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as data, np.errstate(invalid="ignore"):  # a signaling NaN
-            return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _WIDTHS}
+            return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _ARRAY_WIDTHS}
     except Exception as error:  # zipfile, zlib and NumPy have many ways of saying no
         raise InputError("it is no .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error

@@ -1,4 +1,4 @@
-"""A fault model: its entries and its seed; episodes, batches and files of it."""
+"""Fault model: its entries and its seed, with episodes, batches, and files."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from typing import Any, Protocol
 import yaml
 from pydantic import Field, ValidationError, create_model, model_validator
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.errors import InputError
-from holdfast.faults.batch import FaultBatch, batch_of
-from holdfast.faults.draw import drawn
-from holdfast.faults.entry import PARAMETERS, Fault
+from holdfast.faults.batch import FaultBatch, make_batch
+from holdfast.faults.draw import draw_events
+from holdfast.faults.entry import PARAMETERS_BY_KIND, Fault
 from holdfast.faults.events import FaultEvents
-from holdfast.files.output import replaced
-from holdfast.files.yaml import Number, Strict, content, sentence
+from holdfast.files.output import replace_file
+from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
 
 
-class Jointed(Protocol):
-    """Whatever has names of joints, as an arm."""
+class HasJointNames(Protocol):
+    """Object with names of joints, such as an arm."""
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """From base to tool."""
+        """Names of the joints from base to tool."""
         ...
 
 
-class _Common(Strict):
+class _EntryFields(Strict):
     kind: str
     joints: list[str] | str | None = None
     weights: list[Number] | None = None
@@ -44,25 +44,27 @@ class _Common(Strict):
 
     @model_validator(mode="before")
     @classmethod
-    def _on_and_off(cls, data: Any) -> Any:
-        """YAML 1.1 reads these two keys as true and false."""
+    def _restore_on_and_off(cls, data: Any) -> Any:
+        """Restore the keys ``on`` and ``off``, which YAML 1.1 reads as true and false."""
         names: dict[Any, str] = {True: "on", False: "off"}
         return {names.get(key, key): value for key, value in data.items()} if isinstance(data, dict) else data
 
 
-_NUMBERS: Any = dict.fromkeys((name for sets in PARAMETERS.values() for names in sets for name in names), (Any, None))
-_Entry: type[_Common] = create_model("_Entry", __base__=_Common, **_NUMBERS)
+_PARAMETER_FIELDS: Any = dict.fromkeys(
+    (name for sets in PARAMETERS_BY_KIND.values() for names in sets for name in names), (Any, None)
+)
+_Entry: type[_EntryFields] = create_model("_Entry", __base__=_EntryFields, **_PARAMETER_FIELDS)
 
 
-class _File(Strict):
+class _FaultModelFile(Strict):
     seed: int = Field(default=0, ge=0)
     faults: list[_Entry] = Field(min_length=1)  # type: ignore[valid-type]
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
-class Faults:
-    """A fault model: what may happen to the joints in an episode.
+class FaultModel:
+    """Fault model: possible faults of the joints in an episode.
 
     Attributes:
         entries: Families of faults, as :func:`holdfast.faults.locked` makes them.
@@ -77,13 +79,13 @@ class Faults:
 
     def __post_init__(self) -> None:
         entries = tuple(self.entries)
-        wrong = next((x for x in entries if not isinstance(x, Fault)), None)
-        if wrong is not None:
-            raise InputError(f"an entry of the faults is {wrong!r}; make it by holdfast.faults.locked(...) or another kind")
+        invalid = next((entry for entry in entries if not isinstance(entry, Fault)), None)
+        if invalid is not None:
+            raise InputError(f"an entry of the faults is {invalid!r}; make it by holdfast.faults.locked(...) or another kind")
         object.__setattr__(self, "entries", entries)
 
-    def draw(self, joints: Jointed | Sequence[str], *, episode: int = 0, horizon: float = math.inf) -> FaultEvents:
-        """What happens in one episode, alike on every machine.
+    def draw(self, joints: HasJointNames | Sequence[str], *, episode: int = 0, horizon: float = math.inf) -> FaultEvents:
+        """Draw the faults of one episode, identical on every machine.
 
         Args:
             joints: An arm, or the names of its joints.
@@ -97,31 +99,35 @@ class Faults:
             raise InputError(f"episode is {episode}; it must be a whole number of 0 or more")
         if not horizon > 0:
             raise InputError(f"horizon is {horizon:g}; it must be above 0")
-        names = names_of(joints)
+        names = list_joint_names(joints)
         return FaultEvents(
             event
-            for number, entry in enumerate(self.entries)
-            for event in drawn(entry, names, seed=self.seed, episode=int(episode), number=number, horizon=horizon)
+            for entry_index, entry in enumerate(self.entries)
+            for event in draw_events(
+                entry, names, seed=self.seed, episode=int(episode), entry_index=entry_index, horizon=horizon
+            )
         )
 
-    def batch(self, joints: Jointed | Sequence[str], *, episodes: int, first: int = 0, horizon: float = math.inf) -> FaultBatch:
-        """Episodes ``first``, ``first`` + 1, ... as arrays, for simulators that run many at once.
+    def batch(
+        self, joints: HasJointNames | Sequence[str], *, episodes: int, first: int = 0, horizon: float = math.inf
+    ) -> FaultBatch:
+        """Draw episodes ``first``, ``first`` + 1, ... as arrays, for simulators that run many at once.
 
         Raises:
             InputError: As :meth:`draw`, or fewer than one episode.
         """
         if isinstance(episodes, bool) or episodes != int(episodes) or episodes < 1:
             raise InputError(f"episodes is {episodes}; it must be a whole number above 0")
-        each = [self.draw(joints, episode=first + k, horizon=horizon) for k in range(int(episodes))]
-        return batch_of(names_of(joints), each, seed=self.seed, first=first)
+        drawn_episodes = [self.draw(joints, episode=first + offset, horizon=horizon) for offset in range(int(episodes))]
+        return make_batch(list_joint_names(joints), drawn_episodes, seed=self.seed, first=first)
 
-    def seeded(self, seed: int | None) -> Faults:
-        """With another seed; as they are where it is None.
+    def seeded(self, seed: int | None) -> FaultModel:
+        """Return the fault model with another seed, or unchanged where it is None.
 
         Raises:
             InputError: No whole number of 0 or more.
         """
-        return self if seed is None else Faults(self.entries, seed)
+        return self if seed is None else FaultModel(self.entries, seed)
 
     def save(self, file: str | Path) -> Path:
         """Write a YAML file that :func:`holdfast.faults.load` reads.
@@ -131,12 +137,14 @@ class Faults:
         """
         data = {"seed": self.seed, "faults": [entry.stored() for entry in self.entries]}
         path = Path(file)
-        replaced(path, yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120), "faults")
+        replace_file(
+            path, yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120), "faults"
+        )
         return path
 
 
-def load(file: str | Path) -> Faults:
-    """A fault model from a YAML file.
+def load(file: str | Path) -> FaultModel:
+    """Load a fault model from a YAML file.
 
     .. code-block:: yaml
 
@@ -152,24 +160,24 @@ def load(file: str | Path) -> Faults:
         InputError: Unreadable, or something that is unknown, missing or wrong; the message names it.
     """
     try:
-        model: Any = _File.model_validate(content(Path(file), "holdfast.faults.load", "faults"))
+        model: Any = _FaultModelFile.model_validate(read_mapping(Path(file), "holdfast.faults.load", "faults"))
         entries = []
-        for k, entry in enumerate(model.faults):
-            given = {name: value for name, value in entry if name in entry.model_fields_set}
-            common = {name: given.pop(name) for name in Fault.__dataclass_fields__ if name in given}
+        for index, entry in enumerate(model.faults):
+            entry_values = {name: value for name, value in entry if name in entry.model_fields_set}
+            common = {name: entry_values.pop(name) for name in Fault.__dataclass_fields__ if name in entry_values}
             try:
-                entries.append(Fault(**common, parameters=given))
+                entries.append(Fault(**common, parameters=entry_values))
             except InputError as error:
-                raise InputError(f"faults[{k}]: {error}") from error
-        return Faults(entries, model.seed)
+                raise InputError(f"faults[{index}]: {error}") from error
+        return FaultModel(entries, model.seed)
     except ValidationError as error:
-        raise InputError(f"faults file '{file}': {sentence(error, _File, ('str', 'list[str]'))}") from error
+        raise InputError(f"faults file '{file}': {describe_error(error, _FaultModelFile, ('str', 'list[str]'))}") from error
     except InputError as error:
         raise InputError(f"faults file '{file}': {error}") from error
 
 
-def names_of(joints: Jointed | Sequence[str]) -> tuple[str, ...]:
-    """The names of the joints of an arm, or these names."""
+def list_joint_names(joints: HasJointNames | Sequence[str]) -> tuple[str, ...]:
+    """Return the names of the joints of an arm, or the given names."""
     names: Any = getattr(joints, "joint_names", joints)
     if isinstance(names, str) or not all(isinstance(name, str) for name in names) or len(set(names)) < max(len(names), 1):
         raise InputError(f"joints are {names!r}; give an arm, or the name of each joint once")

@@ -1,1 +1,1 @@
-"""Files read and written with one sentence when that cannot be done."""
+"""Read and write files; each failure raises an error with one sentence."""

@@ -1,4 +1,4 @@
-"""Whose request a server of this machine is asked to answer: for which host, and from a page of which.
+"""Decide which requests a server on this computer answers, by their host and their origin.
 
 A browser lets every page of the web send requests to this machine, and tells in ``Origin`` whose page it is; a page that
 gives its own name the address of this machine (DNS rebinding) is told by ``Host``. Other programs send no ``Origin``.
@@ -11,11 +11,11 @@ import re
 from collections.abc import Callable, Sequence
 from urllib.parse import urlsplit
 
-_HOST = re.compile(r"(?:[A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
+_HOST_PATTERN = re.compile(r"(?:[A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
 
 
-def fault(hosts: Sequence[str], origins: Sequence[str], known: Callable[[str], bool]) -> str | None:
-    """What is wrong with a request; None for nothing.
+def find_request_fault(hosts: Sequence[str], origins: Sequence[str], known: Callable[[str], bool]) -> str | None:
+    """Return the reason to reject a request, or None.
 
     Args:
         hosts: Its ``Host`` headers; one is right.
@@ -23,7 +23,7 @@ def fault(hosts: Sequence[str], origins: Sequence[str], known: Callable[[str], b
         known: Whether the server answers for the name of a host, which is lower case and without port and brackets.
     """
     host = hosts[0] if len(hosts) == 1 else ""
-    name = _name(host)
+    name = _host_name(host)
     if name is None or not known(name):
         return "the request names another host"
     own = (f"http://{host}".lower(), f"https://{host}".lower())
@@ -33,15 +33,15 @@ def fault(hosts: Sequence[str], origins: Sequence[str], known: Callable[[str], b
 
 
 def is_loopback(name: str) -> bool:
-    """Whether a name, or an address, always means the machine that uses it."""
+    """Return whether a name or address always means this computer."""
     try:
         return ipaddress.ip_address(name).is_loopback
     except ValueError:
         return name == "localhost"
 
 
-def _name(host: str) -> str | None:
+def _host_name(host: str) -> str | None:
     try:
-        return urlsplit(f"//{host}").hostname if _HOST.fullmatch(host) else None
+        return urlsplit(f"//{host}").hostname if _HOST_PATTERN.fullmatch(host) else None
     except ValueError:
         return None

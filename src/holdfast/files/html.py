@@ -1,4 +1,4 @@
-"""A page that is held in memory: what a notebook shows, and what is written into a file."""
+"""HTML page in memory, shown in a notebook or written to a file."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-from holdfast.files.output import replaced
+from holdfast.files.output import replace_file
 
 # A page in a frame cannot see where it lies: it is told whether the text around it is light, now and when that changes.
-_GROUND = """
+_PAGE_BACKGROUND = """
 const told = () => {
   const [r, g, b] = getComputedStyle(this).color.match(/[\\d.]+/g).map(Number);
   this.contentWindow?.postMessage({ dark: r + g + b > 384 }, '*');
@@ -23,7 +23,7 @@ told();
 
 @dataclass(frozen=True)
 class Html:
-    """One page that needs nothing else: no server, no network, no other file.
+    """Self-contained page that needs no server, network, or other file.
 
     Attributes:
         text: The page.
@@ -34,7 +34,7 @@ class Html:
     height: int = 700
 
     def to_html(self) -> str:
-        """The page as text."""
+        """Return the text of the page."""
         return self.text
 
     def save(self, file: str | Path) -> Path:
@@ -44,14 +44,14 @@ class Html:
             StoreError: It cannot be written; what was there is as it was.
         """
         path = Path(file)
-        replaced(path, self.text, "page")
+        replace_file(path, self.text, "page")
         return path
 
     def _repr_html_(self) -> str:
         """The page in a frame of its own, so that it takes nothing from a notebook but whether it is dark."""
         return (
             f'<iframe srcdoc="{escape(self.text, quote=True)}" title="holdfast" sandbox="allow-scripts" '
-            f'onload="{escape(_GROUND, quote=True)}" '
+            f'onload="{escape(_PAGE_BACKGROUND, quote=True)}" '
             f'style="width:100%;height:{self.height}px;border:0"></iframe>'
         )
 

@@ -1,4 +1,4 @@
-"""Matrices in text files."""
+"""Read matrices from text files."""
 
 from __future__ import annotations
 
@@ -8,19 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.files.reading import guarded, text
+from holdfast.files.reading import guard_reading, read_text
 
 
-def matrix(path: str | Path) -> NDArray[np.float64]:
-    """The matrix of a text file: a row a line, numbers apart by commas, semicolons or spaces; ``#`` begins a comment.
+def read_matrix(path: str | Path) -> NDArray[np.float64]:
+    """Read the matrix of a text file with one row per line and numbers separated by commas, semicolons, or spaces; ``#`` begins
+    a comment.
 
     Raises:
         InputError: It cannot be read, a word is no number, or rows are of several lengths; the line is named.
     """
     name = Path(path).name
-    with guarded(name):
+    with guard_reading(name):
         try:
-            content = text(path)
+            content = read_text(path)
         except UnicodeDecodeError as error:
             raise InputError(f"{name} is no text in UTF-8; give a row of numbers a line") from error
     rows = list[list[float]]()

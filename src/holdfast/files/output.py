@@ -1,4 +1,4 @@
-"""Files that are written as a whole or not at all."""
+"""Write files completely or not at all."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
-from holdfast.files.spreadsheet import cell
+from holdfast.files.spreadsheet import escape_cell
 
-_TEMPORARY = ".holdfast-{}.tmp"  # beside a file that is being written
+_TEMPORARY_SUFFIX = ".holdfast-{}.tmp"  # beside a file that is being written
 
 
 @contextmanager
-def guarded(place: str | Path, what: str = "to", advice: str = "choose another folder") -> Iterator[None]:
-    """A block that writes; where the disk refuses, one sentence says so.
+def guard_writing(place: str | Path, what: str = "to", advice: str = "choose another folder") -> Iterator[None]:
+    """Context of a block that writes; if the disk refuses, the error states it in one sentence.
 
     Args:
         place: The file or folder that the sentence names.
@@ -34,64 +34,64 @@ def guarded(place: str | Path, what: str = "to", advice: str = "choose another f
     try:
         yield
     except OSError as error:
-        named = f"{what} '{place}'".lstrip()
-        raise StoreError(f"cannot write {named}: {error.strerror or error}; {advice}") from error
+        target_text = f"{what} '{place}'".lstrip()
+        raise StoreError(f"cannot write {target_text}: {error.strerror or error}; {advice}") from error
 
 
-def made(folder: str | Path) -> Path:
-    """The folder, made where need be.
+def make_folder(folder: str | Path) -> Path:
+    """Return the folder, after creating it where needed.
 
     Raises:
         StoreError: It cannot be made.
     """
-    place = Path(folder)
-    with guarded(place):
-        place.mkdir(parents=True, exist_ok=True)
-    return place
+    path = Path(folder)
+    with guard_writing(path):
+        path.mkdir(parents=True, exist_ok=True)
+    return path
 
 
-def replaced(
+def replace_file(
     path: Path, content: str | bytes, what: str = "", advice: str = "choose another path", errors: str = "strict"
 ) -> None:
-    """Write a file, all of it or nothing, with the permissions that every new file gets.
+    """Write a file completely or not at all, with the permissions of a new file.
 
     Args:
         path: The file.
         content: Its content; text is written as UTF-8.
-        what: It is, for the sentence where the disk refuses; see :func:`guarded`.
+        what: It is, for the sentence where the disk refuses; see :func:`guard_writing`.
         advice: How that sentence ends.
         errors: What becomes of characters that UTF-8 does not have, as :meth:`str.encode` takes it.
 
     Raises:
         StoreError: The disk refuses; what was there is as it was.
     """
-    with guarded(path, what, advice), _beside(path) as temporary:
+    with guard_writing(path, what, advice), _temporary_file(path) as temporary:
         temporary.write_bytes(content.encode(errors=errors) if isinstance(content, str) else content)
 
 
-def put(folder: str | Path, texts: Mapping[str, str]) -> list[Path]:
-    """Files of text in a folder, which is made where need be; each as :func:`replaced`."""
-    place = made(folder)
+def write_files(folder: str | Path, texts: Mapping[str, str]) -> list[Path]:
+    """Write text files into a folder, which is created where needed."""
+    folder_path = make_folder(folder)
     for name, text in texts.items():
-        replaced(place / name, text)
-    return [place / name for name in texts]
+        replace_file(folder_path / name, text)
+    return [folder_path / name for name in texts]
 
 
-def occupied(folder: Path) -> bool:
-    """Whether a folder holds anything but what :func:`replaced` leaves there when the program is killed while it writes."""
-    return not all(file.match(_TEMPORARY.format("*")) for file in folder.iterdir())
+def is_occupied(folder: Path) -> bool:
+    """Return whether a folder contains anything except what an interrupted :func:`replace_file` leaves."""
+    return not all(file.match(_TEMPORARY_SUFFIX.format("*")) for file in folder.iterdir())
 
 
 @contextmanager
-def writing(path: Path, what: str = "") -> Iterator[TextIO]:
-    """A file of text in UTF-8 to write into, line ends as given; it takes its place once the block ends, if nothing was wrong.
+def open_replacement(path: Path, what: str = "") -> Iterator[TextIO]:
+    """Open a UTF-8 text file that takes its place when the block ends without an error; line ends are written as given.
 
     Raises:
         StoreError: The disk refuses; what was there is as it was.
     """
     with (
-        guarded(path, what, "choose another path"),
-        _beside(path) as temporary,
+        guard_writing(path, what, "choose another path"),
+        _temporary_file(path) as temporary,
         temporary.open("w", encoding="utf-8", newline="") as file,
     ):
         yield file
@@ -106,21 +106,21 @@ def write_table(
         StoreError: It cannot be written.
     """
     file = Path(path)
-    with writing(file, what) as stream:
-        csv.writer(stream, lineterminator="\n").writerow(map(cell, header))
+    with open_replacement(file, what) as stream:
+        csv.writer(stream, lineterminator="\n").writerow(map(escape_cell, header))
         np.savetxt(stream, rows, fmt=form, delimiter=",")
     return file
 
 
 @contextmanager
-def _beside(path: Path) -> Iterator[Path]:
-    """A place for what a file will hold; it is on the disk before it replaces what was there."""
+def _temporary_file(path: Path) -> Iterator[Path]:
+    """Yield a temporary path; its file is flushed to the disk before it replaces the target."""
     if path.exists() and not path.is_file():  # a device or a pipe is written to, not replaced
         yield path
         return
     path = path.resolve()  # a link stays one
     # Not tempfile: its files are private, and results are for sharing.
-    temporary = path.with_name(_TEMPORARY.format(f"{os.getpid()}-{secrets.token_hex(4)}"))
+    temporary = path.with_name(_TEMPORARY_SUFFIX.format(f"{os.getpid()}-{secrets.token_hex(4)}"))
     try:
         yield temporary
         with temporary.open("rb+") as file:

@@ -1,4 +1,4 @@
-"""Reading files that people name: regular files up to a size, so that a device, a pipe or a disk image is refused at once."""
+"""Read files that users name: only regular files up to a size, so that a device, pipe, or disk image is rejected at once."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from typing import Any
 
 from holdfast.errors import HoldfastError, InputError
 
-LARGEST = 256 << 20
+LARGEST_FILE_BYTES = 256 << 20
 LARGEST_INTEGER = 1 << 63  # of text that is parsed
-MOST_DIGITS = 80  # of a whole number, its base and separators included
+MAX_INTEGER_DIGITS = 80  # of a whole number, its base and separators included
 
 
 @contextmanager
-def guarded(what: str = "the file", advice: str = "", kind: type[HoldfastError] = InputError) -> Iterator[None]:
-    """A block that reads; where that cannot be done, one sentence says so.
+def guard_reading(what: str = "the file", advice: str = "", kind: type[HoldfastError] = InputError) -> Iterator[None]:
+    """Context of a block that reads; if reading fails, the error states it in one sentence.
 
     Args:
         what: The file, as the sentence names it.
@@ -33,8 +33,8 @@ def guarded(what: str = "the file", advice: str = "", kind: type[HoldfastError] 
         raise kind(f"{what} cannot be read ({error.strerror or error}){ending}") from error
 
 
-def raw(path: str | Path, largest: int = LARGEST) -> bytes:
-    """The content of a file.
+def read_bytes(path: str | Path, largest: int = LARGEST_FILE_BYTES) -> bytes:
+    """Read the content of a file as bytes.
 
     Args:
         path: The file.
@@ -60,28 +60,28 @@ def raw(path: str | Path, largest: int = LARGEST) -> bytes:
     return content
 
 
-def text(path: str | Path, largest: int = LARGEST) -> str:
-    """The content of a file in UTF-8, without a byte order mark, its lines ended by line feeds alone.
+def read_text(path: str | Path, largest: int = LARGEST_FILE_BYTES) -> str:
+    """Read a UTF-8 file without its byte order mark; its lines end with line feeds.
 
     Args:
         path: The file.
         largest: Bytes that it may have.
 
     Raises:
-        OSError: As :func:`raw`.
+        OSError: As :func:`read_bytes`.
         UnicodeDecodeError: It is not UTF-8.
     """
-    return raw(path, largest).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    return read_bytes(path, largest).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
 
 
-def parsed(path: str | Path) -> Any:
-    """What a JSON file holds.
+def read_json(path: str | Path) -> Any:
+    """Read the content of a JSON file.
 
     Raises:
-        OSError: As :func:`raw`.
+        OSError: As :func:`read_bytes`.
         ValueError: It is not UTF-8, not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate pair.
     """
-    return parse_json(text(path))
+    return parse_json(read_text(path))
 
 
 def parse_json(content: str) -> Any:
@@ -100,7 +100,7 @@ def parse_json(content: str) -> Any:
 
 
 def _parse_integer(digits: str) -> int:
-    if len(digits) > MOST_DIGITS or abs(int(digits)) > LARGEST_INTEGER:
+    if len(digits) > MAX_INTEGER_DIGITS or abs(int(digits)) > LARGEST_INTEGER:
         raise ValueError(f"the whole number {digits[:20]}... is beyond 2^63")
     return int(digits)
 
@@ -114,8 +114,8 @@ def is_unicode(text: str) -> bool:
     return True
 
 
-def exists(path: str | Path) -> bool:
-    """Whether there is a file or folder of this name; no, if the name is one that none can have."""
+def path_exists(path: str | Path) -> bool:
+    """Return whether a file or folder of this name exists; False for a name that none can have."""
     try:
         Path(path).stat()
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""Reading of sealed JSON files, and of those that earlier versions wrote without a seal."""
+"""Read sealed JSON files, and files of earlier versions without a seal."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def read_sealed(path: str | Path, sealed_format: int | None = None, own_digest: 
         ValueError: It is not UTF-8, not JSON, or nested too deep.
         InputError: Its digest does not match.
     """
-    content = reading.raw(path).decode()  # exactly: a changed end of a line counts as well
-    data = reading.parsed(path)
+    content = reading.read_bytes(path).decode()  # exactly: a changed end of a line counts as well
+    data = reading.read_json(path)
     if not isinstance(data, dict):
         raise InputError("it is not a JSON object")
     stated = "sealed" in data or data.get("format", "") == sealed_format or ("digest" in data and not own_digest)

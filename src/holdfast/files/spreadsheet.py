@@ -1,4 +1,4 @@
-"""Text for tables that people open in a spreadsheet, where a cell that begins with ``=`` is a formula, whoever wrote it."""
+"""Text for CSV files that users open in a spreadsheet, where a cell that begins with ``=`` is a formula."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
-def cell(value: Any) -> Any:
-    """A value for a CSV file: text that a spreadsheet would compute gets an apostrophe before it; numbers stay."""
-    if not isinstance(value, str) or not value.startswith(_FORMULA):
+def escape_cell(value: Any) -> Any:
+    """Return a value for a CSV file; text that a spreadsheet would compute gets an apostrophe, numbers stay."""
+    if not isinstance(value, str) or not value.startswith(_FORMULA_STARTS):
         return value
     try:
         float(value)
@@ -22,12 +22,12 @@ def cell(value: Any) -> Any:
 
 
 def read_cell(text: str) -> str:
-    """Return the text that :func:`cell` made a cell from."""
-    return text[1:] if text.startswith("'") and cell(text[1:]) == text else text
+    """Return the text that :func:`escape_cell` made a cell from."""
+    return text[1:] if text.startswith("'") and escape_cell(text[1:]) == text else text
 
 
-def csv_text(table: DataFrame, missing: str = "") -> str:
-    """A table as CSV, every digit of its numbers, and nothing that a spreadsheet would compute.
+def write_csv_text(table: DataFrame, missing: str = "") -> str:
+    """Return a table as CSV with every digit of its numbers and no text that a spreadsheet would compute.
 
     Numbers are written in columns, which takes a third of the time of :meth:`pandas.DataFrame.to_csv`.
 
@@ -35,11 +35,11 @@ def csv_text(table: DataFrame, missing: str = "") -> str:
         table: Without its index.
         missing: For NaN and None.
     """
-    safe = table.rename(columns=cell)
+    safe = table.rename(columns=escape_cell)
     other = [k for k, kind in enumerate(safe.dtypes) if kind.kind not in "fi"]
     if other:
         for k in other:
-            safe.isetitem(k, safe.iloc[:, k].map(cell).to_numpy())
+            safe.isetitem(k, safe.iloc[:, k].map(escape_cell).to_numpy())
         return str(safe.to_csv(index=False, na_rep=missing, lineterminator="\n"))
     columns = [[repr(x) if x == x else missing for x in safe.iloc[:, k].tolist()] for k in range(safe.shape[1])]
     head = str(safe.head(0).to_csv(index=False, lineterminator="\n"))

@@ -1,4 +1,4 @@
-"""Functions of rows inside PyTorch and JAX, with exact first derivatives. Knows no robots; imports neither until asked."""
+"""Batch functions inside PyTorch and JAX with exact first derivatives; both are imported only when they are used."""
 
 from holdfast._lazy import offer
 

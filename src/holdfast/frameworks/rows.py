@@ -1,4 +1,4 @@
-"""What a learning framework needs of an index or a law: rows in, rows out, and the slopes of each row."""
+"""Interface between a batch function and a learning framework: rows in, rows out, and the derivatives of each row."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class RowFunction:
-    """A function of batches whose rows have nothing to do with each other.
+    """Batch function whose rows are independent of each other.
 
     Attributes:
         name: For messages.
@@ -40,8 +40,8 @@ class RowFunction:
     kernels: tuple[Any, Any] | None = None
     marked: bool = False
 
-    def leading(self, shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
-        """The axes before the last one, which all inputs share or are repeated along.
+    def leading_axes(self, shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
+        """Return the axes before the last one, which all inputs share or are broadcast along.
 
         Raises:
             InputError: An input has another number of columns, or axes that do not fit those of another one.
@@ -52,29 +52,30 @@ class RowFunction:
                 return first
             with suppress(ValueError):
                 return np.broadcast_shapes(first, *others)
-        wanted = " and ".join(f"(..., {k})" for k in self.sizes)
-        raise InputError(f"{self.name} takes {wanted}, got {' and '.join(map(str, shapes)) or 'nothing'}")
+        expected_shapes = " and ".join(f"(..., {k})" for k in self.sizes)
+        raise InputError(f"{self.name} takes {expected_shapes}, got {' and '.join(map(str, shapes)) or 'nothing'}")
 
-    def on_rows(self, function: Callable[..., Any], arrays: list[Any]) -> Sequence[Array]:
-        """``value`` or ``slopes`` of NumPy arrays that share all axes but the last; nothing is copied that need not be."""
+    def call_on_rows(self, function: Callable[..., Any], arrays: list[Any]) -> Sequence[Array]:
+        """Call ``value`` or ``slopes`` with NumPy arrays that share all axes except the last, without needless copies."""
         leading = arrays[0].shape[:-1]
         rows = [np.asarray(a, dtype=np.float64) for a in arrays]
         if len(leading) != 1:
             rows = [a.reshape(-1, k) for a, k in zip(rows, self.sizes, strict=True)]
-        found = function(*rows)
-        found = found if isinstance(found, tuple) else (found,)
-        return found if len(leading) == 1 else [out.reshape((*leading, *out.shape[1:])) for out in found]
+        results = function(*rows)
+        results = results if isinstance(results, tuple) else (results,)
+        return results if len(leading) == 1 else [out.reshape((*leading, *out.shape[1:])) for out in results]
 
 
 class Differentiable:
-    """Something whose :class:`RowFunction` PyTorch and JAX can use."""
+    """Object whose :class:`RowFunction` PyTorch and JAX can use."""
 
     @abstractmethod
     def row_function(self) -> RowFunction:
-        """Itself as a function of batches, with its exact first derivatives."""
+        """Return the object as a batch function with its exact first derivatives."""
 
     def to_torch(self) -> Callable[..., Any]:
-        """Itself as a function of PyTorch tensors, for ``backward``, ``torch.func.grad``, ``jacrev``, ``jvp`` and ``vmap``.
+        """Return the object as a function of PyTorch tensors, for ``backward``, ``torch.func.grad``, ``jacrev``, ``jvp`` and
+        ``vmap``.
 
         Inputs are tensors (..., n), and (..., m) for a law's velocity; axes before the last are batches and are broadcast.
         The result, (...) or (..., n), has their type and device. On the processor double-precision tensors are used where they
@@ -86,10 +87,10 @@ class Differentiable:
             HoldfastError: PyTorch is not installed (``holdfast[torch]``). When called for second derivatives.
             InputError: When called, a wrong shape.
         """
-        return _wrapped("torch", "PyTorch", self.row_function())
+        return _wrap_for_framework("torch", "PyTorch", self.row_function())
 
     def to_jax(self) -> Callable[..., Any]:
-        """Itself as a function of JAX arrays, for ``grad``, ``jacfwd``, ``jacrev``, ``jit`` and ``vmap``.
+        """Return the object as a function of JAX arrays, for ``grad``, ``jacfwd``, ``jacrev``, ``jit`` and ``vmap``.
 
         As :meth:`to_torch`; inside ``jit`` it is a call back to this process (``jax.pure_callback``). JAX computes in single
         precision unless ``jax_enable_x64`` is set: results are then rounded to that.
@@ -98,15 +99,15 @@ class Differentiable:
             HoldfastError: JAX is not installed (``holdfast[jax]``).
             InputError: When called, a wrong shape.
         """
-        return _wrapped("jax", "JAX", self.row_function())
+        return _wrap_for_framework("jax", "JAX", self.row_function())
 
 
-def _wrapped(framework: str, title: str, function: RowFunction) -> Callable[..., Any]:
+def _wrap_for_framework(framework: str, title: str, function: RowFunction) -> Callable[..., Any]:
     try:
         module = import_module(f"holdfast.frameworks.{framework}_rows")
     except ImportError as error:
         raise HoldfastError(
             f"{title} is not installed ({error}); install holdfast[{framework}] (pip install 'holdfast[{framework}]')"
         ) from error
-    made: Callable[..., Any] = module.wrapped(function)
-    return made
+    wrapper: Callable[..., Any] = module.wrap_row_function(function)
+    return wrapper

@@ -18,26 +18,33 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
-from holdfast.ceilings.ceiling import of_index
+from holdfast.ceilings.ceiling import bound_of_index
 from holdfast.failures import FailureSpec
 from holdfast.frameworks import RowFunction
 from holdfast.indices.index import Index, WorstCase
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
+from holdfast.kernels.recall import cached_kernel
+from holdfast.linalg import (
+    HouseholderQR,
+    directional_derivatives,
+    dot_product,
+    factor_householder,
+    select_smallest,
+    squared_volume,
+)
 from holdfast.registry import constructor
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 TaskSpec = str | Task | Sequence[str]
 
-_FLAT_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
-_FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
+_ZERO_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
+_ZERO_RHO = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
 
 
 class RelativeManipulability(Index):
-    r"""Share of the manipulability that is left when joints S lock.
+    r"""Fraction of the manipulability that remains when joints S lock.
 
     :math:`\rho_S = \sqrt{\det({}^SJ\,{}^SJ^\top)/\det(JJ^\top)} = \sqrt{\det(N_S N_S^\top)}`, where :math:`{}^SJ` is the
     task Jacobian without the columns S and :math:`N_S` the rows S of an orthonormal null-space basis of J.
@@ -59,9 +66,9 @@ class RelativeManipulability(Index):
         length: float | None = None,
     ) -> None:
         super().__init__("relative manipulability", arm, task, failures=failures, length=length)
-        self.ceiling = of_index(self)
+        self.ceiling = bound_of_index(self)
         if self.ceiling is not None:
-            self.bound, self.bound_note = self.ceiling.bound, self.ceiling.note
+            self.bound, self.bound_note = self.ceiling.bound, self.ceiling.gap_phrase
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
@@ -69,19 +76,19 @@ class RelativeManipulability(Index):
     def _symbols(self) -> tuple[SX, SX, HouseholderQR]:
         q = kinematics.joint_symbols(self.arm)
         j = kinematics.invariant_jacobian(self.arm, q) if self.task.invariant else self.task.jacobian(self.arm, q)
-        return q, j, householder(j)
+        return q, j, factor_householder(j)
 
-    def _scale(self, qr: HouseholderQR) -> SX:
+    def _index_scale(self, qr: HouseholderQR) -> SX:
         """Factor that turns rho into this index."""
         return ca.SX(1)
 
-    def _squares(self, qr: HouseholderQR) -> list[SX]:
+    def _squared_ratios(self, qr: HouseholderQR) -> list[SX]:
         """rho^2 of every failure."""
         rows = qr.null_rows()
-        return [squared_volume([rows[k] for k in s]) for s in self.failures]
+        return [squared_volume([rows[joint] for joint in locked]) for locked in self.failures]
 
-    def _clear(self, qr: HouseholderQR) -> SX:
-        """True only where J is certainly not singular; false also where the factorisation divided by zero.
+    def _is_regular(self, qr: HouseholderQR) -> SX:
+        """Return True only where J is certainly not singular, and False also where the factorisation divided by zero.
 
         The product of the singular values bounds the smallest one from below: by the means inequality
         ``sigma_m >= |det| ((m - 1) / |J|^2)^((m - 1) / 2)``. The factor covers the change of frame and point.
@@ -93,132 +100,132 @@ class RelativeManipulability(Index):
         threshold = min(1e-11 * (1 + reach) ** 2 * length, 1e-6)
         return qr.squared_volume() > threshold**2 * qr.squared_norm() ** self.task.m
 
-    def _mark(self, qr: HouseholderQR, outputs: list[SX], marked: bool) -> SX:
-        """NaN in every output of a row that is not clear: such a row is then looked at with singular values."""
-        clear = self._clear(qr)
-        return ca.vertcat(*[ca.if_else(clear, y, np.nan) if marked else y for y in outputs])
+    def _mark_singular(self, qr: HouseholderQR, outputs: list[SX], marked: bool) -> SX:
+        """Return NaN in every output of a row that may be singular; such a row is evaluated again with singular values."""
+        regular = self._is_regular(qr)
+        return ca.vertcat(*[ca.if_else(regular, output, np.nan) if marked else output for output in outputs])
 
     def _build_values(self, marked: bool, worst_only: bool) -> Kernel:
         q, _, qr = self._symbols
-        squares = self._squares(qr)
+        squares = self._squared_ratios(qr)
         if worst_only:
-            squares = [smallest(squares)]
-        scale = self._scale(qr)
+            squares = [select_smallest(squares)]
+        scale = self._index_scale(qr)
         values = [scale * ca.sqrt(s) for s in squares]
-        return Kernel(self.name, [q], [self._mark(qr, values, marked)])
+        return Kernel(self.name, [q], [self._mark_singular(qr, values, marked)])
 
     def _build_gradient(self, marked: bool) -> Kernel:
         q, j, qr = self._symbols
         if all(len(s) == 1 for s in self.failures):
-            cotangent = self._cotangent(qr)
+            cotangent = self._jacobian_derivative(qr)
             # Through the kinematics by reverse differentiation of J alone: fewer operations, and exact.
             seed = ca.SX.sym("seed", self.task.m, self.arm.n)
-            pull = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
-            g = pull(q, cotangent)
+            pull_back = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
+            g = pull_back(q, cotangent)
         else:
-            best, scale = smallest(self._squares(qr)), self._scale(qr)
-            rho = ca.sqrt(best)
-            slope = ca.if_else(rho > _FLAT, 0.5 / rho, 0.0)
+            smallest_square, scale = select_smallest(self._squared_ratios(qr)), self._index_scale(qr)
+            rho = ca.sqrt(smallest_square)
+            derivative = ca.if_else(rho > _ZERO_RHO, 0.5 / rho, 0.0)
             # Held apart so that no root is differentiated at 0.
             s, b = ca.SX.sym("scale"), ca.SX.sym("best")
-            outer = ca.jtimes(ca.vertcat(scale, best), q, ca.vertcat(b, s), True)
-            g = ca.substitute(ca.vertcat(outer), ca.vertcat(s, b), ca.vertcat(scale * slope, rho))
-        return Kernel(f"{self.name} gradient", [q], [self._mark(qr, ca.vertsplit(ca.densify(g)), marked)])
+            outer = ca.jtimes(ca.vertcat(scale, smallest_square), q, ca.vertcat(b, s), True)
+            g = ca.substitute(ca.vertcat(outer), ca.vertcat(s, b), ca.vertcat(scale * derivative, rho))
+        return Kernel(f"{self.name} gradient", [q], [self._mark_singular(qr, ca.vertsplit(ca.densify(g)), marked)])
 
-    def _cotangent(self, qr: HouseholderQR) -> SX:
-        r"""Derivative of the worst case by J, (m, n).
+    def _jacobian_derivative(self, qr: HouseholderQR) -> SX:
+        r"""Return the derivative of the worst case by J, (m, n).
 
         With ``P = N N'``, ``dP = -J^+ dJ P - (J^+ dJ P)'``, so ``d rho_k / dJ = -a_k (P e_k)' / rho_k`` with
         ``a_k = (J J')^-1 j_k = R^-1 (Q' e_k)_{1..m}``. The worst k enters as a unit vector.
         """
         rows = qr.null_rows()
-        squares = [dot(r, r) for r in rows]
-        best, unit = ca.SX(np.inf), [ca.SX(0)] * self.arm.n
-        for s in self.failures:
-            k = s[0]
-            less = squares[k] < best
-            best = ca.if_else(less, squares[k], best)
-            unit = [ca.if_else(less, float(i == k), u) for i, u in enumerate(unit)]
+        squares = [dot_product(r, r) for r in rows]
+        smallest_square, unit = ca.SX(np.inf), [ca.SX(0)] * self.arm.n
+        for locked in self.failures:
+            k = locked[0]
+            is_smaller = squares[k] < smallest_square
+            smallest_square = ca.if_else(is_smaller, squares[k], smallest_square)
+            unit = [ca.if_else(is_smaller, float(i == k), u) for i, u in enumerate(unit)]
         rotated = qr.q_transposed(unit)
         a = qr.pinv_transposed(rotated)
-        p = [dot(r, rotated[self.task.m :]) for r in rows]
-        rho = ca.sqrt(best)
-        return self._assemble(qr, rho, a, p)
+        p = [dot_product(r, rotated[self.task.m :]) for r in rows]
+        rho = ca.sqrt(smallest_square)
+        return self._combine_derivative(qr, rho, a, p)
 
-    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
-        slope = ca.if_else(rho > _FLAT, 1 / rho, 0.0)
-        return -ca.vertcat(*a) @ (ca.horzcat(*p) * slope)
+    def _combine_derivative(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        derivative = ca.if_else(rho > _ZERO_RHO, 1 / rho, 0.0)
+        return -ca.vertcat(*a) @ (ca.horzcat(*p) * derivative)
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """``rho^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
         if any(len(s) != 1 for s in self.failures):
-            values = self._squares(qr)
-            return values, slopes_along(values, q, directions)
-        values, slopes_by_joint, _ = self._squares_and_slopes(q, j, qr, directions)
+            values = self._squared_ratios(qr)
+            return values, directional_derivatives(values, q, directions)
+        values, slopes_by_joint, _ = self._squares_and_derivatives(q, j, qr, directions)
         return values, slopes_by_joint
 
     def value_of_score(self, score: SX) -> SX:
         """The root of a square, with a finite slope at 0; see :meth:`Index.value_of_score`."""
-        least = _FLAT_SCORE
-        return ca.if_else(score > least, ca.sqrt(ca.if_else(score > least, score, 1.0)), score / least**0.5)
+        smallest = _ZERO_SCORE
+        return ca.if_else(score > smallest, ca.sqrt(ca.if_else(score > smallest, score, 1.0)), score / smallest**0.5)
 
-    def _squares_and_slopes(
+    def _squares_and_derivatives(
         self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]
     ) -> tuple[list[SX], list[list[SX]], list[SX]]:
         """``rho_k^2`` and ``d rho_k^2 = -2 a_k' dJ P e_k`` along each direction, and ``tr(J^+ dJ)`` for each direction."""
         n, m = self.arm.n, self.task.m
         rows = qr.null_rows()
-        projector = [[dot(rows[max(i, k)], rows[min(i, k)]) for k in range(n)] for i in range(n)]
+        projector = [[dot_product(rows[max(i, k)], rows[min(i, k)]) for k in range(n)] for i in range(n)]
         a = [qr.pinv_transposed(qr.q_transposed([ca.SX(float(i == k)) for i in range(n)])) for k in range(n)]
-        failed = [s[0] for s in self.failures]
-        slopes: list[list[SX]] = [[] for _ in failed]
+        failed = [locked[0] for locked in self.failures]
+        derivatives: list[list[SX]] = [[] for _ in failed]
         traces = []
         dense = ca.vec(ca.densify(j))
         for v in directions:
             change = ca.reshape(ca.jtimes(dense, q, v), m, n)
             for slot, k in enumerate(failed):
-                column = [dot([change[i, c] for c in range(n)], projector[k]) for i in range(m)]
-                slopes[slot].append(-2 * dot(a[k], column))
+                column = [dot_product([change[i, c] for c in range(n)], projector[k]) for i in range(m)]
+                derivatives[slot].append(-2 * dot_product(a[k], column))
             traces.append(ca.trace(ca.horzcat(*[ca.vertcat(*x) for x in a]).T @ change))
-        return [projector[k][k] for k in failed], slopes, traces
+        return [projector[k][k] for k in failed], derivatives, traces
 
     # ---- kernels -----------------------------------------------------------------------------------------------
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _worst_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=True)
 
     @cached_property
-    @recalled
-    def _which_kernel(self) -> Kernel:
-        """The worst value, and which failure it is of: the first of those with exactly this value."""
+    @cached_kernel
+    def _worst_failure_kernel(self) -> Kernel:
+        """Kernel of the worst value and its failure, the first one with exactly this value."""
         q, _, qr = self._symbols
-        scale = self._scale(qr)
-        least, which = ca.SX(np.inf), ca.SX(0)
-        for k, square in enumerate(self._squares(qr)):
+        scale = self._index_scale(qr)
+        smallest_square, worst = ca.SX(np.inf), ca.SX(0)
+        for k, square in enumerate(self._squared_ratios(qr)):
             value = scale * ca.sqrt(square)
-            less = value < least
-            least, which = ca.if_else(less, value, least), ca.if_else(less, float(k), which)
-        return Kernel(f"worst {self.name}", [q], [self._mark(qr, [least, which], marked=True)])
+            is_smaller = value < smallest_square
+            smallest_square, worst = ca.if_else(is_smaller, value, smallest_square), ca.if_else(is_smaller, float(k), worst)
+        return Kernel(f"worst {self.name}", [q], [self._mark_singular(qr, [smallest_square, worst], marked=True)])
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _values_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=False)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _plain_values_kernel(self) -> Kernel:
         return self._build_values(marked=False, worst_only=False)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=True)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _plain_gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=False)
 
@@ -228,50 +235,50 @@ class RelativeManipulability(Index):
 
     def __call__(self, q: ArrayLike) -> Array:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
-        rows, single = self._rows(q)
+        rows, single = self._check_rows(q)
         values, marked = self._worst_kernel.marked_rows(rows)
         value = values[:, 0]
         if marked:
-            again = np.flatnonzero(np.isnan(value))
-            value[again] = super().evaluate(rows[again]).value
+            marked_rows = np.flatnonzero(np.isnan(value))
+            value[marked_rows] = super().evaluate(rows[marked_rows]).value
         return value[0] if single else value
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
         """See :meth:`Index.worst_case`: of these the kernel finds the worst failure itself."""
-        rows, single = self._rows(q)
-        found, marked = self._which_kernel.marked_rows(rows)
-        value, status = np.ascontiguousarray(found[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)
+        rows, single = self._check_rows(q)
+        outputs, marked = self._worst_failure_kernel.marked_rows(rows)
+        value, status = np.ascontiguousarray(outputs[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)
         if marked:
-            again = np.flatnonzero(np.isnan(value))
-            closely = self.evaluate(rows[again])
-            value[again], status[again], found[again, 1] = closely.value, closely.status, closely.worst
-        worst = found[:, 1].astype(np.int64)
+            marked_rows = np.flatnonzero(np.isnan(value))
+            closely = self.evaluate(rows[marked_rows])
+            value[marked_rows], status[marked_rows], outputs[marked_rows, 1] = closely.value, closely.status, closely.worst
+        worst = outputs[:, 1].astype(np.int64)
         return WorstCase(value[0], worst[0], status[0]) if single else WorstCase(value, worst, status)
 
-    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
         values, marked = self._values_kernel.marked_rows(q)
-        again, singular = self._second_look(q, values, marked)
-        if again.size:
-            values[again] = self._plain_values_kernel.rows(q[again])
+        marked_rows, singular = self._find_singular_rows(q, values, marked)
+        if marked_rows.size:
+            values[marked_rows] = self._plain_values_kernel.rows(q[marked_rows])
             values[singular] = 0.0
         return values, singular
 
-    def _gradient(self, q: Array) -> Array:
-        g, marked = self._gradient_kernel.marked_rows(q)
-        again, singular = self._second_look(q, g, marked)
-        if again.size:
-            g[again] = self._plain_gradient_kernel.rows(q[again])
-            g[singular] = 0.0
-        return g
+    def _evaluate_gradient(self, q: Array) -> Array:
+        gradient, marked = self._gradient_kernel.marked_rows(q)
+        marked_rows, singular = self._find_singular_rows(q, gradient, marked)
+        if marked_rows.size:
+            gradient[marked_rows] = self._plain_gradient_kernel.rows(q[marked_rows])
+            gradient[singular] = 0.0
+        return gradient
 
-    def _second_look(self, q: Array, out: Array, marked: bool) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-        """Rows that a kernel marked with NaN although q is finite, and which rows are singular."""
+    def _find_singular_rows(self, q: Array, outputs: Array, marked: bool) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Return the rows that a kernel marked with NaN although q is finite, and which rows are singular."""
         singular = np.zeros(len(q), dtype=bool)
-        again = np.zeros(0, dtype=np.int64)
+        marked_rows = np.zeros(0, dtype=np.int64)
         if marked:
-            again = np.flatnonzero(np.isnan(out[:, 0]) & np.isfinite(q).all(axis=1))
-            singular[again] = self._is_singular(q[again])
-        return again, singular
+            marked_rows = np.flatnonzero(np.isnan(outputs[:, 0]) & np.isfinite(q).all(axis=1))
+            singular[marked_rows] = self._is_singular(q[marked_rows])
+        return marked_rows, singular
 
 
 class Manipulability(RelativeManipulability):
@@ -299,28 +306,29 @@ class Manipulability(RelativeManipulability):
         # For an arm of revolute joints: each linear row brings one length.
         self.unit = "1" if linear == 0 or self.task.length != 1.0 else ("m" if linear == 1 else f"m^{linear}")
 
-    def _scale(self, qr: HouseholderQR) -> SX:
+    def _index_scale(self, qr: HouseholderQR) -> SX:
         return qr.volume() * self._rows_scale
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """``kr^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
-        if any(len(s) != 1 for s in self.failures):
-            volume = self._scale(qr) ** 2
-            values = [volume * x for x in self._squares(qr)]
-            return values, slopes_along(values, q, directions)
-        squares, slopes, traces = self._squares_and_slopes(q, j, qr, directions)
+        if any(len(locked) != 1 for locked in self.failures):
+            volume = self._index_scale(qr) ** 2
+            values = [volume * x for x in self._squared_ratios(qr)]
+            return values, directional_derivatives(values, q, directions)
+        squares, derivatives, traces = self._squares_and_derivatives(q, j, qr, directions)
         volume = qr.squared_volume() * self._rows_scale**2  # D^2, with d(D^2) = 2 D^2 tr(J^+ dJ)
         values = [volume * x for x in squares]
         return values, [
-            [volume * (s + 2 * x * t) for s, t in zip(row, traces, strict=True)] for x, row in zip(squares, slopes, strict=True)
+            [volume * (locked + 2 * x * t) for locked, t in zip(row, traces, strict=True)]
+            for x, row in zip(squares, derivatives, strict=True)
         ]
 
-    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+    def _combine_derivative(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
         # kr = rho D with dD/dJ = D (J^+)'
         units = [[ca.SX(float(i == k)) for i in range(self.arm.n)] for k in range(self.arm.n)]
         columns = [qr.pinv_transposed(qr.q_transposed(e)) for e in units]
         pinv_transposed = ca.horzcat(*[ca.vertcat(*c) for c in columns])
-        return self._scale(qr) * (super()._assemble(qr, rho, a, p) + rho * pinv_transposed)
+        return self._index_scale(qr) * (super()._combine_derivative(qr, rho, a, p) + rho * pinv_transposed)
 
 
 @constructor(

@@ -1,4 +1,4 @@
-"""Indices that are one formula of the reduced Jacobian; one of your own is one symbolic function."""
+"""Indices defined by one formula of the reduced Jacobian, including a user's own formula."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
@@ -21,8 +21,8 @@ from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.linalg import HouseholderQR, slopes_along
+from holdfast.kernels.recall import cached_kernel
+from holdfast.linalg import HouseholderQR, directional_derivatives
 
 Array = NDArray[np.float64]
 Formula = Callable[..., SX]
@@ -39,33 +39,33 @@ class FormulaIndex(Index):
     def formula(self, j: SX) -> SX:
         """The value, a scalar, of the reduced task Jacobian (m, n - |S|), linear rows divided by the characteristic length."""
 
-    def _value(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
+    def _evaluate_formula(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
         """Compute the formula for the joints that still work, whose columns the Jacobian has."""
         del q, joints
         return self.formula(j)
 
-    def _symbols(self) -> tuple[SX, list[SX]]:
+    def _formula_symbols(self) -> tuple[SX, list[SX]]:
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)
         values = []
         for failed in self.failures:
             joints = [k for k in range(self.arm.n) if k not in failed]
-            value = self._value(j[:, joints], q, joints)
+            value = self._evaluate_formula(j[:, joints], q, joints)
             if value.shape != (1, 1):
                 raise TaskError(f"{self.name}: its formula returned shape {value.shape}; it must return one scalar")
             values.append(value)
         return q, values
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _values_kernel(self) -> Kernel:
-        q, values = self._symbols()
+        q, values = self._formula_symbols()
         return Kernel(self.name, [q], [ca.vertcat(*values)])
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _gradient_kernel(self) -> Kernel:
-        q, values = self._symbols()
+        q, values = self._formula_symbols()
         worst = values[0]
         for value in values[1:]:
             worst = ca.if_else(value < worst if self.better == "larger" else value > worst, value, worst)
@@ -73,21 +73,21 @@ class FormulaIndex(Index):
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """The formula for every failure, negated if smaller is better, and its derivatives; see :meth:`Index.scores`."""
-        symbols, formulas = self._symbols()
+        symbols, formulas = self._formula_symbols()
         sign = 1.0 if self.better == "larger" else -1.0
-        values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * x for x in formulas]), symbols, q))
-        return values, slopes_along(values, q, directions)
+        values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * value for value in formulas]), symbols, q))
+        return values, directional_derivatives(values, q, directions)
 
-    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
         values = self._values_kernel.rows(q)
         singular = self._singular_rows(q)
         values[singular] = self.singular_value_by_convention
         return values, singular
 
-    def _gradient(self, q: Array) -> Array:
-        g = self._gradient_kernel.rows(q)
-        g[self._singular_rows(q)] = 0.0
-        return g
+    def _evaluate_gradient(self, q: Array) -> Array:
+        gradient = self._gradient_kernel.rows(q)
+        gradient[self._singular_rows(q)] = 0.0
+        return gradient
 
     def _singular_rows(self, q: Array) -> NDArray[np.bool_]:
         singular = np.zeros(len(q), dtype=bool)
@@ -96,7 +96,7 @@ class FormulaIndex(Index):
         return singular
 
 
-@checked_class
+@check_constructor
 class CustomIndex(FormulaIndex):
     """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
 
@@ -138,7 +138,7 @@ class CustomIndex(FormulaIndex):
 
     def formula(self, j: SX) -> SX:
         """See :meth:`FormulaIndex.formula`."""
-        return self._value(j, ca.SX.zeros(0), ())
+        return self._evaluate_formula(j, ca.SX.zeros(0), ())
 
     def with_failures(self, failures: FailureSpec) -> CustomIndex:
         """See :meth:`Index.with_failures`."""
@@ -153,7 +153,7 @@ class CustomIndex(FormulaIndex):
             bound=self.bound,
         )
 
-    def _value(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
+    def _evaluate_formula(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
         arguments = (j, q, list(joints)) if _takes_joints(self._formula) else (j,)
         try:
             return ca.SX(self._formula(*arguments))
@@ -170,5 +170,10 @@ def _takes_joints(formula: Formula) -> bool:
         parameters = signature(formula).parameters.values()
     except (TypeError, ValueError):  # functions of C have no signature
         return False
-    required = [p for p in parameters if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    required = [
+        parameter
+        for parameter in parameters
+        if parameter.default is parameter.empty
+        and parameter.kind in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD)
+    ]
     return len(required) == 3

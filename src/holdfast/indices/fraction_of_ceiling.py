@@ -1,4 +1,4 @@
-"""Relative manipulability beside what is known to be attainable, so that failures of several sizes can be compared."""
+"""Relative manipulability as a fraction of the best attainable value, so that failures of several sizes can be compared."""
 
 from __future__ import annotations
 
@@ -7,21 +7,22 @@ from math import comb
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.ceilings.ceiling import look_up
+from holdfast.ceilings.ceiling import upper_bound
 from holdfast.failures import FailureSpec
 from holdfast.indices.determinants import RelativeManipulability
 from holdfast.kernels.program import SX
 from holdfast.linalg import HouseholderQR
 from holdfast.registry import constructor
 
-_SAME = 1e-9  # relative
+_ATTAINED_TOLERANCE = 1e-9  # relative
 
 
 class CeilingFraction(RelativeManipulability):
-    r"""Relative manipulability after each failure, of the best value known for so many joints that lock; the least of all.
+    r"""Smallest relative manipulability after any failure, as a fraction of the best value known for the number of locked
+    joints.
 
-    :math:`\min_S \rho_S / c(n, m, |S|)` with the best known :math:`c` (:func:`holdfast.ceilings.look_up`), or the least proven
-    bound where nothing is known. One number for failures of one, two and three joints at once.
+    :math:`\min_S \rho_S / c(n, m, |S|)` with the best known :math:`c` (:func:`holdfast.ceilings.upper_bound`), or the least
+    proven bound where nothing is known. One number for failures of one, two and three joints at once.
 
     Source: derived here.
     """
@@ -39,27 +40,27 @@ class CeilingFraction(RelativeManipulability):
         super().__init__(arm, task, failures, length=length)
         self.name = "ceiling fraction"
         self.ceiling, self.bound, self.bound_note = None, None, ""
-        ceilings = {k: look_up(n=arm.n, m=self.task.m, k=k) for k in {len(s) for s in self.failures}}
-        self._attainable = {k: c.best_known or c.bound for k, c in ceilings.items()}
-        complete = [k for k in ceilings if sum(len(s) == k for s in self.failures) == comb(arm.n, k)]
+        ceilings = {count: upper_bound(n=arm.n, m=self.task.m, k=count) for count in {len(s) for s in self.failures}}
+        self._attainable = {count: bound.best_known or bound.bound for count, bound in ceilings.items()}
+        complete = [count for count in ceilings if sum(len(s) == count for s in self.failures) == comb(arm.n, count)]
         if complete:
-            self.bound = min(ceilings[k].bound / self._attainable[k] for k in complete)
-            self.bound_note = "" if self.bound <= 1 + _SAME else "an upper bound; the best known is 1"
+            self.bound = min(ceilings[count].bound / self._attainable[count] for count in complete)
+            self.bound_note = "" if self.bound <= 1 + _ATTAINED_TOLERANCE else "an upper bound; the best known is 1"
 
-    def _squares(self, qr: HouseholderQR) -> list[SX]:
-        squares = super()._squares(qr)
+    def _squared_ratios(self, qr: HouseholderQR) -> list[SX]:
+        squares = super()._squared_ratios(qr)
         return [square / self._attainable[len(s)] ** 2 for square, s in zip(squares, self.failures, strict=True)]
 
-    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
-        return super()._assemble(qr, rho, a, p) / self._attainable[1]
+    def _combine_derivative(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        return super()._combine_derivative(qr, rho, a, p) / self._attainable[1]
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """Squares of the fractions and their derivatives; see :meth:`Index.scores`."""
-        values, slopes = super().scores(q, j, qr, directions)
+        values, derivatives = super().scores(q, j, qr, directions)
         if any(len(s) != 1 for s in self.failures):
-            return values, slopes  # of _squares
+            return values, derivatives  # of _squares
         factor = self._attainable[1] ** -2
-        return [factor * x for x in values], [[factor * x for x in row] for row in slopes]
+        return [factor * x for x in values], [[factor * x for x in row] for row in derivatives]
 
 
 @constructor(formula="min<sub>S</sub> ρ<sub>S</sub> / c(n, m, |S|)", properties=("base-free",))

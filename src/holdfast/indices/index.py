@@ -10,22 +10,22 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
-from holdfast.ceilings.ceiling import Ceiling
+from holdfast.ceilings.ceiling import UpperBound
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets
 from holdfast.failures.sets import require_redundant
-from holdfast.indices.objective import Better, Objective, Part
+from holdfast.indices.objective import Better, Objective, ObjectivePart
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import HouseholderQR
-from holdfast.registry import INDICES, Labelled
+from holdfast.registry import INDEX_REGISTRY, Labelled
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ SINGULAR_RATIO = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class Evaluation:
+class IndexEvaluation:
     """An index at N configurations, or at one (then without the leading N).
 
     Attributes:
@@ -54,7 +54,7 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class WorstCase:
-    """What :class:`Evaluation` says of the worst failure alone.
+    """Part of an :class:`Evaluation` that concerns the worst failure alone.
 
     Attributes:
         value, worst, status: As there.
@@ -84,9 +84,9 @@ class Index(Labelled, Objective):
     source = ""
     bound: float | None = None
     bound_note = ""
-    ceiling: Ceiling | None = None
+    ceiling: UpperBound | None = None
 
-    @checked
+    @check_arguments
     def __init__(
         self,
         name: str,
@@ -104,7 +104,7 @@ class Index(Labelled, Objective):
 
     @property
     def best_known(self) -> float | None:
-        """What some Jacobian of this size is known to attain; None where nothing is known."""
+        """Largest value that a Jacobian of this size is known to attain; None where no value is known."""
         return None if self.ceiling is None else self.ceiling.best_known
 
     @property
@@ -115,11 +115,11 @@ class Index(Labelled, Objective):
     # ---- what a formula provides -------------------------------------------------------------------------------
 
     @abstractmethod
-    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Values (N, F), NaN where q (N, n) is not finite, and which rows are singular (N,)."""
 
     @abstractmethod
-    def _gradient(self, q: Array) -> Array:
+    def _evaluate_gradient(self, q: Array) -> Array:
         """Gradient (N, n) of the worst case, NaN where q (N, n) is not finite."""
 
     # ---- what a user asks --------------------------------------------------------------------------------------
@@ -134,7 +134,7 @@ class Index(Labelled, Objective):
         """Joint names, joined by ``+`` where several fail together."""
         return failure_names(self.arm, self.failures)
 
-    def evaluate(self, q: ArrayLike) -> Evaluation:
+    def evaluate(self, q: ArrayLike) -> IndexEvaluation:
         """Value, value per failure, worst failure and status in one pass.
 
         Args:
@@ -143,18 +143,22 @@ class Index(Labelled, Objective):
         Raises:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = self._rows(q)
-        by_failure, singular = self._by_failure(rows)
-        found = by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)  # a NaN, if there is any
-        worst = found.astype(np.int64, copy=False)
+        rows, single = self._check_rows(q)
+        by_failure, singular = self._evaluate_by_failure(rows)
+        worst_failures = (
+            by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
+        )  # a NaN, if there is any
+        worst = worst_failures.astype(np.int64, copy=False)
         value = by_failure.ravel().take(worst + np.arange(0, by_failure.size, by_failure.shape[1]))
         status = np.full(len(rows), Status.OK, dtype=np.uint8)
         status[singular] = Status.SINGULAR
         unknown = np.isnan(value)
         if unknown.any():
             status[unknown] = np.where(np.isfinite(rows[unknown]).all(axis=1), Status.UNDEFINED, Status.BAD_INPUT)
-        one = 0 if single else slice(None)
-        return Evaluation(value=value[one], by_failure=by_failure[one], worst=worst[one], status=status[one])
+        selection = 0 if single else slice(None)
+        return IndexEvaluation(
+            value=value[selection], by_failure=by_failure[selection], worst=worst[selection], status=status[selection]
+        )
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
         """Value, worst failure and status, without the values of the other failures: for very many configurations.
@@ -165,8 +169,8 @@ class Index(Labelled, Objective):
         Raises:
             InputError: As :meth:`evaluate`.
         """
-        found = self.evaluate(q)
-        return WorstCase(found.value, found.worst, found.status)
+        evaluation = self.evaluate(q)
+        return WorstCase(evaluation.value, evaluation.worst, evaluation.status)
 
     def __call__(self, q: ArrayLike) -> Array:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
@@ -186,9 +190,9 @@ class Index(Labelled, Objective):
         Raises:
             TaskError: Some failures are of several joints; ask for :meth:`worst_failure`.
         """
-        if any(len(s) != 1 for s in self.failures):
+        if any(len(failure) != 1 for failure in self.failures):
             raise TaskError(f"{self.name}: several joints fail together here; ask for worst_failure and failure_names")
-        return np.array([s[0] for s in self.failures], dtype=np.int64)[self.evaluate(q).worst]
+        return np.array([failure[0] for failure in self.failures], dtype=np.int64)[self.evaluate(q).worst]
 
     def gradient(self, q: ArrayLike) -> Array:
         """Exact gradient of the worst case, (N, n) or (n,), per rad and m.
@@ -196,13 +200,13 @@ class Index(Labelled, Objective):
         Where two failures tie it is that of the first. It is 0 at a singular configuration and where the worst case is 0
         whatever the joints do (both are kinks or constants), and NaN where q is.
         """
-        rows, single = self._rows(q)
-        g = self._gradient(rows)
-        return g[0] if single else g
+        rows, single = self._check_rows(q)
+        gradient = self._evaluate_gradient(rows)
+        return gradient[0] if single else gradient
 
     def singular(self, q: ArrayLike) -> NDArray[np.bool_]:
         """True where the healthy arm's task Jacobian is singular, (N,) or a scalar."""
-        rows, single = self._rows(q)
+        rows, single = self._check_rows(q)
         finite: NDArray[np.bool_] = np.asarray(np.isfinite(rows).all(axis=1))
         result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
         return result[0] if single else result
@@ -228,24 +232,24 @@ class Index(Labelled, Objective):
         """The value that a score stands for, its negative where smaller is better: an increasing function of the score."""
         return score
 
-    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
         """The scores, as one part; see :meth:`Objective.parts`."""
-        return [Part(1.0, *self.scores(q, j, qr, directions))]
+        return [ObjectivePart(1.0, *self.scores(q, j, qr, directions))]
 
-    def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+    def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
         """The values themselves, as one part; see :meth:`Objective.exact_parts`."""
-        scores, slopes = self.scores(q, j, qr, directions)
-        s = ca.SX.sym("score")
-        value = self.value_of_score(s)
-        both = ca.Function("value", [s], [value, ca.gradient(value, s)])
+        scores, derivatives = self.scores(q, j, qr, directions)
+        score_symbol = ca.SX.sym("score")
+        value = self.value_of_score(score_symbol)
+        value_and_rate = ca.Function("value", [score_symbol], [value, ca.gradient(value, score_symbol)])
         values, exact = [], []
-        for score, row in zip(scores, slopes, strict=True):
-            v, rate = both(score)
+        for score, row in zip(scores, derivatives, strict=True):
+            v, rate = value_and_rate(score)
             values.append(v)
             exact.append([rate * x for x in row])
-        return [Part(1.0, values, exact)]
+        return [ObjectivePart(1.0, values, exact)]
 
-    def statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
         """``SINGULAR`` where the value is a convention; see :meth:`Objective.statuses`."""
         return self.evaluate(q).status
 
@@ -260,12 +264,12 @@ class Index(Labelled, Objective):
         Raises:
             InputError: The index is of a class of one's own.
         """
-        return by_name(INDICES.label(self), self.arm, self.task, failures=failures)
+        return by_name(INDEX_REGISTRY.label(self), self.arm, self.task, failures=failures)
 
     # ---- shared machinery --------------------------------------------------------------------------------------
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])
@@ -278,10 +282,10 @@ class Index(Labelled, Objective):
         """The definition itself, by singular values of the task Jacobian."""
         if not len(q):
             return np.zeros(0, dtype=bool)
-        sigma = np.linalg.svd(self.task_jacobian(q), compute_uv=False)
-        return np.asarray(sigma[:, -1] <= SINGULAR_RATIO * sigma[:, 0])
+        singular_values = np.linalg.svd(self.task_jacobian(q), compute_uv=False)
+        return np.asarray(singular_values[:, -1] <= SINGULAR_RATIO * singular_values[:, 0])
 
-    def _rows(self, q: ArrayLike) -> tuple[Array, bool]:
+    def _check_rows(self, q: ArrayLike) -> tuple[Array, bool]:
         return as_configurations(self.arm, q)
 
     @property
@@ -292,14 +296,16 @@ class Index(Labelled, Objective):
     def describe(self) -> str:
         """One phrase for people: what it is, of which task, after which failures."""
         kinds = {len(s) for s in self.failures}
-        what = "any one joint" if kinds == {1} and len(self.failures) == self.arm.n else f"{len(self.failures)} failure sets"
-        return f"worst-case {self.name} over {what}, task {self.task.describe()}"
+        failures_text = (
+            "any one joint" if kinds == {1} and len(self.failures) == self.arm.n else f"{len(self.failures)} failure sets"
+        )
+        return f"worst-case {self.name} over {failures_text}, task {self.task.describe()}"
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
 
 
-@checked
+@check_arguments
 def by_name(
     name: str,
     arm: Arm,
@@ -314,5 +320,5 @@ def by_name(
         TaskError: There is no such index; the message has the nearest, and all.
         InputError: A setting that the index does not have, or one that is missing.
     """
-    made: Index = INDICES.make(name, arm, task=task, failures=failures, length=length)
-    return made
+    index: Index = INDEX_REGISTRY.make(name, arm, task=task, failures=failures, length=length)
+    return index

@@ -1,4 +1,4 @@
-"""What a failure takes from the end effector at one configuration: from the Jacobian alone, in plain NumPy."""
+"""Loss of end-effector speed by a failure at one configuration, from the Jacobian alone, in plain NumPy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Ellipsoid:
-    """Velocities of the tool point that joint rates of norm 1 give; Yoshikawa 1985.
+    """Velocities of the tool point for joint rates of norm 1; Yoshikawa 1985.
 
     Attributes:
         axes: (3, 3) its principal axes as the columns of a rotation, world frame.
@@ -27,8 +27,8 @@ class Ellipsoid:
 
 
 @dataclass(frozen=True)
-class Loss:
-    """A direction of the task in which a failure takes speed away.
+class DirectionLoss:
+    """Direction of the task in which a failure reduces the speed.
 
     Attributes:
         kept: Share of the healthy arm's speed that is left in this direction, 0 (lost) to 1, at rates of norm 1.
@@ -44,23 +44,23 @@ class Loss:
         return self.kept <= 1e-6
 
 
-def ellipsoid(j: Array, failed: Sequence[int] = ()) -> Ellipsoid:
-    """The manipulability ellipsoid of the tool point.
+def manipulability_ellipsoid(j: Array, failed: Sequence[int] = ()) -> Ellipsoid:
+    """Return the manipulability ellipsoid of the tool point.
 
     Args:
         j: (3, n) linear rows of the Jacobian, world frame.
         failed: Joints, from 0, that stay still.
     """
-    u, sigma, _ = np.linalg.svd(without(j, failed), full_matrices=True)
+    directions, sigma, _ = np.linalg.svd(without_columns(j, failed), full_matrices=True)
     radii = np.zeros(3)
     radii[: sigma.size] = sigma
-    if np.linalg.det(u) < 0:
-        u = u * np.array([1.0, 1.0, -1.0])
-    return Ellipsoid(u, radii)
+    if np.linalg.det(directions) < 0:
+        directions = directions * np.array([1.0, 1.0, -1.0])
+    return Ellipsoid(directions, radii)
 
 
-def losses(j: Array, failed: Sequence[int]) -> list[Loss]:
-    """The directions in which locking joints takes most speed away, worst first; as many as joints fail, at most m.
+def find_losses(j: Array, failed: Sequence[int]) -> list[DirectionLoss]:
+    """Return the directions in which locking joints reduces the speed most, worst first; as many as joints fail, at most m.
 
     With ``J = U S V'`` and W the failed joints' rows of V, the reduced Gram matrix is ``U S (I - W'W) S U'``: along
     ``u = U S^-1 w`` with w a right singular vector of W, speeds shrink to ``sqrt(1 - sigma(W)^2)``, and across these
@@ -78,23 +78,26 @@ def losses(j: Array, failed: Sequence[int]) -> list[Loss]:
     if rank == 0:
         return []
     w = vt[:rank, list(failed)].T  # (failed, rank)
-    _, share, right = np.linalg.svd(w, full_matrices=False)
+    _, fractions, right = np.linalg.svd(w, full_matrices=False)
     # cos(asin(x)) loses digits near 1; the null space says the same without: 1 - s^2 = (1 - s)(1 + s).
-    kept = np.sqrt(np.clip((1 - share) * (1 + share), 0.0, 1.0))
-    out = []
-    for k, direction in zip(kept, right, strict=True):
-        along = u[:, :rank] @ (direction / sigma[:rank])
-        out.append(Loss(float(k), along / np.linalg.norm(along)))
-    return sorted(out, key=lambda loss: loss.kept)
+    remaining = np.sqrt(np.clip((1 - fractions) * (1 + fractions), 0.0, 1.0))
+    found_losses = []
+    for k, direction in zip(remaining, right, strict=True):
+        along_direction = u[:, :rank] @ (direction / sigma[:rank])
+        found_losses.append(DirectionLoss(float(k), along_direction / np.linalg.norm(along_direction)))
+    return sorted(found_losses, key=lambda loss: loss.kept)
 
 
-def manipulability_kept(found: Sequence[Loss]) -> float:
-    """``sqrt(det(Jf Jf') / det(J J'))`` of any failed set: the product of the shares; Abdi et al. 2012, eq. (3)."""
-    return float(np.prod([loss.kept for loss in found]))
+def remaining_manipulability(losses_found: Sequence[DirectionLoss]) -> float:
+    """Return ``sqrt(det(Jf Jf') / det(J J'))`` of any failed set, the product of the remaining fractions; Abdi et al. 2012, eq.
+    (3).
+    """
+    return float(np.prod([loss.kept for loss in losses_found]))
 
 
 def null_directions(j: Array, failed: Sequence[int]) -> Array:
-    """Joint rates (r, n) of norm 1 that leave the end effector's task velocity at 0, failed joints locked; orthonormal.
+    """Return joint rates (r, n) of norm 1 that leave the end effector's task velocity at 0 with failed joints locked;
+    orthonormal.
 
     Args:
         j: (m, n) task Jacobian.
@@ -111,8 +114,8 @@ def null_directions(j: Array, failed: Sequence[int]) -> Array:
     return basis
 
 
-def without(j: Array, failed: Sequence[int]) -> Array:
-    """The reduced Jacobian: columns of failed joints set to 0, so that its shape stays."""
-    out = np.array(j)
-    out[:, list(failed)] = 0.0
-    return out
+def without_columns(j: Array, failed: Sequence[int]) -> Array:
+    """Return the reduced Jacobian with the columns of failed joints set to 0, so that its shape stays."""
+    reduced = np.array(j)
+    reduced[:, list(failed)] = 0.0
+    return reduced

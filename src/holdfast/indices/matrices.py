@@ -1,20 +1,20 @@
-"""Matrices and numbers of matrices that a formula of one's own may use, as functions of CasADi symbols."""
+"""Matrices and matrix invariants for users' own formulas, as functions of CasADi symbols."""
 
 from __future__ import annotations
 
 import casadi as ca
 
 from holdfast.arm.dynamics import inertial_torques
-from holdfast.arm.machine import Machine
+from holdfast.arm.machine import ArmData
 from holdfast.errors import InputError
 from holdfast.kernels.program import SX
-from holdfast.linalg import dot, jacobi_sweep
+from holdfast.linalg import dot_product, jacobi_sweep
 
-_SWEEPS = 6
+_JACOBI_SWEEPS = 6
 _MAX_ROWS = 6
 
 
-def compute_inertia_matrix(arm: Machine, q: SX) -> SX:
+def compute_inertia_matrix(arm: ArmData, q: SX) -> SX:
     """Compute the joint-space inertia matrix, payload and armature included.
 
     Args:
@@ -45,13 +45,13 @@ def compute_singular_values(matrix: SX) -> SX:
     Raises:
         InputError: More than six rows, or fewer columns than rows.
     """
-    m, c = matrix.shape
-    if not 1 <= m <= min(c, _MAX_ROWS):
-        raise InputError(f"the matrix has shape {m}x{c}; it must have 1 to {_MAX_ROWS} rows and at least as many columns")
+    m, columns = matrix.shape
+    if not 1 <= m <= min(columns, _MAX_ROWS):
+        raise InputError(f"the matrix has shape {m}x{columns}; it must have 1 to {_MAX_ROWS} rows and at least as many columns")
     rows = [ca.horzsplit(row) for row in ca.vertsplit(ca.densify(matrix))]
-    for _ in range(_SWEEPS):
+    for _ in range(_JACOBI_SWEEPS):
         rows, _change = jacobi_sweep(rows)
-    return ca.vertcat(*[ca.sqrt(dot(row, row)) for row in rows])
+    return ca.vertcat(*[ca.sqrt(dot_product(row, row)) for row in rows])
 
 
 def compute_symmetric_eigenvalues(matrix: SX) -> SX:
@@ -68,8 +68,8 @@ def compute_symmetric_eigenvalues(matrix: SX) -> SX:
     Raises:
         InputError: Not square, or more than six rows.
     """
-    m, c = matrix.shape
-    if m != c:
-        raise InputError(f"the matrix has shape {m}x{c}; it must be square")
+    m, columns = matrix.shape
+    if m != columns:
+        raise InputError(f"the matrix has shape {m}x{columns}; it must be square")
     shift = 2 * ca.norm_fro(matrix)
     return compute_singular_values(matrix + shift * ca.SX.eye(m)) - shift

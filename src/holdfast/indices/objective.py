@@ -1,4 +1,4 @@
-"""What a configuration can be chosen by: a number, which way is better, and how the optimiser may raise it."""
+"""Objectives for choosing configurations: a number, the better direction, and its form for the optimiser."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.errors import InputError, TaskError
 from holdfast.frameworks.rows import Differentiable, RowFunction
 from holdfast.kernels.program import SX
-from holdfast.linalg import HouseholderQR, lowest
-from holdfast.result import Shown
+from holdfast.linalg import HouseholderQR, select_at_smallest
+from holdfast.result import Presentable
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -27,8 +27,8 @@ Better = Literal["larger", "smaller"]
 
 
 @dataclass(frozen=True)
-class Part:
-    """``weight * min(values)``, one summand of what the optimiser raises.
+class ObjectivePart:
+    """Term ``weight * min(values)`` of the sum that the optimiser maximises.
 
     Attributes:
         weight: Above 0.
@@ -41,8 +41,8 @@ class Part:
     slopes: list[list[SX]]
 
 
-class Objective(Shown, Differentiable, ABC):
-    """A number by which :func:`holdfast.optimise` chooses: an index, a susceptibility, or a weighted sum of them.
+class Objective(Presentable, Differentiable, ABC):
+    """Number by which :func:`holdfast.optimise` chooses: an index, a susceptibility, or a weighted sum of them.
 
     Objectives of one arm can be added, subtracted and multiplied by numbers: ``rho - 1e-4 * torque``.
 
@@ -59,7 +59,7 @@ class Objective(Shown, Differentiable, ABC):
     unit: str = "1"
 
     @cached_property
-    def _ascents(self) -> dict[object, Any]:
+    def _compiled_ascents(self) -> dict[object, Any]:
         """Compiled ascents of this objective, for :func:`holdfast.solvers.optimise.objective_ascent`."""
         return {}
 
@@ -76,8 +76,8 @@ class Objective(Shown, Differentiable, ABC):
         return RowFunction(name=self.name, sizes=(self.arm.n,), size=None, value=self, slopes=lambda q: (self.gradient(q),))
 
     @abstractmethod
-    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
-        """What to raise: a sum of parts that is largest where the objective is best.
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
+        """Return a sum of parts that is largest where the objective is best.
 
         Args:
             q: (n,) symbols.
@@ -89,8 +89,10 @@ class Objective(Shown, Differentiable, ABC):
             TaskError: The objective is not one symbolic program.
         """
 
-    def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
-        """As :meth:`parts`, but the sum *is* the value, or its negative where smaller is better: it can be added to others."""
+    def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
+        """Return parts as :meth:`parts` does, but with a sum equal to the value (or its negative where smaller is better), so
+        that it can be added to others.
+        """
         return self.parts(q, j, qr, directions)
 
     @property
@@ -102,7 +104,7 @@ class Objective(Shown, Differentiable, ABC):
         """The numbers (N, k) that ``measured`` stands for, at q (N, n)."""
         return np.empty((len(q), 0))
 
-    def statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
         """Status of each row of q (N, n): ``SINGULAR`` where the value is a convention."""
         return np.full(len(q), Status.OK, dtype=np.uint8)
 
@@ -112,8 +114,10 @@ class Objective(Shown, Differentiable, ABC):
         return None
 
     def reversed(self) -> Objective:
-        """The same number with the other way better: to look for the worst configuration, or to move so that it grows."""
-        return Opposite(self)
+        """Return the objective with the opposite better direction, to find the worst configuration or to move so
+        that it grows.
+        """
+        return NegatedObjective(self)
 
     # ---- arithmetic --------------------------------------------------------------------------------------------
 
@@ -136,9 +140,9 @@ class Objective(Shown, Differentiable, ABC):
         return WeightedSum([(1.0, self), (-1.0, other)])
 
 
-@checked_class
+@check_constructor
 class WeightedSum(Objective):
-    """A sum of objectives times weights; of English & Maciejewski 1998, section VII, and Abdi et al. 2012 side by side.
+    """Weighted sum of objectives, such as those of English & Maciejewski 1998, section VII, and Abdi et al. 2012.
 
     All summands must pull the same way: a susceptibility (smaller is better) beside an index (larger is better) needs a
     weight of the other sign. The sum is better the way its first summand is.
@@ -156,39 +160,41 @@ class WeightedSum(Objective):
     """
 
     def __init__(self, terms: Sequence[tuple[float, Objective]], name: str | None = None) -> None:
-        flat: list[tuple[float, Objective]] = []
+        terms_list: list[tuple[float, Objective]] = []
         for weight, objective in terms:
             try:
-                w = float(weight)
+                factor = float(weight)
             except (TypeError, ValueError) as error:
                 raise InputError(f"the weight {weight!r} of {objective.name} is not a number") from error
-            if not np.isfinite(w) or w == 0:
-                raise InputError(f"the weight of {objective.name} is {w:g}; it must be finite and not 0")
+            if not np.isfinite(factor) or factor == 0:
+                raise InputError(f"the weight of {objective.name} is {factor:g}; it must be finite and not 0")
             if isinstance(objective, WeightedSum):
-                flat += [(w * v, o) for v, o in objective.terms]
+                terms_list += [(factor * inner_weight, summand) for inner_weight, summand in objective.terms]
             else:
-                flat.append((w, objective))
-        if not flat:
+                terms_list.append((factor, objective))
+        if not terms_list:
             raise InputError("a weighted sum needs at least one objective")
-        self.terms: tuple[tuple[float, Objective], ...] = tuple(flat)
-        first = flat[0][1]
+        self.terms: tuple[tuple[float, Objective], ...] = tuple(terms_list)
+        first = terms_list[0][1]
         self.arm = first.arm
-        ways = []
-        for w, objective in flat:
+        directions = []
+        for factor, objective in terms_list:
             if objective.arm.fingerprint != self.arm.fingerprint:
                 raise InputError(f"{objective.name} belongs to '{objective.arm.name}', not to '{self.arm.name}'; use one arm")
-            ways.append((objective.better == "larger") == (w > 0))
-        if len(set(ways)) > 1:
-            other = flat[ways.index(not ways[0])][1]
+            directions.append((objective.better == "larger") == (factor > 0))
+        if len(set(directions)) > 1:
+            other = terms_list[directions.index(not directions[0])][1]
             raise TaskError(
                 f"{first.name} is better when {first.better} and {other.name} when {other.better}, but their weights pull "
                 "different ways: change the sign of one of them"
             )
-        self.better = "larger" if ways[0] else "smaller"
-        self.name = name or " ".join(f"{'+' if w > 0 else '-'} {abs(w):g} x {o.name}" for w, o in flat).removeprefix("+ ")
-        units = {o.unit for _, o in flat}
+        self.better = "larger" if directions[0] else "smaller"
+        self.name = name or " ".join(
+            f"{'+' if factor > 0 else '-'} {abs(factor):g} x {summand.name}" for factor, summand in terms_list
+        ).removeprefix("+ ")
+        units = {summand.unit for _, summand in terms_list}
         self.unit = units.pop() if len(units) == 1 else "mixed"
-        tasks = [o.own_task for _, o in flat if o.own_task is not None]
+        tasks = [summand.own_task for _, summand in terms_list if summand.own_task is not None]
         for task in tasks[1:]:
             if not task.same_rows(tasks[0]):
                 raise TaskError(
@@ -209,38 +215,38 @@ class WeightedSum(Objective):
         """Exact gradient at q (N, n) or (n,), of the same shape."""
         return np.asarray(sum(w * objective.gradient(q) for w, objective in self.terms))
 
-    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
         """The parts of its summands."""
         return [
-            Part(abs(w) * part.weight, part.values, part.slopes)
+            ObjectivePart(abs(w) * part.weight, part.values, part.slopes)
             for w, objective in self.terms
             for part in objective.exact_parts(q, j, qr, directions)
         ]
 
     @property
     def measured(self) -> SX | None:
-        """Those of its summands; see :attr:`Objective.measured`."""
-        found = [o.measured for _, o in self.terms if o.measured is not None]
-        return ca.vertcat(*found) if found else None
+        """Symbols of the summands; see :attr:`Objective.measured`."""
+        symbols = [o.measured for _, o in self.terms if o.measured is not None]
+        return ca.vertcat(*symbols) if symbols else None
 
     def measure(self, q: Array) -> Array:
-        """Those of its summands; see :meth:`Objective.measure`."""
+        """Return the numbers of the summands; see :meth:`Objective.measure`."""
         return np.concatenate([o.measure(q) for _, o in self.terms], axis=1)
 
-    def statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
         """The first status of its summands that is not ``OK``."""
-        found = np.full(len(q), Status.OK, dtype=np.uint8)
+        combined = np.full(len(q), Status.OK, dtype=np.uint8)
         for _, objective in self.terms:
-            found = np.where(found == Status.OK, objective.statuses(q), found)
-        return found
+            combined = np.where(combined == Status.OK, objective.row_statuses(q), combined)
+        return combined
 
     def __repr__(self) -> str:
         return f"<{self.name}, arm {self.arm.name!r}>"
 
 
-@checked_class
-class Opposite(Objective):
-    """The same number with the other way better: for the worst configuration of a pose.
+@check_constructor
+class NegatedObjective(Objective):
+    """Objective with the opposite better direction, for the worst configuration of a pose.
 
     Multiplying by -1 is something else: it turns the number and what is wanted of it, so that the same configuration stays
     the best one. The worst of an index often lies in a crease, where a failure leaves nothing at all; the optimiser
@@ -272,29 +278,29 @@ class Opposite(Objective):
         return self.objective(q)
 
     def gradient(self, q: ArrayLike) -> Array:
-        """That of the objective."""
+        """Return the gradient of the objective."""
         return self.objective.gradient(q)
 
-    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
-        """The negatives of the objective's parts; of the worst of several failures that of the first."""
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
+        """Return the negatives of the objective's parts; of the worst of several failures only the first."""
         opposed = []
         for part in self.objective.exact_parts(q, j, qr, directions):
-            slopes, value = lowest(part.values, [ca.vertcat(*row) for row in part.slopes])
-            opposed.append(Part(part.weight, [-value], [[-slopes[k] for k in range(len(directions))]]))
+            derivative, value = select_at_smallest(part.values, [ca.vertcat(*row) for row in part.slopes])
+            opposed.append(ObjectivePart(part.weight, [-value], [[-derivative[k] for k in range(len(directions))]]))
         return opposed
 
     @property
     def measured(self) -> SX | None:
-        """Those of the objective."""
+        """Symbols of the objective."""
         return self.objective.measured
 
     def measure(self, q: Array) -> Array:
-        """Those of the objective."""
+        """Return the numbers of the objective."""
         return self.objective.measure(q)
 
-    def statuses(self, q: Array) -> NDArray[np.uint8]:
-        """Those of the objective."""
-        return self.objective.statuses(q)
+    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
+        """Return the statuses of the objective."""
+        return self.objective.row_statuses(q)
 
     def __repr__(self) -> str:
         return f"<{self.name}, {self.better} wanted, arm {self.arm.name!r}>"

@@ -1,4 +1,4 @@
-"""Indices of one's own that a file holds, written as ``module:function``, with a digest of their source."""
+"""Indices in a user's own file, written as ``module:function``, with a digest of their source."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from holdfast.indices.index import Index
 
 
 class FileIndex(CustomIndex):
-    """An index whose formula is a function of a Python file.
+    """Index whose formula is a function of a Python file.
 
     Attributes:
         digest: SHA-256 of the source of the function and of all that it uses of its file.
@@ -52,20 +52,20 @@ def load_index(
         InputError: There is no such file or function, or the file cannot be run.
     """
     module, _, name = function.partition(":")
-    file = _find(module, function)
+    file = _find_module_file(module, function)
     try:
         text = file.read_text(encoding="utf-8")
         digest = source_digest(text, name)
-        made = ModuleType(module)
-        made.__file__ = str(file)
+        module_object = ModuleType(module)
+        module_object.__file__ = str(file)
         sys.path.insert(0, str(Path.cwd()))
         try:
-            exec(compile(text, file, "exec"), made.__dict__)
+            exec(compile(text, file, "exec"), module_object.__dict__)
         finally:
             sys.path.remove(str(Path.cwd()))
     except Exception as error:  # a file of somebody's own may raise anything
         raise InputError(f"index '{function}': '{file.name}' cannot be run ({type(error).__name__}: {error})") from error
-    formula = getattr(made, name, None)
+    formula = getattr(module_object, name, None)
     if not callable(formula):
         raise InputError(f"index '{function}': '{file.name}' has no function '{name}'; define it there")
     return FileIndex(function, formula, digest, arm, task, failures=failures, length=length)
@@ -89,7 +89,7 @@ def check_digest(index: Index, plan: Mapping[str, Any]) -> None:
         )
 
 
-def _find(module: str, label: str) -> Path:
+def _find_module_file(module: str, label: str) -> Path:
     if module.endswith(".py"):
         raise InputError(f"index '{label}' is written with the module, without .py: {label.replace('.py:', ':', 1)}")
     local = Path.cwd() / (module.replace(".", "/") + ".py")
@@ -107,20 +107,22 @@ def _find(module: str, label: str) -> Path:
 def source_digest(text: str, name: str) -> str:
     """Compute the SHA-256 of a function and of every statement of its file that it uses, directly or not."""
     body = ast.parse(text).body
-    needed, used = {name}, set[int]()
+    needed, used_names = {name}, set[int]()
     while True:
-        more = {k for k, node in enumerate(body) if k not in used and _concerns(node, needed)}
-        if not more:
+        added = {k for k, node in enumerate(body) if k not in used_names and _uses_names(node, needed)}
+        if not added:
             break
-        used |= more
-        needed |= {x.id for k in more for x in ast.walk(body[k]) if isinstance(x, ast.Name)}
-    parts = [ast.get_source_segment(text, body[k]) or "" for k in sorted(used)]
-    parts += [ast.unparse(d) for k in sorted(used) for d in getattr(body[k], "decorator_list", [])]
+        used_names |= added
+        needed |= {x.id for k in added for x in ast.walk(body[k]) if isinstance(x, ast.Name)}
+    parts = [ast.get_source_segment(text, body[k]) or "" for k in sorted(used_names)]
+    parts += [ast.unparse(digest) for k in sorted(used_names) for digest in getattr(body[k], "decorator_list", [])]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def _concerns(node: ast.stmt, needed: set[str]) -> bool:
-    """A definition concerns its name, an import the names that it binds, any other statement all names in it."""
+def _uses_names(node: ast.stmt, needed: set[str]) -> bool:
+    """Return whether a statement concerns one of the names: a definition its name, an import its bindings, any other statement
+    all its names.
+    """
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         return node.name in needed
     if isinstance(node, ast.If) and "__name__" in ast.unparse(node.test):

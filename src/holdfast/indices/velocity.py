@@ -1,4 +1,4 @@
-"""How fast the end effector can still move in one direction."""
+"""Largest speed of the end effector in one direction after a failure."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class, real_numbers
+from holdfast.arguments import check_constructor, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.formula import FormulaIndex
 from holdfast.kernels.program import SX
-from holdfast.linalg import Vector, dot
+from holdfast.linalg import Vector, dot_product
 from holdfast.registry import Parameter, constructor
 
 Array = NDArray[np.float64]
 TaskSpec = str | Task | Sequence[str]
-_DEPENDENT = 1e-24  # square of the sine of an angle that is rounding noise
+_DEPENDENT_SINE_SQUARED = 1e-24  # square of the sine of an angle that is rounding noise
 
 
-@checked_class
+@check_constructor
 class DirectionalVelocity(FormulaIndex):
-    r"""Largest speed along u that joint rates of norm 1 give the end effector, :math:`1/\sqrt{u^\top({}^SJ{}^SJ^\top)^{-1}u}`.
+    r"""Largest speed along u for joint rates of norm 1, :math:`1/\sqrt{u^\top({}^SJ{}^SJ^\top)^{-1}u}`.
 
     All other rows of the task are at rest meanwhile; what the task leaves free may move. The characteristic length has no part
     in it. It is the distance of the row of J along u from the span of the others, and so 0 where the failed arm cannot move
@@ -55,17 +55,17 @@ class DirectionalVelocity(FormulaIndex):
         failures: FailureSpec = "single",
         length: float | None = None,
     ) -> None:
-        u = real_numbers(direction, "the direction", "three numbers")
+        u = require_real_numbers(direction, "the direction", "three numbers")
         if u.shape != (3,) or not np.isfinite(u).all() or not u.any():
             raise InputError(
                 f"the direction is {np.array2string(u, separator=', ')}; it must be three finite numbers, not all 0"
             )
-        shown = ", ".join(f"{x:g}" for x in u)
-        super().__init__(f"directional velocity along {shown}", arm, task, failures=failures, length=length)
+        numbers_text = ", ".join(f"{x:g}" for x in u)
+        super().__init__(f"directional velocity along {numbers_text}", arm, task, failures=failures, length=length)
         self.direction = u
-        if not _prescribes(self.task, u):
+        if not _is_prescribed(self.task, u):
             raise TaskError(
-                f"task '{self.task.name}' does not prescribe the direction {shown}; give one in which its "
+                f"task '{self.task.name}' does not prescribe the direction {numbers_text}; give one in which its "
                 "rows point, or a task with more rows"
             )
         self._along = self.task.scale(self.task.length) @ self.task.rows[:, :3] @ (u / np.linalg.norm(u))
@@ -85,34 +85,36 @@ class DirectionalVelocity(FormulaIndex):
         basis: list[Vector] = []
         for row in (ca.DM(others) @ j, ca.DM(first[None]) @ j):
             for i in range(row.shape[0]):
-                along, square = _rest(ca.vertsplit(ca.densify(row[i, :].T)), basis)
+                component, square = _orthogonal_part(ca.vertsplit(ca.densify(row[i, :].T)), basis)
                 length = ca.sqrt(ca.if_else(square > 0, square, 1.0))
-                basis.append([ca.if_else(square > 0, x / length, 0.0) for x in along])
+                basis.append([ca.if_else(square > 0, x / length, 0.0) for x in component])
         return ca.if_else(square > 0, length, 0.0) / size
 
 
-def _rest(row: Vector, basis: list[Vector]) -> tuple[Vector, SX]:
-    """What is left of a row without its parts along orthonormal vectors, and its square; 0 where that is rounding noise."""
-    whole = dot(row, row)
+def _orthogonal_part(row: Vector, basis: list[Vector]) -> tuple[Vector, SX]:
+    """Return a row without its parts along orthonormal vectors, and its square; 0 where that is rounding noise."""
+    squared_length = dot_product(row, row)
     for unit in [*basis, *basis]:  # twice is enough: Giraud et al. 2005
-        part = dot(row, unit)
+        part = dot_product(row, unit)
         row = [x - part * e for x, e in zip(row, unit, strict=True)]
-    square = dot(row, row)
-    return row, ca.if_else(square > _DEPENDENT * whole, square, 0.0)
+    square = dot_product(row, row)
+    return row, ca.if_else(square > _DEPENDENT_SINE_SQUARED * squared_length, square, 0.0)
 
 
-def _prescribes(task: Task, direction: Array) -> bool:
-    """Whether a velocity along a direction, without rotation, is one that the rows of a task can tell from all others."""
+def _is_prescribed(task: Task, direction: Array) -> bool:
+    """Return whether the rows of a task determine a velocity along a direction without rotation."""
     twist = np.concatenate([direction, np.zeros(3)])
     return bool(np.linalg.norm(np.linalg.pinv(task.rows) @ task.rows @ twist - twist) < 1e-9 * np.linalg.norm(direction))
 
 
 def _prescribed(arm: Arm, task: TaskSpec) -> Array:
-    """A direction that a task prescribes: an axis if one is."""
-    made = as_task(arm, task)
-    still = made.rows.T @ np.linalg.svd(made.rows[:, 3:].T)[2][-1]  # of all combinations of rows the one that turns least
-    candidates: list[Array] = [*np.eye(3), *made.rows[:, :3], still[:3]]
-    return next((u for u in candidates if u.any() and _prescribes(made, u)), candidates[0])
+    """Return a direction that a task prescribes: an axis if one is prescribed."""
+    task_object = as_task(arm, task)
+    translations = (
+        task_object.rows.T @ np.linalg.svd(task_object.rows[:, 3:].T)[2][-1]
+    )  # of all combinations of rows the one that turns least
+    candidates: list[Array] = [*np.eye(3), *task_object.rows[:, :3], translations[:3]]
+    return next((u for u in candidates if u.any() and _is_prescribed(task_object, u)), candidates[0])
 
 
 @constructor(formula="1 / √( uᵀ (<sup>S</sup>J <sup>S</sup>Jᵀ)<sup>−1</sup> u ) for the unit vector u of a direction")

@@ -1,4 +1,4 @@
-"""Rows of the tool's pose that are kept along a whole motion: an upright tray, a drawer's rail, a plane."""
+"""Constraints on the tool's pose along a whole motion: an upright tray, a drawer's rail, a plane."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-from holdfast.keep.kept import Kept as Kept
+from holdfast.keep.kept import ToolConstraint as ToolConstraint
 from holdfast.keep.kept import plane as plane
 from holdfast.keep.kept import rail as rail
 from holdfast.keep.kept import upright as upright

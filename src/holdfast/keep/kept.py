@@ -1,4 +1,4 @@
-"""What is kept along a whole motion: where the tool point stays, and how the tool stays turned."""
+"""Path constraints: a line or plane of the tool point, a cone of a tool axis, or a fixed tool orientation."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.poses import check_poses, rotation_vectors
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Frame = Literal["base", "tool"]
 
-WITHIN = (1e-3, float(np.deg2rad(0.5)))  # m and rad within which a row counts as kept between the waypoints
-_ROUND = 1e-8  # m and rad
-_DOWN = (0.0, 0.0, -1.0)
-_FORWARD = (0.0, 0.0, 1.0)
+CONSTRAINT_TOLERANCE = (1e-3, float(np.deg2rad(0.5)))  # m and rad within which a row counts as kept between the waypoints
+_ROUNDING_M_RAD = 1e-8  # m and rad
+_DOWN_DIRECTION = (0.0, 0.0, -1.0)
+_TOOL_Z_AXIS = (0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Kept:
-    """Rows of the end effector's pose that are kept at every instant; made by :func:`upright`, :func:`rail`, :func:`plane`.
+class ToolConstraint:
+    """Components of the end effector's pose fixed at every instant; made by :func:`upright`, :func:`rail`, :func:`plane`.
 
     Attributes:
         name: ``upright``, ``rail`` or ``plane``.
@@ -45,75 +45,87 @@ class Kept:
     turned: bool = False
     frame: Frame = "base"
     pose: Array | None = None
-    within: tuple[float, float] = WITHIN
+    within: tuple[float, float] = CONSTRAINT_TOLERANCE
 
-    def anchored(self, start: Array) -> Kept:
-        """The same in axes of the base and through a pose, given the tool's pose (4, 4) at the start."""
-        turn = start[:3, :3] if self.frame == "tool" else np.eye(3)
+    def anchored(self, start: Array) -> ToolConstraint:
+        """Return the constraint in the base frame and through a pose, given the tool's pose (4, 4) at the start."""
+        rotation = start[:3, :3] if self.frame == "tool" else np.eye(3)
         return replace(
             self,
-            normals=self.normals @ turn.T,
-            direction=None if self.direction is None else turn @ self.direction,
+            normals=self.normals @ rotation.T,
+            direction=None if self.direction is None else rotation @ self.direction,
             frame="base",
             pose=start if self.pose is None else self.pose,
         )
 
     @property
     def widest(self) -> float:
-        """By how much the tool may be turned away from what is kept, rad; infinite where its orientation is free."""
+        """The largest tool rotation that satisfies the constraint, rad; infinite where the orientation is free."""
         if self.direction is None and not self.turned:
             return np.inf
         return self.angle or self.within[1]
 
     def off(self, poses: Array) -> tuple[Array, Array]:
-        """How far (N,) the tool point is from its line or plane, m, and how far it is turned away, rad, at poses (N, 4, 4)."""
+        """Return how far tool poses (N, 4, 4) are from the line or plane, (N,) m, and how far they are rotated
+        away, (N,) rad.
+        """
         assert self.pose is not None, "not anchored"
-        away = np.linalg.norm((poses[:, :3, 3] - self.pose[:3, 3]) @ self.normals.T, axis=1)
+        distance = np.linalg.norm((poses[:, :3, 3] - self.pose[:3, 3]) @ self.normals.T, axis=1)
         if self.turned:
-            turned = np.linalg.norm(rotation_vectors(poses[:, :3, :3] @ self.pose[:3, :3].T), axis=1)
+            rotation_angle = np.linalg.norm(rotation_vectors(poses[:, :3, :3] @ self.pose[:3, :3].T), axis=1)
         elif self.direction is not None:
-            pointing = poses[:, :3, :3] @ self.axis
-            turned = np.arctan2(np.linalg.norm(np.cross(pointing, self.direction), axis=1), pointing @ self.direction)
+            tool_axis = poses[:, :3, :3] @ self.axis
+            rotation_angle = np.arctan2(np.linalg.norm(np.cross(tool_axis, self.direction), axis=1), tool_axis @ self.direction)
         else:
-            turned = np.zeros(len(poses))
-        return away, turned
+            rotation_angle = np.zeros(len(poses))
+        return distance, rotation_angle
 
     def farthest(self, poses: Array) -> tuple[float, float]:
-        """The most of :meth:`off` at poses (N, 4, 4), m and rad."""
-        away, turned = self.off(poses)
-        return float(away.max()), float(turned.max())
+        """Return the largest values of :meth:`off` at poses (N, 4, 4), m and rad."""
+        distance, rotation_angle = self.off(poses)
+        return float(distance.max()), float(rotation_angle.max())
 
     def trouble(self, poses: Array) -> str:
-        """By how much poses (N, 4, 4) break what is kept at most, a phrase; empty if they do not."""
-        away, turned = self.farthest(poses)
-        said = []
-        if away > self.within[0] + _ROUND:
-            said.append(f"{away:.4g} m off the {self.name}")
-        if turned > self.widest + _ROUND:
-            said.append(f"turned away by {np.rad2deg(turned):.4g} deg, beyond {np.rad2deg(self.widest):.4g} deg")
-        return " and ".join(said)
+        """Describe the largest violation of the constraint at poses (N, 4, 4) in a phrase; empty if there is none."""
+        distance, rotation_angle = self.farthest(poses)
+        violations = []
+        if distance > self.within[0] + _ROUNDING_M_RAD:
+            violations.append(f"{distance:.4g} m off the {self.name}")
+        if rotation_angle > self.widest + _ROUNDING_M_RAD:
+            violations.append(f"turned away by {np.rad2deg(rotation_angle):.4g} deg, beyond {np.rad2deg(self.widest):.4g} deg")
+        return " and ".join(violations)
 
     def __str__(self) -> str:
-        said = []
+        phrases = []
         if len(self.normals):
-            what = "line along" if len(self.normals) == 2 else "plane across"
-            way = self.normals[0] if len(self.normals) == 1 else np.cross(*self.normals)
-            said.append(f"the tool point on the {what} ({_text(way)})")
+            locus = "line along" if len(self.normals) == 2 else "plane across"
+            locus_direction = self.normals[0] if len(self.normals) == 1 else np.cross(*self.normals)
+            phrases.append(f"the tool point on the {locus} ({_format_vector(locus_direction)})")
         if self.direction is not None:
-            axis = "the tool's z axis" if np.array_equal(self.axis, _FORWARD) else f"the tool's axis ({_text(self.axis)})"
-            said.append(f"{axis} within {np.rad2deg(self.widest):.4g} deg of ({_text(self.direction)})")
+            axis_phrase = (
+                "the tool's z axis"
+                if np.array_equal(self.axis, _TOOL_Z_AXIS)
+                else f"the tool's axis ({_format_vector(self.axis)})"
+            )
+            phrases.append(f"{axis_phrase} within {np.rad2deg(self.widest):.4g} deg of ({_format_vector(self.direction)})")
         if self.turned:
-            said.append("its orientation as it is")
-        return f"{self.name}, {' and '.join(said)}" + " in the tool's axes at the start" * (self.frame == "tool")
+            phrases.append("its orientation as it is")
+        return f"{self.name}, {' and '.join(phrases)}" + " in the tool's axes at the start" * (self.frame == "tool")
 
     def to_dict(self) -> dict[str, Any]:
-        """As JSON data: everything that defines it."""
+        """Return all fields of the constraint as JSON data."""
         values = {name: getattr(self, name) for name in self.__dataclass_fields__}
-        return {name: x.tolist() if isinstance(x, np.ndarray) else x for name, x in values.items()}
+        return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
 
 
-@checked
-def upright(angle: float, *, axis: ArrayLike = _FORWARD, direction: ArrayLike = _DOWN, within: ArrayLike = WITHIN) -> Kept:
+@check_arguments
+def upright(
+    angle: float,
+    *,
+    axis: ArrayLike = _TOOL_Z_AXIS,
+    direction: ArrayLike = _DOWN_DIRECTION,
+    within: ArrayLike = CONSTRAINT_TOLERANCE,
+) -> ToolConstraint:
     """Keep an axis of the tool in a cone: a tray level, a cup upright, a torch pointing down.
 
     Args:
@@ -124,24 +136,26 @@ def upright(angle: float, *, axis: ArrayLike = _FORWARD, direction: ArrayLike = 
         within: m and rad within which rows are kept between two waypoints; here only with an angle of 0.
 
     Returns:
-        What :func:`holdfast.recover` and :func:`holdfast.endure` take as ``keep``.
+        What :func:`holdfast.recover` and :func:`holdfast.plan_motion` take as ``keep``.
 
     Raises:
         InputError: An angle out of bounds, or a direction of length 0.
     """
-    return Kept(
+    return ToolConstraint(
         name="upright",
         normals=np.zeros((0, 3)),
-        direction=_unit(direction, "direction"),
-        axis=_unit(axis, "axis"),
-        angle=_angle(angle),
-        within=_within(within),
+        direction=_normalize_vector(direction, "direction"),
+        axis=_normalize_vector(axis, "axis"),
+        angle=_check_angle(angle),
+        within=_check_tolerance(within),
     )
 
 
-@checked
-def rail(direction: ArrayLike, *, frame: Frame = "base", pose: ArrayLike | None = None, within: ArrayLike = WITHIN) -> Kept:
-    """Keep the tool on a straight line with its orientation, as of a drawer: only the way along the line is free.
+@check_arguments
+def rail(
+    direction: ArrayLike, *, frame: Frame = "base", pose: ArrayLike | None = None, within: ArrayLike = CONSTRAINT_TOLERANCE
+) -> ToolConstraint:
+    """Keep the tool on a straight line with its orientation, as of a drawer: only motion along the line is free.
 
     Args:
         direction: (3,) of the line.
@@ -150,34 +164,34 @@ def rail(direction: ArrayLike, *, frame: Frame = "base", pose: ArrayLike | None 
         within: m and rad within which rows are kept between two waypoints, at which they are met to 1e-6.
 
     Returns:
-        What :func:`holdfast.recover` and :func:`holdfast.endure` take as ``keep``.
+        What :func:`holdfast.recover` and :func:`holdfast.plan_motion` take as ``keep``.
 
     Raises:
         InputError: A direction of length 0, or a pose or frame that cannot be read.
     """
-    along = _unit(direction, "direction")
+    along = _normalize_vector(direction, "direction")
     across = np.linalg.svd(along[None])[2][1:]
-    return Kept(
+    return ToolConstraint(
         name="rail",
         normals=across,
-        axis=np.array(_FORWARD),
+        axis=np.array(_TOOL_Z_AXIS),
         turned=True,
-        frame=_frame(frame),
-        pose=_pose(pose),
-        within=_within(within),
+        frame=_check_frame(frame),
+        pose=_read_pose(pose),
+        within=_check_tolerance(within),
     )
 
 
-@checked
+@check_arguments
 def plane(
     normal: ArrayLike,
     *,
     angle: float | None = None,
-    axis: ArrayLike = _FORWARD,
+    axis: ArrayLike = _TOOL_Z_AXIS,
     frame: Frame = "base",
     pose: ArrayLike | None = None,
-    within: ArrayLike = WITHIN,
-) -> Kept:
+    within: ArrayLike = CONSTRAINT_TOLERANCE,
+) -> ToolConstraint:
     """Keep the tool point in a plane, as in wiping a board, and the tool against it if an angle is given.
 
     Args:
@@ -190,65 +204,65 @@ def plane(
         within: m and rad within which rows are kept between two waypoints, at which they are met to 1e-6.
 
     Returns:
-        What :func:`holdfast.recover` and :func:`holdfast.endure` take as ``keep``.
+        What :func:`holdfast.recover` and :func:`holdfast.plan_motion` take as ``keep``.
 
     Raises:
         InputError: An angle out of bounds, a normal of length 0, or a place or frame that cannot be read.
     """
-    across = _unit(normal, "normal")
-    return Kept(
+    across = _normalize_vector(normal, "normal")
+    return ToolConstraint(
         name="plane",
         normals=across[None],
         direction=None if angle is None else -across,
-        axis=_unit(axis, "axis"),
-        angle=0.0 if angle is None else _angle(angle),
-        frame=_frame(frame),
-        pose=_pose(pose),
-        within=_within(within),
+        axis=_normalize_vector(axis, "axis"),
+        angle=0.0 if angle is None else _check_angle(angle),
+        frame=_check_frame(frame),
+        pose=_read_pose(pose),
+        within=_check_tolerance(within),
     )
 
 
 # ---- checked values ------------------------------------------------------------------------------------------------------
 
 
-def _unit(value: ArrayLike, what: str) -> Array:
-    v = real_numbers(value, what, "three numbers")
-    if v.shape != (3,) or not np.isfinite(v).all() or np.linalg.norm(v) < 1e-9:
-        raise InputError(f"{what} is {np.asarray(value).tolist()}; it must be three finite numbers, not all of them 0")
-    return np.asarray(v / np.linalg.norm(v))
+def _normalize_vector(value: ArrayLike, argument_name: str) -> Array:
+    vector = require_real_numbers(value, argument_name, "three numbers")
+    if vector.shape != (3,) or not np.isfinite(vector).all() or np.linalg.norm(vector) < 1e-9:
+        raise InputError(f"{argument_name} is {np.asarray(value).tolist()}; it must be three finite numbers, not all of them 0")
+    return np.asarray(vector / np.linalg.norm(vector))
 
 
-def _angle(angle: float) -> float:
+def _check_angle(angle: float) -> float:
     if not 0 <= angle < np.pi / 2:
         raise InputError(f"angle is {angle:g} rad; it must be from 0 to below pi/2 (90 deg)")
     return float(angle)
 
 
-def _frame(frame: str) -> Frame:
+def _check_frame(frame: str) -> Frame:
     if frame not in ("base", "tool"):
         raise InputError(f"frame '{frame}' is not known; use 'base' or 'tool'")
     return frame  # type: ignore[return-value]
 
 
-def _within(within: ArrayLike) -> tuple[float, float]:
-    v = real_numbers(within, "within", "two numbers, m and rad")
-    if v.shape != (2,) or not np.isfinite(v).all() or (v < 1e-5).any() or v[1] >= np.pi / 2:
+def _check_tolerance(within: ArrayLike) -> tuple[float, float]:
+    tolerance = require_real_numbers(within, "within", "two numbers, m and rad")
+    if tolerance.shape != (2,) or not np.isfinite(tolerance).all() or (tolerance < 1e-5).any() or tolerance[1] >= np.pi / 2:
         raise InputError(f"within is {np.asarray(within).tolist()}; it must be m and rad, each 1e-5 or more, below 90 deg")
-    return float(v[0]), float(v[1])
+    return float(tolerance[0]), float(tolerance[1])
 
 
-def _pose(pose: ArrayLike | None) -> Array | None:
+def _read_pose(pose: ArrayLike | None) -> Array | None:
     if pose is None:
         return None
-    given = real_numbers(pose, "pose", "a pose (4, 4)")
-    if given.shape == (3,):
-        whole = np.eye(4)
-        whole[:3, 3] = given
-        given = whole
-    if given.shape != (4, 4) or not np.isfinite(given).all():
-        raise InputError(f"pose has shape {given.shape}; give (4, 4) finite numbers, m")
-    return np.asarray(check_poses(given[None])[0])
+    matrix = require_real_numbers(pose, "pose", "a pose (4, 4)")
+    if matrix.shape == (3,):
+        pose_matrix = np.eye(4)
+        pose_matrix[:3, 3] = matrix
+        matrix = pose_matrix
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+        raise InputError(f"pose has shape {matrix.shape}; give (4, 4) finite numbers, m")
+    return np.asarray(check_poses(matrix[None])[0])
 
 
-def _text(v: Array) -> str:
-    return ", ".join(f"{x + 0.0:.4g}" for x in v)
+def _format_vector(vector: Array) -> str:
+    return ", ".join(f"{component + 0.0:.4g}" for component in vector)

@@ -1,4 +1,4 @@
-"""What is kept, written in one word: ``upright:10deg``, ``rail:1,0,0``, ``plane:0,0,1``."""
+"""Labels of path constraints: ``upright:10deg``, ``rail:1,0,0``, ``plane:0,0,1``."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import registry
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.errors import InputError
-from holdfast.grammar import measures, split
-from holdfast.keep.kept import Kept, plane, rail, upright
+from holdfast.grammar import read_measures, split_label
+from holdfast.keep.kept import ToolConstraint, plane, rail, upright
 
-KINDS: dict[str, Callable[..., Kept]] = {"upright": upright, "rail": rail, "plane": plane}
-KeepLike = Kept | str | Sequence[Kept | str]
+CONSTRAINT_KINDS: dict[str, Callable[..., ToolConstraint]] = {"upright": upright, "rail": rail, "plane": plane}
+KeepLike = ToolConstraint | str | Sequence[ToolConstraint | str]
 """What is kept along a whole motion, or its label, or several."""
 
 
-@checked
-def by_label(label: str) -> Kept:
-    """What a label says is kept: its kind, then the first value of the function of that name, or values by key.
+@check_arguments
+def by_label(label: str) -> ToolConstraint:
+    """Return the constraint of a label: its kind, then the first value of the function of that name, or values by key.
 
     Numbers are in rad and m, or have ``deg``, ``rad``, ``mm`` or ``m`` behind them: ``upright:10deg``,
     ``upright:angle=5deg,axis=1,0,0``, ``rail:0,0,1``, ``rail:direction=0,0,1,frame=tool``,
@@ -31,50 +31,50 @@ def by_label(label: str) -> Kept:
     Raises:
         InputError: It cannot be read, or a value is wrong; the sentence says which.
     """
-    name, first, settings = split(label)
-    if name not in KINDS:
-        raise InputError(f"keep '{label}': {registry.unknown('kind', name, KINDS)}")
-    names = [key for key in inspect.signature(KINDS[name]).parameters if key != "pose"]
-    for key in settings:
-        if key not in names:
-            raise InputError(f"keep '{label}': {registry.unknown('setting', key, names)}")
-    if first is not None:
-        settings = {names[0]: first}
-    if names[0] not in settings:
-        raise InputError(f"keep '{label}' gives no {names[0]}; write for example {_EXAMPLES[name]}")
+    name, first_value, settings = split_label(label)
+    if name not in CONSTRAINT_KINDS:
+        raise InputError(f"keep '{label}': {registry.unknown_name_message('kind', name, CONSTRAINT_KINDS)}")
+    parameter_names = [setting for setting in inspect.signature(CONSTRAINT_KINDS[name]).parameters if setting != "pose"]
+    for setting in settings:
+        if setting not in parameter_names:
+            raise InputError(f"keep '{label}': {registry.unknown_name_message('setting', setting, parameter_names)}")
+    if first_value is not None:
+        settings = {parameter_names[0]: first_value}
+    if parameter_names[0] not in settings:
+        raise InputError(f"keep '{label}' gives no {parameter_names[0]}; write for example {_EXAMPLE_LABELS[name]}")
     try:
-        return KINDS[name](**{key: _value(key, text) for key, text in settings.items()})
+        return CONSTRAINT_KINDS[name](**{setting: _read_value(setting, text) for setting, text in settings.items()})
     except InputError as error:
         raise InputError(f"keep '{label}': {error}") from error
 
 
-_EXAMPLES = {"upright": "upright:10deg", "rail": "rail:0,0,1", "plane": "plane:0,0,1"}
+_EXAMPLE_LABELS = {"upright": "upright:10deg", "rail": "rail:0,0,1", "plane": "plane:0,0,1"}
 
 
-def _value(key: str, text: str) -> Any:
-    """A word, a number, or several, in rad and m."""
+def _read_value(key: str, text: str) -> Any:
+    """Read a word, a number, or several numbers, in rad and m."""
     if key == "frame":
         return text
-    found = measures(key, text)
-    return found if len(found) > 1 else found[0]
+    numbers = read_measures(key, text)
+    return numbers if len(numbers) > 1 else numbers[0]
 
 
-def all_kept(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[Kept, ...]:
-    """What is kept, through the tool's pose (4, 4) at the start; raises as :func:`as_kept`."""
-    return tuple(one.anchored(start) for one in as_kept(keep))
+def anchor_constraints(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[ToolConstraint, ...]:
+    """Return the constraints through the tool's pose (4, 4) at the start; raises as :func:`read_constraints`."""
+    return tuple(constraint.anchored(start) for constraint in read_constraints(keep))
 
 
-def as_kept(keep: KeepLike | None) -> tuple[Kept, ...]:
-    """What is kept, from labels too.
+def read_constraints(keep: KeepLike | None) -> tuple[ToolConstraint, ...]:
+    """Return constraints as a tuple, given as objects or labels, one or several.
 
     Raises:
-        InputError: Something that is neither a :class:`holdfast.keep.Kept` nor its label.
+        InputError: Something that is neither a :class:`holdfast.keep.ToolConstraint` nor its label.
     """
-    given = [] if keep is None else [keep] if isinstance(keep, str | Kept) else list(keep)
-    made = [by_label(one) if isinstance(one, str) else one for one in given]
-    for one in made:
-        if not isinstance(one, Kept):
+    items = [] if keep is None else [keep] if isinstance(keep, str | ToolConstraint) else list(keep)
+    constraints = [by_label(item) if isinstance(item, str) else item for item in items]
+    for item in constraints:
+        if not isinstance(item, ToolConstraint):
             raise InputError(
-                f"keep holds {one!r}; give what hf.keep.upright, rail or plane make, or a label such as 'upright:0.1'"
+                f"keep holds {item!r}; give what hf.keep.upright, rail or plane make, or a label such as 'upright:0.1'"
             )
-    return tuple(made)
+    return tuple(constraints)

@@ -1,4 +1,4 @@
-"""Configurations in which everything is kept: how much room is left, straight pieces that are proved, and the way back.
+"""The manifold of configurations that meet all path constraints: margins, proved straight segments, and projection.
 
 Of each :class:`Kept` two vectors of the tool's pose are looked at: ``v`` across its line or plane, and of the orientation the
 part of the tool's axis across its direction (as long as the sine of their angle), or the difference of both rotation matrices
@@ -18,23 +18,23 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
-from holdfast.keep.kept import Kept
+from holdfast.keep.kept import ToolConstraint
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 More = Callable[[Array, NDArray[np.intp]], tuple[Array, Array]]
 """Errors (N, k) and slopes (N, k, n) of what must be met too, for configurations (N, n) and which of those given they are."""
 
-_ROUND = 1e-9  # m and rad
-_MET = 1e-8  # m and rad: a row that is kept exactly is met
-_INNER = 0.9  # of a cone's opening: what is outside is brought back to there, which leaves room for the next piece
-_NEWTON = 12  # steps
-_STRIDE = 0.3  # rad or m of one joint in one of them
-_HALVED = 8  # times, until a piece that is not proved counts as breaking a row
+_ROUNDING_M_RAD = 1e-9  # m and rad
+_EQUALITY_TOLERANCE = 1e-8  # m and rad: a row that is kept exactly is met
+_CONE_FRACTION = 0.9  # of a cone's opening: what is outside is brought back to there, which leaves room for the next piece
+_NEWTON_STEPS = 12  # steps
+_MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one of them
+_MAX_BISECTIONS = 8  # times, until a piece that is not proved counts as breaking a row
 
 
-class Manifold:
-    """What is kept, for an arm with locks and limits.
+class ConstraintManifold:
+    """The configurations that meet the path constraints, for an arm with locked joints and limits.
 
     Args:
         arm: With the limits in force.
@@ -43,195 +43,217 @@ class Manifold:
         limits: (n,) and (n,) between which they do; of a locked slide where it is.
 
     Attributes:
-        thin: Some row is kept exactly, so that no straight way through joint space keeps it for long.
+        has_equalities: Some row is kept exactly, so that no straight way through joint space keeps it for long.
     """
 
-    def __init__(self, arm: Arm, keep: Sequence[Kept], free: Flags, limits: tuple[Array, Array]) -> None:
+    def __init__(self, arm: Arm, keep: Sequence[ToolConstraint], free: Flags, limits: tuple[Array, Array]) -> None:
         self.arm, self.keep, self.free = arm, tuple(keep), free
         self._low, self._high = limits
-        order, lever = np.arange(arm.n), _levers(arm, *limits)
-        self._turns = (~arm.prismatic).astype(np.float64)
-        self._lever = lever
-        self._second = lever[np.maximum.outer(order, order)] * self._turns[np.minimum.outer(order, order)]
-        bounds, exact = [], []
-        for kept in self.keep:
-            if len(kept.normals):
-                bounds.append(kept.within[0])
-                exact.append(True)
-            if kept.turned:
-                bounds.append(2 * np.sqrt(2) * np.sin(kept.widest / 2))
-                exact.append(True)
-            elif kept.direction is not None:
-                bounds.append(np.sin(kept.widest))
-                exact.append(kept.angle == 0)
+        joint_index, lever_arms = np.arange(arm.n), _lever_arms(arm, *limits)
+        self._revolute = (~arm.prismatic).astype(np.float64)
+        self._lever_arms = lever_arms
+        self._second_derivative_bounds = (
+            lever_arms[np.maximum.outer(joint_index, joint_index)] * self._revolute[np.minimum.outer(joint_index, joint_index)]
+        )
+        bounds, is_equality = [], []
+        for constraint in self.keep:
+            if len(constraint.normals):
+                bounds.append(constraint.within[0])
+                is_equality.append(True)
+            if constraint.turned:
+                bounds.append(2 * np.sqrt(2) * np.sin(constraint.widest / 2))
+                is_equality.append(True)
+            elif constraint.direction is not None:
+                bounds.append(np.sin(constraint.widest))
+                is_equality.append(constraint.angle == 0)
         self._bounds = np.array(bounds)
-        self._room = np.where(exact, 1.0, 1 - _INNER) * self._bounds
-        self.thin = any(exact)
+        self._slack = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
+        self.has_equalities = any(is_equality)
 
     # ---- room --------------------------------------------------------------------------------------------------------
 
-    def gaps(self, q: Array) -> Array:
-        """(N, R) room left at q (N, n), m and about rad; below 0 where a row is broken."""
-        return np.asarray(self._bounds + _ROUND - self._lengths(self.arm.forward_kinematics(q)))
+    def constraint_margins(self, q: Array) -> Array:
+        """Return the margins (N, R) of the constraints at q (N, n), m and about rad; below 0 where one is violated."""
+        return np.asarray(self._bounds + _ROUNDING_M_RAD - self._error_lengths(self.arm.forward_kinematics(q)))
 
-    def holds(self, q: Array) -> Flags:
-        """(N,) True where everything is kept at q (N, n)."""
-        return np.asarray((self.gaps(q) >= 0).all(axis=1))
+    def is_satisfied(self, q: Array) -> Flags:
+        """Return (N,) True where all constraints are met at q (N, n)."""
+        return np.asarray((self.constraint_margins(q) >= 0).all(axis=1))
 
-    def _lengths(self, poses: Array) -> Array:
-        """(N, R) of the vectors that must be no longer than the bounds."""
-        found = []
-        for kept in self.keep:
-            assert kept.pose is not None
-            if len(kept.normals):
-                found.append(np.linalg.norm((poses[:, :3, 3] - kept.pose[:3, 3]) @ kept.normals.T, axis=1))
-            if kept.turned:
-                found.append(np.linalg.norm(poses[:, :3, :3] - kept.pose[:3, :3], axis=(1, 2)))
-            elif kept.direction is not None:
-                axis = poses[:, :3, :3] @ kept.axis
-                along = axis @ kept.direction
-                sine = np.linalg.norm(axis - along[:, None] * kept.direction, axis=1)
-                found.append(np.where(along > 0, sine, 2 - sine))  # beyond 90 deg it is turned away, however small the sine
-        return np.stack(found, axis=1)
+    def _error_lengths(self, poses: Array) -> Array:
+        """Return the lengths (N, R) of the error vectors, which must not exceed the bounds."""
+        lengths = []
+        for constraint in self.keep:
+            assert constraint.pose is not None
+            if len(constraint.normals):
+                lengths.append(np.linalg.norm((poses[:, :3, 3] - constraint.pose[:3, 3]) @ constraint.normals.T, axis=1))
+            if constraint.turned:
+                lengths.append(np.linalg.norm(poses[:, :3, :3] - constraint.pose[:3, :3], axis=(1, 2)))
+            elif constraint.direction is not None:
+                axis = poses[:, :3, :3] @ constraint.axis
+                cosine = axis @ constraint.direction
+                sine = np.linalg.norm(axis - cosine[:, None] * constraint.direction, axis=1)
+                lengths.append(np.where(cosine > 0, sine, 2 - sine))  # beyond 90 deg it is turned away, however small the sine
+        return np.stack(lengths, axis=1)
 
-    def curvature(self, d: Array) -> Array:
-        """(N, R) bounds of the second derivatives of the vectors for motions d (N, n)."""
-        size = np.abs(d)
-        place, turned = ((size @ self._second) * size).sum(axis=1), (size @ self._turns) ** 2
-        found = []
-        for kept in self.keep:
-            if len(kept.normals):
-                found.append(place)
-            if kept.turned:
-                found.append(np.sqrt(2) * turned)
-            elif kept.direction is not None:
-                found.append(turned)
-        return np.stack(found, axis=1)
+    def bound_curvature(self, d: Array) -> Array:
+        """Bound the second derivatives (N, R) of the error vectors for motions d (N, n)."""
+        joint_travel = np.abs(d)
+        position_bound, rotation_bound = (
+            ((joint_travel @ self._second_derivative_bounds) * joint_travel).sum(axis=1),
+            (joint_travel @ self._revolute) ** 2,
+        )
+        bounds = []
+        for constraint in self.keep:
+            if len(constraint.normals):
+                bounds.append(position_bound)
+            if constraint.turned:
+                bounds.append(np.sqrt(2) * rotation_bound)
+            elif constraint.direction is not None:
+                bounds.append(rotation_bound)
+        return np.stack(bounds, axis=1)
 
-    def changes(self, d: Array) -> Array:
-        """(N, R) bounds of how much the vectors change where joints move by d (N, n)."""
-        size, found = np.abs(d), []
-        for kept in self.keep:
-            if len(kept.normals):
-                found.append(size @ self._lever)
-            if kept.turned or kept.direction is not None:
-                found.append((np.sqrt(2) if kept.turned else 1.0) * (size @ self._turns))
-        return np.stack(found, axis=1)
+    def bound_changes(self, d: Array) -> Array:
+        """Bound how much the error vectors (N, R) change where joints move by d (N, n)."""
+        joint_travel, bounds = np.abs(d), []
+        for constraint in self.keep:
+            if len(constraint.normals):
+                bounds.append(joint_travel @ self._lever_arms)
+            if constraint.turned or constraint.direction is not None:
+                bounds.append((np.sqrt(2) if constraint.turned else 1.0) * (joint_travel @ self._revolute))
+        return np.stack(bounds, axis=1)
 
-    def edges(self, a: Array, b: Array, away: Array | None = None) -> Flags:
-        """(E,) True where everything is proved to be kept on the whole straight piece from a to b (E, n).
+    def prove_edges(self, a: Array, b: Array, deviation: Array | None = None) -> Flags:
+        """Return (E,) True where all constraints are proved to hold on the whole straight segment from a to b (E, n).
 
-        With ``away`` (E, n) also everything whose joints are off it by no more.
+        With ``deviation`` (E, n) also everything whose joints are off it by no more.
         """
-        less = 0.0 if away is None else self.changes(away)
-        first, last = self.gaps(a) - less, self.gaps(b) - less
-        free = np.asarray((first.min(axis=1) >= 0) & (last.min(axis=1) >= 0))
-        bend = self.curvature(b - a) / 8
-        edge, start = np.flatnonzero(free), np.zeros(int(free.sum()))
-        first, last, length = first[edge], last[edge], 1.0
-        for _ in range(_HALVED):
-            open_ = (np.minimum(first, last) - length**2 * bend[edge] < 0).any(axis=1) & free[edge]
-            if not open_.any():
-                return free
-            edge, start, first, last = edge[open_], start[open_], first[open_], last[open_]
+        reserve = 0.0 if deviation is None else self.bound_changes(deviation)
+        start_margins, end_margins = self.constraint_margins(a) - reserve, self.constraint_margins(b) - reserve
+        is_proved = np.asarray((start_margins.min(axis=1) >= 0) & (end_margins.min(axis=1) >= 0))
+        curvature_term = self.bound_curvature(b - a) / 8
+        edge_index, start = np.flatnonzero(is_proved), np.zeros(int(is_proved.sum()))
+        start_margins, end_margins, length = start_margins[edge_index], end_margins[edge_index], 1.0
+        for _ in range(_MAX_BISECTIONS):
+            undecided = (np.minimum(start_margins, end_margins) - length**2 * curvature_term[edge_index] < 0).any(
+                axis=1
+            ) & is_proved[edge_index]
+            if not undecided.any():
+                return is_proved
+            edge_index, start, start_margins, end_margins = (
+                edge_index[undecided],
+                start[undecided],
+                start_margins[undecided],
+                end_margins[undecided],
+            )
             length /= 2
-            gaps = self.gaps(a[edge] + (start + length)[:, None] * (b - a)[edge])
-            if away is not None:
-                gaps -= self.changes(away[edge])
-            free[edge[gaps.min(axis=1) < 0]] = False
-            edge, start = np.concatenate([edge, edge]), np.concatenate([start, start + length])
-            first, last = np.concatenate([first, gaps]), np.concatenate([gaps, last])
-        free[edge] = False
-        return free
+            middle_margins = self.constraint_margins(a[edge_index] + (start + length)[:, None] * (b - a)[edge_index])
+            if deviation is not None:
+                middle_margins -= self.bound_changes(deviation[edge_index])
+            is_proved[edge_index[middle_margins.min(axis=1) < 0]] = False
+            edge_index, start = np.concatenate([edge_index, edge_index]), np.concatenate([start, start + length])
+            start_margins, end_margins = (
+                np.concatenate([start_margins, middle_margins]),
+                np.concatenate([middle_margins, end_margins]),
+            )
+        is_proved[edge_index] = False
+        return is_proved
 
-    def stride(self, d: Array) -> Array:
-        """(N,) fractions of motions d (N, n) after which half the room of a kept row may be used up."""
+    def step_fraction(self, d: Array) -> Array:
+        """Return fractions (N,) of motions d (N, n) that use up at most half the margin of a constraint."""
         with np.errstate(divide="ignore"):
-            return np.asarray(np.minimum(1.0, np.sqrt(4 * self._room / self.curvature(d)).min(axis=1)))
+            return np.asarray(np.minimum(1.0, np.sqrt(4 * self._slack / self.bound_curvature(d)).min(axis=1)))
 
     # ---- the way back ------------------------------------------------------------------------------------------------
 
-    def projected(self, q: Array, more: More | None = None) -> Array:
-        """Configurations near q (N, n) that keep everything within the limits, by Newton's method; maybe not all of them do.
+    def project(self, q: Array, extra_equations: More | None = None) -> Array:
+        """Project configurations q (N, n) onto the constraints within the limits by Newton's method; it may fail for some.
 
         Args:
             q: (N, n), rad and m; those that keep everything exactly are left as they are.
-            more: Errors and slopes of rows that must be met beside those kept; None: there are none.
+            extra_equations: Errors and slopes of rows that must be met beside those kept; None: there are none.
         """
         q = q.copy()
         moving = np.arange(len(q))
-        for _ in range(_NEWTON):
-            e, slopes = self._errors(q[moving])
-            if more is not None:
-                beside = more(q[moving], moving)
-                e, slopes = np.concatenate([e, beside[0]], axis=1), np.concatenate([slopes, beside[1]], axis=1)
-            off = np.abs(e).max(axis=1) > _MET
-            moving, e, slopes = moving[off], e[off], slopes[off]
+        for _ in range(_NEWTON_STEPS):
+            errors, jacobians = self._constraint_errors(q[moving])
+            if extra_equations is not None:
+                extra_terms = extra_equations(q[moving], moving)
+                errors, jacobians = (
+                    np.concatenate([errors, extra_terms[0]], axis=1),
+                    np.concatenate([jacobians, extra_terms[1]], axis=1),
+                )
+            unmet = np.abs(errors).max(axis=1) > _EQUALITY_TOLERANCE
+            moving, errors, jacobians = moving[unmet], errors[unmet], jacobians[unmet]
             if not moving.size:
                 break
-            q[moving] = self._stepped(q[moving], e, slopes)
+            q[moving] = self._newton_step(q[moving], errors, jacobians)
         return q
 
-    def _stepped(self, q: Array, e: Array, slopes: Array) -> Array:
-        """One step of least length; joints that it pushes over their limits do without."""
-        may: Flags = np.broadcast_to(self.free, q.shape)
+    def _newton_step(self, q: Array, errors: Array, jacobians: Array) -> Array:
+        """Take one step of least length; joints that it would push over their limits do not move."""
+        movable: Flags = np.broadcast_to(self.free, q.shape)
         for _ in range(2):
-            own = slopes * may[:, None, :]
-            gram = own @ own.transpose(0, 2, 1)
+            masked = jacobians * movable[:, None, :]
+            gram = masked @ masked.transpose(0, 2, 1)
             gram += (1e-10 * np.trace(gram, axis1=1, axis2=2) + 1e-14)[:, None, None] * np.eye(gram.shape[1])
-            step = (own.transpose(0, 2, 1) @ np.linalg.solve(gram, e[:, :, None]))[:, :, 0]
-            over = ((q <= self._low) & (step < 0)) | ((q >= self._high) & (step > 0))
-            if not (over & may).any():
+            step = (masked.transpose(0, 2, 1) @ np.linalg.solve(gram, errors[:, :, None]))[:, :, 0]
+            beyond_limits = ((q <= self._low) & (step < 0)) | ((q >= self._high) & (step > 0))
+            if not (beyond_limits & movable).any():
                 break
-            may = may & ~over
-        step *= np.minimum(1.0, _STRIDE / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
-        return np.asarray(np.where(may, np.clip(q + step, self._low, self._high), q))
+            movable = movable & ~beyond_limits
+        step *= np.minimum(1.0, _MAX_NEWTON_STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        return np.asarray(np.where(movable, np.clip(q + step, self._low, self._high), q))
 
-    def _errors(self, q: Array) -> tuple[Array, Array]:
-        """What is missing (N, k) of rows that are kept exactly, and of cones that are left, with the slopes (N, k, n)."""
+    def _constraint_errors(self, q: Array) -> tuple[Array, Array]:
+        """Return the errors (N, k) of equality constraints, and of cones that are left, with their Jacobians (N, k, n)."""
         poses, jacobian = self.arm.forward_kinematics(q), self.arm.jacobian(q)
-        errors, slopes = [], []
-        for kept in self.keep:
-            assert kept.pose is not None
-            if len(kept.normals):
-                errors.append((kept.pose[:3, 3] - poses[:, :3, 3]) @ kept.normals.T)
-                slopes.append(kept.normals @ jacobian[:, :3])
-            if kept.turned:
-                errors.append(rotation_vectors(kept.pose[:3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)))
-                slopes.append(jacobian[:, 3:])
-            elif kept.direction is not None:
-                e, turn = _cone(kept, poses[:, :3, :3] @ kept.axis)
-                errors.append(e)
-                slopes.append(turn @ jacobian[:, 3:])
-        return np.concatenate(errors, axis=1), np.concatenate(slopes, axis=1)
+        errors, jacobians = [], []
+        for constraint in self.keep:
+            assert constraint.pose is not None
+            if len(constraint.normals):
+                errors.append((constraint.pose[:3, 3] - poses[:, :3, 3]) @ constraint.normals.T)
+                jacobians.append(constraint.normals @ jacobian[:, :3])
+            if constraint.turned:
+                errors.append(rotation_vectors(constraint.pose[:3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)))
+                jacobians.append(jacobian[:, 3:])
+            elif constraint.direction is not None:
+                cone_error, rotation_axes = _cone_error(constraint, poses[:, :3, :3] @ constraint.axis)
+                errors.append(cone_error)
+                jacobians.append(rotation_axes @ jacobian[:, 3:])
+        return np.concatenate(errors, axis=1), np.concatenate(jacobians, axis=1)
 
 
-def _cone(kept: Kept, axis: Array) -> tuple[Array, Array]:
-    """By how much axes (N, 3) must turn, and about what (N, k, 3): to their direction, or if outside back into the cone."""
-    assert kept.direction is not None
-    across = np.cross(axis, kept.direction)
+def _cone_error(constraint: ToolConstraint, axis: Array) -> tuple[Array, Array]:
+    """Return the angles by which axes (N, 3) must rotate to their direction or back into the cone, and the rotation axes (N, k,
+    3).
+    """
+    assert constraint.direction is not None
+    across = np.cross(axis, constraint.direction)
     sine = np.linalg.norm(across, axis=1)
-    angle = np.arctan2(sine, axis @ kept.direction)
-    about = np.where(sine[:, None] > 1e-9, across / np.maximum(sine, 1e-12)[:, None], _beside(axis))
-    if kept.angle == 0:
-        return angle[:, None] * about, np.eye(3) - axis[:, :, None] * axis[:, None, :]
-    out = angle > kept.angle - _ROUND
-    return np.where(out, angle - _INNER * kept.angle, 0.0)[:, None], np.where(out[:, None], about, 0.0)[:, None, :]
+    angle = np.arctan2(sine, axis @ constraint.direction)
+    rotation_axis = np.where(sine[:, None] > 1e-9, across / np.maximum(sine, 1e-12)[:, None], _perpendicular_vectors(axis))
+    if constraint.angle == 0:
+        return angle[:, None] * rotation_axis, np.eye(3) - axis[:, :, None] * axis[:, None, :]
+    outside = angle > constraint.angle - _ROUNDING_M_RAD
+    return np.where(outside, angle - _CONE_FRACTION * constraint.angle, 0.0)[:, None], np.where(
+        outside[:, None], rotation_axis, 0.0
+    )[:, None, :]
 
 
-def _beside(axis: Array) -> Array:
-    """Unit vectors across axes (N, 3)."""
-    other = np.eye(3)[np.abs(axis).argmin(axis=1)]
-    across = np.cross(axis, other)
+def _perpendicular_vectors(axis: Array) -> Array:
+    """Return unit vectors perpendicular to axes (N, 3)."""
+    least_aligned = np.eye(3)[np.abs(axis).argmin(axis=1)]
+    across = np.cross(axis, least_aligned)
     return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True))
 
 
-def _levers(arm: Arm, low: Array, high: Array) -> Array:
-    """(n,) how far the tool point can be from each axis, m: the lengths of what lies beyond it; 1 of a slide."""
-    length, found = float(np.linalg.norm(arm.tool[:3, 3])), []
-    for k, joint in reversed(list(enumerate(arm.joints))):
+def _lever_arms(arm: Arm, low: Array, high: Array) -> Array:
+    """Bound the distance (n,) of the tool point from each joint axis, m, by the lengths beyond it; 1 for a prismatic joint."""
+    length, lever_arms = float(np.linalg.norm(arm.tool[:3, 3])), []
+    for index, joint in reversed(list(enumerate(arm.joints))):
         if joint.prismatic:
-            length += float(max(abs(low[k]), abs(high[k])))
-        found.append(1.0 if joint.prismatic else length)
+            length += float(max(abs(low[index]), abs(high[index])))
+        lever_arms.append(1.0 if joint.prismatic else length)
         length += float(np.linalg.norm(joint.origin[:3, 3]))
-    return np.array(found[::-1])
+    return np.array(lever_arms[::-1])

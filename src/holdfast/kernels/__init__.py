@@ -1,4 +1,6 @@
-"""Expression graph to batched function. The only package that knows LLVM and the CasADi virtual machine; knows no robots."""
+"""Compile expression graphs to batched functions; the only package that uses LLVM and the CasADi virtual machine, without
+knowledge of robots.
+"""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Program -> C99: the computation of a kernel in a robot's own controller.
+"""Translate a program to C99 for a robot's own controller.
 
 Variables are used again once their value is not needed: without optimisation a compiler gives each a place on the stack.
 """
@@ -12,10 +12,10 @@ from heapq import heappop, heappush
 
 import casadi as ca
 
-from holdfast.kernels.graph import CONST, INPUT, OUTPUT, SELECT, Graph
+from holdfast.kernels.graph import OP_CONST, OP_INPUT, OP_OUTPUT, OP_SELECT, ValueGraph
 from holdfast.kernels.program import Program
 
-_FORMS = {
+_C_FORMS = {
     ca.OP_ADD: "{0} + {1}",
     ca.OP_SUB: "{0} - {1}",
     ca.OP_MUL: "{0} * {1}",
@@ -33,7 +33,7 @@ _FORMS = {
     ca.OP_AND: "({0} != 0) & ({1} != 0)",
     ca.OP_OR: "({0} != 0) | ({1} != 0)",
     ca.OP_IF_ELSE_ZERO: "{0} ? {1} : 0",
-    SELECT: "{0} ? {1} : {2}",
+    OP_SELECT: "{0} ? {1} : {2}",
     ca.OP_SIGN: "{0} > 0 ? 1 : {0} < 0 ? -1 : 0",
     ca.OP_FMIN: "{0} <= {1} ? {0} : {1}",
     ca.OP_FMAX: "{0} >= {1} ? {0} : {1}",
@@ -46,13 +46,13 @@ _FORMS = {
     getattr(ca, f"OP_{name.upper()}"): f"{name}({{0}})"
     for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "log1p", "expm1")
 }
-_TRUTHS = {ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NE, ca.OP_NOT, ca.OP_AND, ca.OP_OR}
+_CONDITION_OPERATIONS = {ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NE, ca.OP_NOT, ca.OP_AND, ca.OP_OR}
 
-_VARIABLE = re.compile(r"[cv]\d+")
+_VARIABLE_PATTERN = re.compile(r"[cv]\d+")
 
 
-def c_function(program: Program, name: str, inputs: Mapping[str, int], outputs: Mapping[str, int]) -> str:
-    """C99 that computes a program: ``static void NAME(const double *input, ..., double *output, ...)``, needing ``math.h``.
+def write_c_function(program: Program, name: str, inputs: Mapping[str, int], outputs: Mapping[str, int]) -> str:
+    """Write a program in C99: ``static void NAME(const double *input, ..., double *output, ...)``, needing ``math.h``.
 
     The operations are those of a :class:`holdfast.kernels.Kernel`, bit for bit but for functions of ``math.h`` where a
     compiler neither contracts nor reorders them. Inputs must be finite.
@@ -66,49 +66,49 @@ def c_function(program: Program, name: str, inputs: Mapping[str, int], outputs: 
     Raises:
         KernelError: An operation that has no row in the table; the message names it.
     """
-    graph = Graph(program, "C", _FORMS.keys(), guarded=False)
-    lines, doubles, conditions = _text(graph, _places(inputs), _places(outputs))
+    graph = ValueGraph(program, "C", _C_FORMS.keys(), guarded=False)
+    lines, doubles, conditions = _write_statements(graph, _element_names(inputs), _element_names(outputs))
     declared = [f"    {kind} {', '.join(names)};\n" for kind, names in (("double", doubles), ("int", conditions)) if names]
     unused = [f"    (void){x};\n" for x in inputs if not any(f"{x}[" in line for line in lines)]
-    given = ", ".join([f"const double *{x}" for x in inputs] + [f"double *{x}" for x in outputs])
-    return f"static void {name}({given}) {{\n{''.join([*declared, *unused, *lines])}}}\n"
+    arguments = ", ".join([f"const double *{x}" for x in inputs] + [f"double *{x}" for x in outputs])
+    return f"static void {name}({arguments}) {{\n{''.join([*declared, *unused, *lines])}}}\n"
 
 
-def _places(arrays: Mapping[str, int]) -> list[str]:
+def _element_names(arrays: Mapping[str, int]) -> list[str]:
     return [f"{name}[{k}]" for name, size in arrays.items() for k in range(size)]
 
 
-def _text(graph: Graph, inputs: list[str], outputs: list[str]) -> tuple[list[str], list[str], list[str]]:
-    """Lines of C, and the variables that they use: of numbers and of conditions."""
+def _write_statements(graph: ValueGraph, inputs: list[str], outputs: list[str]) -> tuple[list[str], list[str], list[str]]:
+    """Return lines of C, and the variables that they use: of numbers and of conditions."""
     nodes = graph.nodes
-    last = {a: k for k in graph.needed for a in nodes[k].args}
-    last |= {nodes[k].args[0]: len(nodes) for k in graph.needed if nodes[k].op == OUTPUT}
+    last_use = {a: k for k in graph.needed for a in nodes[k].args}
+    last_use |= {nodes[k].args[0]: len(nodes) for k in graph.needed if nodes[k].op == OP_OUTPUT}
     names: dict[int, str] = {}
     free: dict[bool, list[int]] = {True: [], False: []}
     count = {True: 0, False: 0}
-    lines, ends = list[str](), list[str]()
+    lines, result_lines = list[str](), list[str]()
     for k in graph.needed:
         node = nodes[k]
-        if node.op in (INPUT, CONST):
-            names[k] = inputs[int(node.value)] if node.op == INPUT else number(node.value)
+        if node.op in (OP_INPUT, OP_CONST):
+            names[k] = inputs[int(node.value)] if node.op == OP_INPUT else c_number(node.value)
             continue
-        if node.op == OUTPUT:
-            ends.append(f"    {outputs[int(node.value)]} = {names[node.args[0]]};\n")
+        if node.op == OP_OUTPUT:
+            result_lines.append(f"    {outputs[int(node.value)]} = {names[node.args[0]]};\n")
             continue
-        text = _FORMS[node.op].format(*(names[a] for a in node.args))
+        text = _C_FORMS[node.op].format(*(names[a] for a in node.args))
         for a in set(node.args):  # a variable whose value nothing after this line needs may be used again
-            if last[a] == k and _VARIABLE.fullmatch(names[a]):
+            if last_use[a] == k and _VARIABLE_PATTERN.fullmatch(names[a]):
                 heappush(free[names[a][0] == "c"], int(names[a][1:]))
-        kind = node.op in _TRUTHS
+        kind = node.op in _CONDITION_OPERATIONS
         if not free[kind]:
             heappush(free[kind], count[kind])
             count[kind] += 1
         names[k] = f"{'c' if kind else 'v'}{heappop(free[kind])}"
         lines.append(f"    {names[k]} = {text};\n")
-    return lines + ends, [f"v{k}" for k in range(count[False])], [f"c{k}" for k in range(count[True])]
+    return lines + result_lines, [f"v{k}" for k in range(count[False])], [f"c{k}" for k in range(count[True])]
 
 
-def number(value: float) -> str:
-    """A constant of C that reads back as the same double."""
+def c_number(value: float) -> str:
+    """Return a constant of C that reads back as the same double."""
     text = "HUGE_VAL" if math.isinf(value) else repr(abs(float(value)))
     return f"(-{text})" if math.copysign(1, value) < 0 else text

@@ -1,4 +1,4 @@
-"""Object code on disk, so that the second start of a program does not compile again.
+"""Cache object code on disk, so that the second start of a program need not compile again.
 
 A file is: a line that names the format, the SHA-256 of everything that follows, and the object code. Its name is the key: the
 program, the level, the processor, the text of the translation. The folder belongs to the user alone: a folder or file that
@@ -18,13 +18,13 @@ from pathlib import Path
 
 from holdfast.kernels.llvm import machine_code
 
-_MAGIC = b"holdfast kernel 1\n"
-_LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
+_FILE_HEADER = b"holdfast kernel 1\n"
+_MAX_FILE_BYTES, _MAX_FOLDER_BYTES = 1 << 28, 1 << 30  # bytes
 _written: dict[Path, int] = {}  # bytes that this process added to each folder since it last looked at all of it
 
 
-def folder() -> Path | None:
-    """The cache folder, created private to the user, or None if the cache is off or the folder is not ours alone."""
+def cache_folder() -> Path | None:
+    """Return the cache folder, created private to the user, or None if the cache is off or others may write the folder."""
     setting = os.environ.get("HOLDFAST_CACHE")
     if setting == "off":
         return None
@@ -32,33 +32,33 @@ def folder() -> Path | None:
         base = Path(setting) if setting else Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "holdfast"
         path = base / "kernels"
         path.mkdir(parents=True, exist_ok=True, mode=0o700)
-        return path if _ours(path.stat()) else None
+        return path if _is_private(path.stat()) else None
     except (OSError, RuntimeError):  # no home at all
         return None
 
 
-def _ours(found: os.stat_result) -> bool:
-    """True if nobody else may write it."""
-    return not hasattr(os, "getuid") or (found.st_uid == os.getuid() and not found.st_mode & 0o022)
+def _is_private(file_status: os.stat_result) -> bool:
+    """Return True if nobody else may write the file."""
+    return not hasattr(os, "getuid") or (file_status.st_uid == os.getuid() and not file_status.st_mode & 0o022)
 
 
 @lru_cache(maxsize=1)
-def _machine() -> str:
-    here = machine_code.host()
+def _machine_digest() -> str:
+    processor = machine_code.detect_host()
     # A kernel made by other code is another kernel.
     sources = [file for folder in ("llvm", "gpu") for file in sorted(Path(__file__).with_name(folder).glob("*.py"))]
     code = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()
-    return "|".join([code, machine_code.version(), here.cpu, here.features, repr(here.machine)])
+    return "|".join([code, machine_code.llvm_version(), processor.cpu, processor.features, repr(processor.machine)])
 
 
-def key(digest: str, *what: object) -> str:
-    """File name of a program's code, or of anything else that depends on the machine and the translation."""
-    return hashlib.sha256("|".join([digest, *map(str, what), _machine()]).encode()).hexdigest()
+def cache_key(digest: str, *parts: object) -> str:
+    """Return the file name of a program's code, or of anything else that depends on the machine and the translation."""
+    return hashlib.sha256("|".join([digest, *map(str, parts), _machine_digest()]).encode()).hexdigest()
 
 
-def load(name: str) -> bytes | None:
-    """What was stored, or None if it is not there, damaged, or not ours alone."""
-    path = folder()
+def load_entry(name: str) -> bytes | None:
+    """Return the stored content, or None if it is missing, damaged, or not private."""
+    path = cache_folder()
     if path is None:
         return None
     try:
@@ -68,47 +68,50 @@ def load(name: str) -> bytes | None:
         return None
     with os.fdopen(handle, "rb") as file:
         try:
-            found = os.fstat(handle)
-            if not stat.S_ISREG(found.st_mode) or not _ours(found) or found.st_size > _LARGEST_FILE:
+            file_status = os.fstat(handle)
+            if not stat.S_ISREG(file_status.st_mode) or not _is_private(file_status) or file_status.st_size > _MAX_FILE_BYTES:
                 return None
             data = file.read()
         except OSError:
             return None
-    head = len(_MAGIC) + 32
-    if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(data[head:]).digest() != data[len(_MAGIC) : head]:
+    header_size = len(_FILE_HEADER) + 32
+    if (
+        data[: len(_FILE_HEADER)] != _FILE_HEADER
+        or hashlib.sha256(data[header_size:]).digest() != data[len(_FILE_HEADER) : header_size]
+    ):
         return None
     with contextlib.suppress(OSError):
         os.utime(path / name)
-    return data[head:]
+    return data[header_size:]
 
 
-def store(name: str, body: bytes) -> None:
-    """Write whole or not at all; a full disk or a read-only home only costs the next start some time."""
-    path = folder()
+def store_entry(name: str, body: bytes) -> None:
+    """Write an entry completely or not at all; a full disk or a read-only home only makes the next start slower."""
+    path = cache_folder()
     if path is None:
         return
     with contextlib.suppress(OSError):
         handle, temporary = tempfile.mkstemp(dir=path, prefix=".new-")  # mode 600
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(_MAGIC + hashlib.sha256(body).digest() + body)
+                file.write(_FILE_HEADER + hashlib.sha256(body).digest() + body)
             Path(temporary).replace(path / name)
         except OSError:
             Path(temporary).unlink()
         # To look at thousands of files takes longer than to write one.
-        _written[path] = _written.get(path, _LARGEST_FOLDER) + len(body)
-        if _written[path] > _LARGEST_FOLDER >> 5:
+        _written[path] = _written.get(path, _MAX_FOLDER_BYTES) + len(body)
+        if _written[path] > _MAX_FOLDER_BYTES >> 5:
             _written[path] = 0
-            _trim(path)
+            _trim_folder(path)
 
 
-def _trim(path: Path) -> None:
-    """Remove what was not used for longest until the folder is small enough."""
+def _trim_folder(path: Path) -> None:
+    """Remove the entries that were not used for longest until the folder is small enough."""
     with os.scandir(path) as entries:
-        files = [(f.stat(follow_symlinks=False), f.path) for f in entries]
-    size = sum(found.st_size for found, _ in files)
-    for found, name in sorted(files, key=lambda f: f[0].st_mtime):
-        if size <= _LARGEST_FOLDER:
+        files = [(entry.stat(follow_symlinks=False), entry.path) for entry in entries]
+    size = sum(status.st_size for status, _ in files)
+    for status, name in sorted(files, key=lambda entry: entry[0].st_mtime):
+        if size <= _MAX_FOLDER_BYTES:
             return
         Path(name).unlink(missing_ok=True)
-        size -= found.st_size
+        size -= status.st_size

@@ -1,4 +1,4 @@
-"""Program -> CasADi virtual machine: slower, runs everywhere, and is the oracle of the tests."""
+"""Evaluate a program by the CasADi virtual machine, which is slower, runs everywhere, and is the oracle of the tests."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def call(function: Any, inputs: NDArray[np.float64], outputs: NDArray[np.float64]) -> None:
+def evaluate_columns(function: Any, inputs: NDArray[np.float64], outputs: NDArray[np.float64]) -> None:
     """Evaluate columns of ``inputs (n_in, W)`` into ``outputs (n_out, W)``."""
     width = inputs.shape[1]
     outputs[:] = np.asarray(function.map(width)(inputs)).reshape(outputs.shape)

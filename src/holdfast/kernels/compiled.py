@@ -1,4 +1,4 @@
-"""The machine code of a program: quickly made code at once, better code once enough rows have come to repay it.
+"""Machine code of a program: code that compiles quickly first, better code once enough rows repay it.
 
 Both give the same bits, so that nobody needs to know which of them computed a row.
 """
@@ -23,27 +23,29 @@ from holdfast import notice
 from holdfast.caching import cached_property
 from holdfast.kernels import cache
 from holdfast.kernels.llvm import machine_code
-from holdfast.kernels.llvm.arithmetic import Machine
+from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
 
 Array = NDArray[np.float64]
 
-AT_ONCE = 100  # operations that level 1 compiles in some 15 ms, hardly longer than level 0
-WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
-LONG = 40_000  # operations: nobody waits for level 1 of more
-VAST = 100_000  # operations: level 1 of more takes minutes (measured: 6 s of 74,000, not done after 250 s of 582,000)
+MAX_IMMEDIATE_OPERATIONS = 100  # operations that level 1 compiles in some 15 ms, hardly longer than level 0
+MAX_TWO_REGISTER_OPERATIONS = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
+MAX_WAITED_OPERATIONS = 40_000  # operations: nobody waits for level 1 of more
+MAX_COMPILED_OPERATIONS = (
+    100_000  # operations: level 1 of more takes minutes (measured: 6 s of 74,000, not done after 250 s of 582,000)
+)
 # Rows after which level 1 is compiled. It repays that after 1,200,000 to 5,000,000 (measured: steps of an ascent, of a closed
 # loop, of a control cycle); well below, a long batch takes little longer than if it had been compiled beforehand, and a short
 # one wastes nothing. Of short programs it repays later (1,700 operations: after 7,000,000; 900: after 10,000,000), if ever.
-WORTH, SHORT, WORTH_SHORT = 750_000, 2000, 5_000_000
+REPAYING_WORK, SHORT_PROGRAM_OPERATIONS, REPAYING_WORK_OF_SHORT = 750_000, 2000, 5_000_000
 
 _coming: ContextVar[int] = ContextVar("coming", default=0)
 
 
 @contextlib.contextmanager
-def expecting(rows: int) -> Iterator[None]:
-    """Kernels that this thread makes inside will be given about so many rows: where better code repays, it is made at once."""
+def expect_rows(rows: int) -> Iterator[None]:
+    """Context in which new kernels of this thread expect this many rows; where better code repays, it is compiled at once."""
     before = _coming.set(rows)
     try:
         yield
@@ -51,8 +53,8 @@ def expecting(rows: int) -> Iterator[None]:
         _coming.reset(before)
 
 
-class Compiled:
-    """A program as a function over columns.
+class CompiledProgram:
+    """Program as a compiled function over columns.
 
     Args:
         program: What to compute.
@@ -64,78 +66,87 @@ class Compiled:
 
     def __init__(self, program: Program) -> None:
         self._program, self._rows = program, 0
-        self.lanes = self._lanes(1)
-        best = self._stored(1)
-        if best is None and (program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1" or self._repays(_coming.get())):
-            best = self._make(1)
-        self.level = 0 if best is None else 1
-        self._code = best or self._stored(0) or self._make(0)
+        self.lanes = self._lanes_of_level(1)
+        stored_code = self._load_code(1)
+        if stored_code is None and (
+            program.size <= MAX_IMMEDIATE_OPERATIONS or os.environ.get("HOLDFAST_LEVEL") == "1" or self._repays(_coming.get())
+        ):
+            stored_code = self._compile_code(1)
+        self.level = 0 if stored_code is None else 1
+        self._code = stored_code or self._load_code(0) or self._compile_code(0)
 
-    def bound(self, inputs: Array, outputs: Array, used: int | None = None) -> Callable[[], None]:
-        """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes.
+    def bind_arrays(self, inputs: Array, outputs: Array, used_width: int | None = None) -> Callable[[], None]:
+        """Return the function that evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the
+        lanes.
 
         Args:
             inputs: Read at each call.
             outputs: Overwritten.
-            used: A multiple of the lanes: only so many of the columns, the first ones.
+            used_width: A multiple of the lanes: only so many of the columns, the first ones.
         """
-        width = inputs.shape[1] if used is None else used
+        width = inputs.shape[1] if used_width is None else used_width
         # Made once: a step of few rows takes less than ctypes takes to convert four numbers.
-        at = c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data)
-        given: tuple[Any, ...] = (*at, c_int64(inputs.shape[1]), c_int64(width))
+        addresses = c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data)
+        arguments: tuple[Any, ...] = (*addresses, c_int64(inputs.shape[1]), c_int64(width))
 
-        def call(kept: tuple[Array, Array] = (inputs, outputs)) -> None:
+        def evaluate_bound(arrays: tuple[Array, Array] = (inputs, outputs)) -> None:
             code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
-            code.call(*given)
+            code.call(*arguments)
             if not self.level:
-                self._count(width)
+                self._count_rows(width)
 
-        return call
+        return evaluate_bound
 
     @cached_property
-    def one(self) -> machine_code.Code:
-        """The code for a single row: for loops that control. The same bits again."""
-        level = int(self._program.size <= LONG)
-        return self._stored(level, 1) or self._make(level, 1)
+    def single_row_code(self) -> machine_code.Code:
+        """Code for a single row, for control loops, with the same bits."""
+        level = int(self._program.size <= MAX_WAITED_OPERATIONS)
+        return self._load_code(level, 1) or self._compile_code(level, 1)
 
     # ---- levels ------------------------------------------------------------------------------------------------
 
-    def _count(self, rows: int) -> None:
+    def _count_rows(self, rows: int) -> None:
         self._rows += rows
         if self._repays(self._rows):
             self._rows = -(1 << 62)  # asked once
             if in_pool() and _busy.acquire(blocking=False):
                 # Every processor is busy: beside one thread more, the others would only be longer on level 0.
                 try:
-                    self._improve()
+                    self._compile_better()
                 finally:
                     _busy.release()
             else:
-                _in_background(self._improve)
+                _submit_job(self._compile_better)
 
     def _repays(self, rows: int) -> bool:
-        return rows >= (WORTH_SHORT if self._program.size < SHORT else WORTH) and self._program.size <= VAST
+        return (
+            rows >= (REPAYING_WORK_OF_SHORT if self._program.size < SHORT_PROGRAM_OPERATIONS else REPAYING_WORK)
+            and self._program.size <= MAX_COMPILED_OPERATIONS
+        )
 
-    def _improve(self) -> None:
-        self._code, self.level = self._stored(1) or self._make(1, aside=True), 1
+    def _compile_better(self) -> None:
+        self._code, self.level = self._load_code(1) or self._compile_code(1, in_background=True), 1
 
-    def _lanes(self, level: int) -> int:
-        lanes = machine_code.host().machine.lanes
-        return lanes if level and self._program.size <= WIDE else min(lanes, 8)
+    def _lanes_of_level(self, level: int) -> int:
+        lanes = machine_code.detect_host().machine.lanes
+        return lanes if level and self._program.size <= MAX_TWO_REGISTER_OPERATIONS else min(lanes, 8)
 
-    def _key(self, level: int, lanes: int) -> str:
-        return cache.key(self._program.digest, level, lanes)
+    def _code_key(self, level: int, lanes: int) -> str:
+        return cache.cache_key(self._program.digest, level, lanes)
 
-    def _stored(self, level: int, lanes: int | None = None) -> machine_code.Code | None:
-        data = cache.load(self._key(level, lanes or self._lanes(level)))
+    def _load_code(self, level: int, lanes: int | None = None) -> machine_code.Code | None:
+        data = cache.load_entry(self._code_key(level, lanes or self._lanes_of_level(level)))
         return None if data is None else machine_code.Code(data)
 
-    def _make(self, level: int, lanes: int | None = None, aside: bool = False) -> machine_code.Code:
-        lanes = lanes or self._lanes(level)
-        program, machine = self._program, Machine(lanes, machine_code.host().machine.fused)
-        with notice.long(f"compiling '{program.name}'", 0 if aside else program.size * machine_code.COMPILING[level]):
+    def _compile_code(self, level: int, lanes: int | None = None, in_background: bool = False) -> machine_code.Code:
+        lanes = lanes or self._lanes_of_level(level)
+        program, machine = self._program, TargetMachine(lanes, machine_code.detect_host().machine.fused)
+        with notice.long_task(
+            f"compiling '{program.name}'",
+            0 if in_background else program.size * machine_code.COMPILE_SECONDS_PER_OPERATION[level],
+        ):
             data = machine_code.compile_program(program, level, machine)
-        cache.store(self._key(level, lanes), data)
+        cache.store_entry(self._code_key(level, lanes), data)
         return machine_code.Code(data)
 
 
@@ -145,60 +156,60 @@ _busy = threading.RLock()  # held while code improves, in a fork, and from the e
 _fork = contextlib.ExitStack()  # what the fork under way holds of LLVM
 
 
-def _in_background(job: Callable[[], None]) -> None:
+def _submit_job(task: Callable[[], None]) -> None:
     global _worker
-    _jobs.put(job)
+    _jobs.put(task)
     if _worker is None or not _worker.is_alive():
-        _worker = threading.Thread(target=_work, name="holdfast-compiler", daemon=True)
+        _worker = threading.Thread(target=_run_jobs, name="holdfast-compiler", daemon=True)
         _worker.start()
 
 
-def _work() -> None:
+def _run_jobs() -> None:
     while True:
-        job = _jobs.get()
+        task = _jobs.get()
         with _busy:
             try:
-                job()
+                task()
             except Exception:  # said as threads say it; the next job is done, and who waits for all of them is told
                 args = (*sys.exc_info(), threading.current_thread())
                 threading.excepthook(threading.ExceptHookArgs(args))
 
 
-def settle() -> None:
-    """Wait until nothing is being compiled in the background: for measurements."""
+def wait_for_compiler() -> None:
+    """Wait until nothing is being compiled in the background, for measurements."""
     done = threading.Event()
     if _worker is not None and _worker.is_alive():
         _jobs.put(done.set)
         done.wait()
 
 
-def _hold() -> None:
-    """Before a fork: CasADi, which a job may use, has locks that a child process cannot open, as has LLVM.
+def _before_fork() -> None:
+    """Wait before a fork, because CasADi and LLVM have locks that a child process cannot open.
 
     In this order: a job that runs needs LLVM to end.
     """
     _busy.acquire()
-    _fork.enter_context(machine_code.lock())
+    _fork.enter_context(machine_code.llvm_lock())
 
 
-def _go_on() -> None:
+def _after_fork_in_parent() -> None:
     _fork.close()
     _busy.release()
 
 
-def _forget() -> None:
-    """In a child process: its compiler thread is gone, and what waited for it stays at level 0."""
+def _after_fork_in_child() -> None:
+    """Reset the compiler in a child process, which has no compiler thread; waiting programs stay at level 0."""
     global _worker, _jobs, _busy
     _fork.close()
     _worker, _jobs, _busy = None, queue.SimpleQueue(), threading.RLock()
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(before=_hold, after_in_parent=_go_on, after_in_child=_forget)
+    os.register_at_fork(before=_before_fork, after_in_parent=_after_fork_in_parent, after_in_child=_after_fork_in_child)
 
 
 @atexit.register
-def _stop() -> None:
-    """LLVM must not be taken down while it compiles; what only waits is dropped."""
+def _stop_compiler() -> None:
+    """Stop the compiler before the interpreter ends and drop waiting programs."""
     with contextlib.suppress(KeyboardInterrupt):
         _busy.acquire()

@@ -1,4 +1,4 @@
-"""A program as values that depend on each other, each computed once: what is printed as text in another language."""
+"""Program as a graph of values, each computed once, from which text in another language is printed."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ import casadi as ca
 from holdfast.errors import KernelError
 from holdfast.kernels.program import OP_NAMES, Program
 
-SELECT, INPUT, CONST, OUTPUT = range(-4, 0)  # beside the operations of CasADi
+OP_SELECT, OP_INPUT, OP_CONST, OP_OUTPUT = range(-4, 0)  # beside the operations of CasADi
 
 
 @dataclass(frozen=True)
-class Node:
-    """A value: an operation, the numbers of its arguments, and which input or output it is, or the constant."""
+class GraphNode:
+    """Value: an operation, the numbers of its arguments, and the number of its input or output, or the constant."""
 
     op: int
     args: tuple[int, ...] = ()
     value: float = 0.0
 
 
-class Graph:
-    """The values of a program, each computed once, in an order in which they can be.
+class ValueGraph:
+    """Values of a program, each computed once, in a valid order.
 
     Args:
         program: The computation.
@@ -40,15 +40,15 @@ class Graph:
     """
 
     def __init__(self, program: Program, language: str, operations: Collection[int], *, guarded: bool) -> None:
-        self.nodes: list[Node] = []
-        self._known: dict[Node, int] = {}
+        self.nodes: list[GraphNode] = []
+        self._known: dict[GraphNode, int] = {}
         work: dict[int, int] = {}
-        inputs = [self._add(Node(INPUT, value=i)) for i in range(program.n_in)]
+        inputs = [self._add_node(GraphNode(OP_INPUT, value=i)) for i in range(program.n_in)]
         if guarded:  # it must reach every output, also where the expression ignores that input
             total = inputs[0]
             for term in inputs[1:]:
-                total = self._add(Node(ca.OP_ADD, (total, term)))
-            guard = self._add(Node(ca.OP_SUB, (total, total)))
+                total = self._add_node(GraphNode(ca.OP_ADD, (total, term)))
+            guard = self._add_node(GraphNode(ca.OP_SUB, (total, total)))
         divisors = program.shared_divisors()
         outputs: list[int] = []
         for k, row in enumerate(program.instructions):
@@ -56,24 +56,24 @@ class Graph:
             if row.op == ca.OP_INPUT:
                 work[row.output] = inputs[row.inputs[0]]
             elif row.op == ca.OP_CONST:
-                work[row.output] = self._add(Node(CONST, value=row.constant))
+                work[row.output] = self._add_node(GraphNode(OP_CONST, value=row.constant))
             elif row.op == ca.OP_ASSIGN:
                 work[row.output] = args[0]
             elif row.op == ca.OP_OUTPUT:
-                told = self._add(Node(ca.OP_ADD, (args[0], guard))) if guarded else args[0]
-                outputs.append(self._add(Node(OUTPUT, (told,), row.output)))
+                guarded_value = self._add_node(GraphNode(ca.OP_ADD, (args[0], guard))) if guarded else args[0]
+                outputs.append(self._add_node(GraphNode(OP_OUTPUT, (guarded_value,), row.output)))
             elif row.op not in operations:
                 raise KernelError(
                     f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which {language} does "
                     "not have; write the expression with operations listed in docs/extending"
                 )
             elif k in divisors:
-                shared = self._add(Node(ca.OP_INV, args[-1:]))
-                work[row.output] = shared if row.op == ca.OP_INV else self._add(Node(ca.OP_MUL, (args[0], shared)))
+                shared = self._add_node(GraphNode(ca.OP_INV, args[-1:]))
+                work[row.output] = shared if row.op == ca.OP_INV else self._add_node(GraphNode(ca.OP_MUL, (args[0], shared)))
             elif row.op == ca.OP_ADD:
-                work[row.output] = self._add(self._choice(*args) or Node(ca.OP_ADD, args))
+                work[row.output] = self._add_node(self._merge_choice(*args) or GraphNode(ca.OP_ADD, args))
             else:
-                work[row.output] = self._add(Node(row.op, args))
+                work[row.output] = self._add_node(GraphNode(row.op, args))
         reached, stack = set(outputs), list(outputs)
         while stack:
             for a in self.nodes[stack.pop()].args:
@@ -82,20 +82,20 @@ class Graph:
                     stack.append(a)
         self.needed = sorted(reached)
 
-    def _add(self, node: Node) -> int:
+    def _add_node(self, node: GraphNode) -> int:
         if node not in self._known:
             self._known[node] = len(self.nodes)
             self.nodes.append(node)
         return self._known[node]
 
-    def _choice(self, x: int, y: int) -> Node | None:
+    def _merge_choice(self, x: int, y: int) -> GraphNode | None:
         """CasADi writes ``c ? a : b`` as ``(c ? a : 0) + (!c ? b : 0)``; one choice instead of four operations."""
-        one, other = self.nodes[x], self.nodes[y]
-        if one.op != ca.OP_IF_ELSE_ZERO or other.op != ca.OP_IF_ELSE_ZERO:
+        first, second = self.nodes[x], self.nodes[y]
+        if first.op != ca.OP_IF_ELSE_ZERO or second.op != ca.OP_IF_ELSE_ZERO:
             return None
-        (c, a), (d, b) = one.args, other.args
-        if self.nodes[d] == Node(ca.OP_NOT, (c,)):
-            return Node(SELECT, (c, a, b))
-        if self.nodes[c] == Node(ca.OP_NOT, (d,)):
-            return Node(SELECT, (d, b, a))
+        (c, a), (d, b) = first.args, second.args
+        if self.nodes[d] == GraphNode(ca.OP_NOT, (c,)):
+            return GraphNode(OP_SELECT, (c, a, b))
+        if self.nodes[c] == GraphNode(ca.OP_NOT, (d,)):
+            return GraphNode(OP_SELECT, (d, b, a))
         return None

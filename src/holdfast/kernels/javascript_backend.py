@@ -1,4 +1,4 @@
-"""Program -> JavaScript: the computation of a kernel in a browser.
+"""Translate a program to JavaScript for a browser.
 
 V8 does not optimise a function of more than 60 kB of its own code, so a long program becomes several functions, which hand on
 through an array what more than one of them needs. Measured with Node 20 on one core of a shared machine, ten sub-steps of the
@@ -19,19 +19,21 @@ from string import ascii_letters
 
 import casadi as ca
 
-from holdfast.kernels.graph import CONST, INPUT, OUTPUT, SELECT, Graph
+from holdfast.kernels.graph import OP_CONST, OP_INPUT, OP_OUTPUT, OP_SELECT, ValueGraph
 from holdfast.kernels.program import Program
 
-_PIECE = 1000  # operations in one function, about
-_TREE = 60  # operations in one expression, at most: engines read expressions recursively
+_OPERATIONS_PER_FUNCTION = 1000  # operations in one function, about
+_OPERATIONS_PER_EXPRESSION = 60  # operations in one expression, at most: engines read expressions recursively
 
 # Strength of binding, from loose to tight; -x has that of a sum, so that it is never written next to another sign.
-_CHOICE, _OR, _AND, _EQUAL, _LESS, _SUM, _PRODUCT, _UNARY, _ATOM = range(1, 10)
+_BINDS_CHOICE, _BINDS_OR, _BINDS_AND, _BINDS_EQUAL, _BINDS_LESS, _BINDS_SUM, _BINDS_PRODUCT, _BINDS_UNARY, _BINDS_ATOM = range(
+    1, 10
+)
 
 
 @dataclass(frozen=True)
-class _Form:
-    """How an operation is written.
+class _OperationForm:
+    """JavaScript form of an operation.
 
     Attributes:
         text: With ``{0}``, ``{1}``, ... for its arguments.
@@ -50,55 +52,55 @@ class _Form:
     helper: str = ""
 
 
-def _call(name: str, count: int = 1, helper: str = "") -> _Form:
+def _function_form(name: str, count: int = 1, helper: str = "") -> _OperationForm:
     places = ",".join(f"{{{k}}}" for k in range(count))
-    return _Form(f"{name}({places})", _ATOM, (_CHOICE,) * count, helper=helper)
+    return _OperationForm(f"{name}({places})", _BINDS_ATOM, (_BINDS_CHOICE,) * count, helper=helper)
 
 
-_FORMS = {
-    ca.OP_ADD: _Form("{0}+{1}", _SUM, (_SUM, _PRODUCT)),
-    ca.OP_SUB: _Form("{0}-{1}", _SUM, (_SUM, _PRODUCT)),
-    ca.OP_MUL: _Form("{0}*{1}", _PRODUCT, (_PRODUCT, _UNARY)),
-    ca.OP_DIV: _Form("{0}/{1}", _PRODUCT, (_PRODUCT, _UNARY)),
-    ca.OP_NEG: _Form("-{0}", _SUM, (_UNARY,)),
-    ca.OP_SQ: _Form("{0}*{0}", _PRODUCT, (_UNARY,)),
-    ca.OP_TWICE: _Form("2*{0}", _PRODUCT, (_UNARY,)),
-    ca.OP_INV: _Form("1/{0}", _PRODUCT, (_UNARY,)),
+_JAVASCRIPT_FORMS = {
+    ca.OP_ADD: _OperationForm("{0}+{1}", _BINDS_SUM, (_BINDS_SUM, _BINDS_PRODUCT)),
+    ca.OP_SUB: _OperationForm("{0}-{1}", _BINDS_SUM, (_BINDS_SUM, _BINDS_PRODUCT)),
+    ca.OP_MUL: _OperationForm("{0}*{1}", _BINDS_PRODUCT, (_BINDS_PRODUCT, _BINDS_UNARY)),
+    ca.OP_DIV: _OperationForm("{0}/{1}", _BINDS_PRODUCT, (_BINDS_PRODUCT, _BINDS_UNARY)),
+    ca.OP_NEG: _OperationForm("-{0}", _BINDS_SUM, (_BINDS_UNARY,)),
+    ca.OP_SQ: _OperationForm("{0}*{0}", _BINDS_PRODUCT, (_BINDS_UNARY,)),
+    ca.OP_TWICE: _OperationForm("2*{0}", _BINDS_PRODUCT, (_BINDS_UNARY,)),
+    ca.OP_INV: _OperationForm("1/{0}", _BINDS_PRODUCT, (_BINDS_UNARY,)),
     # As compiled code has them: a comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
-    ca.OP_LT: _Form("{0}<{1}", _LESS, (_SUM, _SUM), truth=True),
-    ca.OP_LE: _Form("{0}<={1}", _LESS, (_SUM, _SUM), truth=True),
-    ca.OP_EQ: _Form("{0}==={1}", _EQUAL, (_LESS, _LESS), truth=True),
-    ca.OP_NE: _Form("{0}<{1}||{0}>{1}", _OR, (_SUM, _SUM), truth=True),
-    ca.OP_NOT: _Form("!{0}", _UNARY, (_UNARY,), (True,), truth=True),
-    ca.OP_AND: _Form("{0}&&{1}", _AND, (_AND, _EQUAL), (True, True), truth=True),
-    ca.OP_OR: _Form("{0}||{1}", _OR, (_OR, _AND), (True, True), truth=True),
-    ca.OP_IF_ELSE_ZERO: _Form("{0}?{1}:0", _CHOICE, (_OR, _CHOICE), (True, False)),
-    SELECT: _Form("{0}?{1}:{2}", _CHOICE, (_OR, _CHOICE, _CHOICE), (True, False, False)),
-    ca.OP_SIGN: _Form("{0}>0?1:{0}<0?-1:0", _CHOICE, (_SUM,)),
-    ca.OP_FMIN: _Form("{0}<={1}?{0}:{1}", _CHOICE, (_SUM, _SUM)),
-    ca.OP_FMAX: _Form("{0}>={1}?{0}:{1}", _CHOICE, (_SUM, _SUM)),
-    ca.OP_HYPOT: _Form("Math.sqrt({0}*{0}+{1}*{1})", _ATOM, (_UNARY, _UNARY)),
-    ca.OP_FABS: _call("Math.abs"),
-    ca.OP_SQRT: _call("Math.sqrt"),
-    ca.OP_EXP: _call("Math.exp"),
-    ca.OP_LOG: _call("Math.log"),
-    ca.OP_ASIN: _call("Math.asin"),
-    ca.OP_ACOS: _call("Math.acos"),
-    ca.OP_ATAN: _call("Math.atan"),
-    ca.OP_ATAN2: _call("Math.atan2", 2),
-    ca.OP_SINH: _call("Math.sinh"),
-    ca.OP_COSH: _call("Math.cosh"),
-    ca.OP_TANH: _call("Math.tanh"),
-    ca.OP_LOG1P: _call("Math.log1p"),
-    ca.OP_EXPM1: _call("Math.expm1"),
-    ca.OP_SIN: _call("sine", helper="sine"),
-    ca.OP_COS: _call("cosine", helper="cosine"),
-    ca.OP_TAN: _call("tangent", helper="tangent"),
-    ca.OP_POW: _call("power", 2, "power"),
-    ca.OP_CONSTPOW: _call("power", 2, "power"),
+    ca.OP_LT: _OperationForm("{0}<{1}", _BINDS_LESS, (_BINDS_SUM, _BINDS_SUM), truth=True),
+    ca.OP_LE: _OperationForm("{0}<={1}", _BINDS_LESS, (_BINDS_SUM, _BINDS_SUM), truth=True),
+    ca.OP_EQ: _OperationForm("{0}==={1}", _BINDS_EQUAL, (_BINDS_LESS, _BINDS_LESS), truth=True),
+    ca.OP_NE: _OperationForm("{0}<{1}||{0}>{1}", _BINDS_OR, (_BINDS_SUM, _BINDS_SUM), truth=True),
+    ca.OP_NOT: _OperationForm("!{0}", _BINDS_UNARY, (_BINDS_UNARY,), (True,), truth=True),
+    ca.OP_AND: _OperationForm("{0}&&{1}", _BINDS_AND, (_BINDS_AND, _BINDS_EQUAL), (True, True), truth=True),
+    ca.OP_OR: _OperationForm("{0}||{1}", _BINDS_OR, (_BINDS_OR, _BINDS_AND), (True, True), truth=True),
+    ca.OP_IF_ELSE_ZERO: _OperationForm("{0}?{1}:0", _BINDS_CHOICE, (_BINDS_OR, _BINDS_CHOICE), (True, False)),
+    OP_SELECT: _OperationForm("{0}?{1}:{2}", _BINDS_CHOICE, (_BINDS_OR, _BINDS_CHOICE, _BINDS_CHOICE), (True, False, False)),
+    ca.OP_SIGN: _OperationForm("{0}>0?1:{0}<0?-1:0", _BINDS_CHOICE, (_BINDS_SUM,)),
+    ca.OP_FMIN: _OperationForm("{0}<={1}?{0}:{1}", _BINDS_CHOICE, (_BINDS_SUM, _BINDS_SUM)),
+    ca.OP_FMAX: _OperationForm("{0}>={1}?{0}:{1}", _BINDS_CHOICE, (_BINDS_SUM, _BINDS_SUM)),
+    ca.OP_HYPOT: _OperationForm("Math.sqrt({0}*{0}+{1}*{1})", _BINDS_ATOM, (_BINDS_UNARY, _BINDS_UNARY)),
+    ca.OP_FABS: _function_form("Math.abs"),
+    ca.OP_SQRT: _function_form("Math.sqrt"),
+    ca.OP_EXP: _function_form("Math.exp"),
+    ca.OP_LOG: _function_form("Math.log"),
+    ca.OP_ASIN: _function_form("Math.asin"),
+    ca.OP_ACOS: _function_form("Math.acos"),
+    ca.OP_ATAN: _function_form("Math.atan"),
+    ca.OP_ATAN2: _function_form("Math.atan2", 2),
+    ca.OP_SINH: _function_form("Math.sinh"),
+    ca.OP_COSH: _function_form("Math.cosh"),
+    ca.OP_TANH: _function_form("Math.tanh"),
+    ca.OP_LOG1P: _function_form("Math.log1p"),
+    ca.OP_EXPM1: _function_form("Math.expm1"),
+    ca.OP_SIN: _function_form("sine", helper="sine"),
+    ca.OP_COS: _function_form("cosine", helper="cosine"),
+    ca.OP_TAN: _function_form("tangent", helper="tangent"),
+    ca.OP_POW: _function_form("power", 2, "power"),
+    ca.OP_CONSTPOW: _function_form("power", 2, "power"),
 }
 
-_HELPERS = {
+_HELPER_FUNCTIONS = {
     # An angle beyond 1e15 means nothing in double precision; see holdfast.kernels.llvm.arithmetic.
     "sine": "const sine=a=>a*a<1e30?Math.sin(a):NaN;",
     "cosine": "const cosine=a=>a*a<1e30?Math.cos(a):NaN;",
@@ -108,8 +110,8 @@ _HELPERS = {
 }
 
 
-def javascript(program: Program, name: str) -> str:
-    """JavaScript that computes a program: ``const NAME = (x, y) => ...``, strict, without allocation, needing nothing.
+def write_javascript(program: Program, name: str) -> str:
+    """Write a program in JavaScript: ``const NAME = (x, y) => ...``, strict, without allocation or dependencies.
 
     ``x`` and ``y`` are two ``Float64Array``: the inputs are read from the first, the outputs written to the second, both
     in the order of the program. What comes out is what a :class:`holdfast.kernels.Kernel` gives, to rounding: NaN or
@@ -122,14 +124,14 @@ def javascript(program: Program, name: str) -> str:
     Raises:
         KernelError: An operation that has no row in the table; the message names it.
     """
-    graph = _Graph(program)
-    pieces, spilled = _pieces(graph)
-    helpers = sorted({f.helper for f in map(graph.form, graph.needed) if f} - {""})
+    graph = _NamedGraph(program)
+    pieces, spilled = _write_functions(graph)
+    helpers = sorted({f.helper for f in map(graph.form_of, graph.needed) if f} - {""})
     calls = "".join(f"p{i}(x,y,w);" for i in range(len(pieces)))
     lines = [
         f"const {name}=(()=>{{",
         '"use strict";',
-        *(_HELPERS[h] for h in helpers),
+        *(_HELPER_FUNCTIONS[h] for h in helpers),
         f"const w=new Float64Array({spilled});",
         *(f"function p{i}(x,y,w){{\n{text}}}" for i, text in enumerate(pieces)),
         f"return (x,y)=>{{{calls}}};",
@@ -138,8 +140,8 @@ def javascript(program: Program, name: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-class _Graph(Graph):
-    """The values of a program, and which of them get a name: those that are written more than once.
+class _NamedGraph(ValueGraph):
+    """Values of a program and the names of those that are used more than once.
 
     Attributes:
         named: Their numbers.
@@ -147,40 +149,42 @@ class _Graph(Graph):
     """
 
     def __init__(self, program: Program) -> None:
-        super().__init__(program, "JavaScript", _FORMS.keys(), guarded=True)
+        super().__init__(program, "JavaScript", _JAVASCRIPT_FORMS.keys(), guarded=True)
         uses: Counter[int] = Counter()
         size: dict[int, int] = {}
         self.named: set[int] = set()
         for k in self.needed:
-            node, form = self.nodes[k], self.form(k)
+            node, form = self.nodes[k], self.form_of(k)
             for place, a in enumerate(node.args):
                 uses[a] += form.text.count(f"{{{place}}}") if form else 1
         for k in self.needed:
             inner = [a for a in self.nodes[k].args if a not in self.named]
-            size[k] = int(self.nodes[k].op not in (INPUT, CONST)) + sum(size[a] for a in inner)
-            if size[k] and (uses[k] > 1 or size[k] > _TREE):
+            size[k] = int(self.nodes[k].op not in (OP_INPUT, OP_CONST)) + sum(size[a] for a in inner)
+            if size[k] and (uses[k] > 1 or size[k] > _OPERATIONS_PER_EXPRESSION):
                 self.named.add(k)
         self.size = size
 
-    def form(self, k: int) -> _Form | None:
-        """How a value is written; None for an input, an output or a constant."""
-        return _FORMS.get(self.nodes[k].op)
+    def form_of(self, k: int) -> _OperationForm | None:
+        """Return the form of a value; None for an input, an output, or a constant."""
+        return _JAVASCRIPT_FORMS.get(self.nodes[k].op)
 
-    def leaves(self, k: int) -> Iterator[int]:
-        """Named values that the expression of a value is written with."""
+    def named_operands(self, k: int) -> Iterator[int]:
+        """Yield the named values in the expression of a value."""
         for a in self.nodes[k].args:
             if a in self.named:
                 yield a
             else:
-                yield from self.leaves(a)
+                yield from self.named_operands(a)
 
-    def truth(self, k: int) -> bool:
-        """Whether a value is a condition."""
-        form = self.form(k)
+    def is_condition(self, k: int) -> bool:
+        """Return whether a value is a condition."""
+        form = self.form_of(k)
         return form is not None and form.truth
 
-    def text(self, k: int, names: dict[int, str], needs: int = _CHOICE, truth: bool = False, whole: bool = False) -> str:
-        """The expression of a value.
+    def write_expression(
+        self, k: int, names: dict[int, str], needs: int = _BINDS_CHOICE, truth: bool = False, whole: bool = False
+    ) -> str:
+        """Write the expression of a value.
 
         Args:
             k: The value.
@@ -189,79 +193,80 @@ class _Graph(Graph):
             truth: Whether a condition is wanted rather than a number.
             whole: Written out even if it has a name.
         """
-        node, form = self.nodes[k], self.form(k)
+        node, form = self.nodes[k], self.form_of(k)
         if k in names and not whole:
-            text, binds = names[k], _ATOM
+            text, binds = names[k], _BINDS_ATOM
         elif form is None:
-            text, binds = (f"x[{int(node.value)}]", _ATOM) if node.op == INPUT else _number(node.value)
+            text, binds = (f"x[{int(node.value)}]", _BINDS_ATOM) if node.op == OP_INPUT else _write_number(node.value)
         else:
             parts = [
-                self.text(a, names, need, wanted) for a, need, wanted in zip(node.args, form.needs, form.truths, strict=False)
+                self.write_expression(a, names, need, wanted)
+                for a, need, wanted in zip(node.args, form.needs, form.truths, strict=False)
             ]
             text, binds = form.text.format(*parts), form.binds
-        if truth and not self.truth(k):
-            text, binds = (text if binds > _EQUAL else f"({text})") + "!==0", _EQUAL
-        elif self.truth(k) and not truth:
-            text, binds = (text if binds > _CHOICE else f"({text})") + "?1:0", _CHOICE
+        if truth and not self.is_condition(k):
+            text, binds = (text if binds > _BINDS_EQUAL else f"({text})") + "!==0", _BINDS_EQUAL
+        elif self.is_condition(k) and not truth:
+            text, binds = (text if binds > _BINDS_CHOICE else f"({text})") + "?1:0", _BINDS_CHOICE
         return text if binds >= needs else f"({text})"
 
 
-def _pieces(graph: _Graph) -> tuple[list[str], int]:
-    """Bodies of functions, and how many numbers they hand on to each other.
+def _write_functions(graph: _NamedGraph) -> tuple[list[str], int]:
+    """Return the bodies of functions, and how many numbers they pass to each other.
 
     Engines do not optimise a function that is too long.
     """
-    statements = [k for k in graph.needed if k in graph.named or graph.nodes[k].op == OUTPUT]
+    statements = [k for k in graph.needed if k in graph.named or graph.nodes[k].op == OP_OUTPUT]
     total = sum(graph.size[k] for k in statements)
-    pieces = max(1, -(-total // _PIECE))
+    pieces = max(1, -(-total // _OPERATIONS_PER_FUNCTION))
     piece: dict[int, int] = {}
     done = 0
     for k in statements:
         piece[k] = min(done * pieces // total, pieces - 1)
         done += graph.size[k]
-    last: dict[int, int] = {}  # named value -> last piece that reads it
+    last_use: dict[int, int] = {}  # named value -> last piece that reads it
     for k in statements:
-        for a in graph.leaves(k):
-            last[a] = piece[k]
+        for a in graph.named_operands(k):
+            last_use[a] = piece[k]
     slot: dict[int, int] = {}
     free: list[int] = []
     spilled = 0
     bodies: list[str] = []
     for number in range(pieces):
         names: dict[int, str] = {}
-        fresh = _names()
+        new_names = _short_names()
         lines: list[str] = []
         tail: list[str] = []
         for k in (s for s in statements if piece[s] == number):
-            for a in graph.leaves(k):
+            for a in graph.named_operands(k):
                 if a not in names:
-                    names[a] = next(fresh)
+                    names[a] = next(new_names)
                     stored = f"w[{slot[a]}]"
-                    lines.append(f"{names[a]}={stored}" + ("!==0" if graph.truth(a) else ""))
-            if graph.nodes[k].op == OUTPUT:
-                tail.append(f"y[{int(graph.nodes[k].value)}]={graph.text(graph.nodes[k].args[0], names)};")
+                    lines.append(f"{names[a]}={stored}" + ("!==0" if graph.is_condition(a) else ""))
+            if graph.nodes[k].op == OP_OUTPUT:
+                tail.append(f"y[{int(graph.nodes[k].value)}]={graph.write_expression(graph.nodes[k].args[0], names)};")
                 continue
-            text = graph.text(k, names, truth=graph.truth(k), whole=True)
-            names[k] = next(fresh)
-            if last[k] > number:
+            text = graph.write_expression(k, names, truth=graph.is_condition(k), whole=True)
+            names[k] = next(new_names)
+            if last_use[k] > number:
                 if free:
                     slot[k] = heappop(free)
                 else:
                     slot[k], spilled = spilled, spilled + 1
-                if graph.truth(k):
+                if graph.is_condition(k):
                     tail.append(f"w[{slot[k]}]={names[k]}?1:0;")
                 else:
                     text = f"w[{slot[k]}]={text}"
             lines.append(f"{names[k]}={text}")
         bodies.append(("const " + ",\n".join(lines) + ";\n" if lines else "") + "\n".join(tail) + "\n")
         for k in slot:
-            if last[k] == number:
+            if last_use[k] == number:
                 heappush(free, slot[k])
     return bodies, spilled
 
 
-def _names() -> Iterator[str]:
-    """Short names other than words of the language and w, x, y."""
+def _short_names() -> Iterator[str]:
+    """Yield short names that are not words of the language or w, x, y."""
     letters = [c for c in ascii_letters if c not in "wxy"]
     yield from letters
     for number in count():
@@ -269,10 +274,10 @@ def _names() -> Iterator[str]:
             yield f"{letter}{number}"
 
 
-def _number(value: float) -> tuple[str, int]:
-    """A constant that reads back as the same double, and how it binds."""
+def _write_number(value: float) -> tuple[str, int]:
+    """Write a constant that reads back as the same double, and return how it binds."""
     if math.isnan(value):
-        return "NaN", _ATOM
+        return "NaN", _BINDS_ATOM
     size = abs(value)
     text = "Infinity" if math.isinf(size) else str(int(size)) if size.is_integer() and size < 1e15 else repr(size)
-    return (f"-{text}", _SUM) if math.copysign(1, value) < 0 else (text, _ATOM)
+    return (f"-{text}", _BINDS_SUM) if math.copysign(1, value) < 0 else (text, _BINDS_ATOM)

@@ -1,4 +1,4 @@
-"""The batched function: rows in, rows out, whatever the backend."""
+"""Batched function: rows in, rows out, on any backend."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.errors import InputError, KernelError
 from holdfast.grammar import is_count
 from holdfast.kernels import casadi_backend
-from holdfast.kernels.compiled import Compiled
+from holdfast.kernels.compiled import CompiledProgram
 from holdfast.kernels.program import SX, Program
-from holdfast.kernels.threads import in_pool, pool, thread_count
+from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 
 Array = NDArray[np.float64]
 
 _SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
-BACKENDS = ("llvm", "casadi", "cuda")
+BACKEND_NAMES = ("llvm", "casadi", "cuda")
 _chosen: str | None = None
 
 
 def default_backend() -> str:
-    """That of :func:`set_backend`, else ``HOLDFAST_BACKEND`` if set, else ``llvm``."""
-    return _checked(_chosen or os.environ.get("HOLDFAST_BACKEND") or "llvm")
+    """Return the backend of :func:`set_backend`, else of ``HOLDFAST_BACKEND``, else ``llvm``."""
+    return _check_backend(_chosen or os.environ.get("HOLDFAST_BACKEND") or "llvm")
 
 
 def set_backend(name: str | None) -> None:
@@ -44,21 +44,21 @@ def set_backend(name: str | None) -> None:
         KernelError: It is not known, or there is no such GPU.
     """
     global _chosen
-    if name is not None and _checked(name).startswith("cuda"):
-        from holdfast.kernels.gpu.driver import device
+    if name is not None and _check_backend(name).startswith("cuda"):
+        from holdfast.kernels.gpu.driver import get_device
 
-        device(_ordinal(name))
+        get_device(_device_number(name))
     _chosen = name
 
 
-def _checked(name: str) -> str:
-    kind, colon, number = name.partition(":")
-    if kind not in BACKENDS or (colon and (kind != "cuda" or not is_count(number))):
-        raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}, cuda:1 for the second GPU")
+def _check_backend(name: str) -> str:
+    kind, has_number, number = name.partition(":")
+    if kind not in BACKEND_NAMES or (has_number and (kind != "cuda" or not is_count(number))):
+        raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKEND_NAMES)}, cuda:1 for the second GPU")
     return name
 
 
-def _ordinal(name: str) -> int:
+def _device_number(name: str) -> int:
     return int(name.partition(":")[2] or 0)
 
 
@@ -87,51 +87,51 @@ class Kernel:
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], *, backend: str | None = None) -> None:
-        self._take(Program(name, inputs, outputs), backend or default_backend())
+        self._set_program(Program(name, inputs, outputs), backend or default_backend())
         self._fixed = backend is not None
 
     @classmethod
-    def of(cls, program: Program) -> Kernel:
-        """The kernel of a program, on the default backend."""
+    def from_program(cls, program: Program) -> Kernel:
+        """Return the kernel of a program on the default backend."""
         kernel = cls.__new__(cls)
-        kernel._take(program, default_backend())
+        kernel._set_program(program, default_backend())
         return kernel
 
-    def _take(self, program: Program, backend: str) -> None:
-        self.program, self.name, self.backend = program, program.name, _checked(backend)
-        self._compiled = Compiled(program) if backend == "llvm" else None
+    def _set_program(self, program: Program, backend: str) -> None:
+        self.program, self.name, self.backend = program, program.name, _check_backend(backend)
+        self._compiled = CompiledProgram(program) if backend == "llvm" else None
         self._on_device = None
         if backend.startswith("cuda"):
-            from holdfast.kernels.gpu.launch import OnDevice
+            from holdfast.kernels.gpu.launch import DeviceProgram
 
-            self._on_device = OnDevice(program, _ordinal(backend))
+            self._on_device = DeviceProgram(program, _device_number(backend))
         self.lanes = 1 if self._compiled is None else self._compiled.lanes
         rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
         self._chunk = max(self.lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
         self._scratch = threading.local()
         self._elsewhere: dict[str, Kernel] = {}
-        self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
-        self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
+        self._in_dims = [_squeeze_shape(s) for s in self.program.input_shapes]
+        self._out_dims = [_squeeze_shape(s) for s in self.program.output_shapes]
 
     _fixed = False  # whether its backend was named when it was made
 
-    def now(self) -> Kernel:
-        """Itself, or the same on the GPU that :func:`set_backend` has named since it was made."""
-        moves = _chosen is not None and _chosen != self.backend and not self._fixed and _chosen.startswith("cuda")
-        return self.on(str(_chosen)) if moves else self
+    def current(self) -> Kernel:
+        """Return the kernel, or the same one on the GPU that :func:`set_backend` has named since it was made."""
+        must_move = _chosen is not None and _chosen != self.backend and not self._fixed and _chosen.startswith("cuda")
+        return self.on_backend(str(_chosen)) if must_move else self
 
-    def on(self, backend: str) -> Kernel:
-        """The same kernel on another backend, made once."""
-        made = self._elsewhere.get(backend)
-        if made is None:
-            made = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
-            made._take(self.program, backend)
-            made._fixed = True
-        return made
+    def on_backend(self, backend: str) -> Kernel:
+        """Return the same kernel on another backend, made once."""
+        moved = self._elsewhere.get(backend)
+        if moved is None:
+            moved = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
+            moved._set_program(self.program, backend)
+            moved._fixed = True
+        return moved
 
     @property
-    def made_of(self) -> str | None:
-        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
+    def source_digest(self) -> str | None:
+        """Digest of the sources of the kernel, where known; see :func:`holdfast.kernels.cached_kernel`."""
         return self.program.recipe
 
     def __call__(self, *inputs: ArrayLike) -> Any:
@@ -143,54 +143,56 @@ class Kernel:
         Raises:
             InputError: Wrong number of inputs, a wrong shape, or batches of different lengths.
         """
-        arrays, rows = self._read(inputs)
+        arrays, rows = self._check_inputs(inputs)
         single = rows is None
-        out, _ = self._evaluate(arrays, rows)
-        count = len(out)
-        results, at = [], 0
+        outputs, _ = self._evaluate(arrays, rows)
+        count = len(outputs)
+        results, offset = [], 0
         for dims, shape in zip(self._out_dims, self.program.output_shapes, strict=True):
             size = shape[0] * shape[1]
-            block = out if len(self._out_dims) == 1 else np.ascontiguousarray(out[:, at : at + size])
+            block = outputs if len(self._out_dims) == 1 else np.ascontiguousarray(outputs[:, offset : offset + size])
             results.append(block.reshape(dims if single else (count, *dims)))
-            at += size
+            offset += size
         if single:
             results = [r[()] if r.ndim == 0 else r for r in results]
         return results[0] if len(results) == 1 else tuple(results)
 
     def rows(self, *inputs: ArrayLike, first: int | None = None) -> Array:
-        """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row.
+        """Evaluate and return (N, n_out): all outputs of a row one after the other, matrices row by row.
 
         Of small programs half the time is spent on writing the results down; ``first`` gives only so many of them, (N, first).
         """
-        return self._evaluate(*self._read(inputs), first)[0]
+        return self._evaluate(*self._check_inputs(inputs), first)[0]
 
     def marked_rows(self, *inputs: ArrayLike) -> tuple[Array, bool]:
-        """As :meth:`rows`, and whether any row has NaN in its first output: looked up while the chunk is in the cache."""
-        return self._evaluate(*self._read(inputs))
+        """Evaluate as :meth:`rows` does, and return whether any row has NaN in its first output, checked while the chunk is in
+        the cache.
+        """
+        return self._evaluate(*self._check_inputs(inputs))
 
     def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
-        count, on_device = 1 if rows is None else rows, self.now()._on_device
+        count, on_device = 1 if rows is None else rows, self.current()._on_device
         if on_device is not None:
-            out = on_device.rows(arrays, count, self.program.n_out if first is None else first)
-            return out, bool(np.isnan(out[:, 0]).any())
-        out = np.empty((count, self.program.n_out if first is None else first))
+            outputs = on_device.evaluate_rows(arrays, count, self.program.n_out if first is None else first)
+            return outputs, bool(np.isnan(outputs[:, 0]).any())
+        outputs = np.empty((count, self.program.n_out if first is None else first))
         if 0 < count <= self._chunk:
-            return out, self._run(arrays, out, 0, count, object())
+            return outputs, self._run_chunk(arrays, outputs, 0, count, object())
         marks: list[bool] = []
         call = object()
         starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
 
-        def work(_: int) -> None:
+        def evaluate_chunks(_: int) -> None:
             for start in starts:
-                marks.append(self._run(arrays, out, start, min(start + self._chunk, count), call))
+                marks.append(self._run_chunk(arrays, outputs, start, min(start + self._chunk, count), call))
 
         if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
-            work(0)
+            evaluate_chunks(0)
         else:
-            list(pool().map(work, range(thread_count())))
-        return out, any(marks)
+            list(shared_pool().map(evaluate_chunks, range(thread_count())))
+        return outputs, any(marks)
 
-    def _read(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
+    def _check_inputs(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
         arrays: list[Array] = []
@@ -202,8 +204,8 @@ class Kernel:
                 continue
             column = dims == () and a.ndim == 2 and a.shape[1] == 1  # a vector of one element, batch of them
             if not column and (a.ndim != len(dims) + 1 or a.shape[1:] != dims):
-                want = "(" + ", ".join(["N", *map(str, dims)]) + ")"
-                raise InputError(f"kernel '{self.name}': input {k} has shape {a.shape}; it must be {want} or {dims}")
+                expected_shape = "(" + ", ".join(["N", *map(str, dims)]) + ")"
+                raise InputError(f"kernel '{self.name}': input {k} has shape {a.shape}; it must be {expected_shape} or {dims}")
             if rows is not None and rows != a.shape[0]:
                 raise InputError(f"kernel '{self.name}': input {k} has {a.shape[0]} rows, another has {rows}")
             rows = a.shape[0]
@@ -220,29 +222,31 @@ class Kernel:
         Raises:
             KernelError: Arrays of another shape, type or layout.
         """
-        self.bound(inputs, outputs)()
+        self.bind_arrays(inputs, outputs)()
 
-    def bound(self, inputs: Array, outputs: Array, used: int | None = None) -> Callable[[], None]:
-        """:meth:`evaluate_columns` of these arrays, to be called again and again: their contents may change.
+    def bind_arrays(self, inputs: Array, outputs: Array, used_width: int | None = None) -> Callable[[], None]:
+        """Return a function that evaluates :meth:`evaluate_columns` of these arrays repeatedly; their contents may change.
 
         Args:
             inputs: (n_in, W).
             outputs: (n_out, W).
-            used: A multiple of ``lanes``: only so many of the columns, the first ones.
+            used_width: A multiple of ``lanes``: only so many of the columns, the first ones.
         """
         if self.backend == "casadi":
-            return lambda: casadi_backend.call(self.program.function, inputs[:, :used], outputs[:, :used])
+            return lambda: casadi_backend.evaluate_columns(
+                self.program.function, inputs[:, :used_width], outputs[:, :used_width]
+            )
         for a, rows in ((inputs, self.program.n_in), (outputs, self.program.n_out)):
             if a.dtype.char != "d" or not a.flags.c_contiguous or a.shape != (rows, inputs.shape[1]) or a.shape[1] % self.lanes:
                 raise KernelError(
                     f"kernel '{self.name}': columns have shape {a.shape} and type {a.dtype}; they must be contiguous doubles "
                     f"of shape ({rows}, W), W a multiple of {self.lanes}"
                 )
-        on_device = self.now()._on_device
+        on_device = self.current()._on_device
         if on_device is not None:
-            return lambda: on_device.columns(inputs[:, :used], outputs[:, :used])
+            return lambda: on_device.evaluate_columns(inputs[:, :used_width], outputs[:, :used_width])
         assert self._compiled is not None
-        return self._compiled.bound(inputs, outputs, used)
+        return self._compiled.bind_arrays(inputs, outputs, used_width)
 
     def exchange(self, *inputs: Any, stream: int = 1) -> Any:
         """Evaluate on the GPU what is there, without a copy: inputs and results are shared by DLPack.
@@ -258,64 +262,64 @@ class Kernel:
             KernelError: The kernel is not on a GPU.
             InputError: An input that is not such an array, or of a wrong shape.
         """
-        on_device = self._gpu()
+        on_device = self._require_gpu()
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
         return on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
 
     def upload(self, array: ArrayLike, stream: int = 1) -> Any:
-        """A copy of an array of the host on the kernel's GPU, for :meth:`exchange`.
+        """Copy an array from the host to the kernel's GPU, for :meth:`exchange`.
 
         Raises:
             KernelError: The kernel is not on a GPU.
         """
         from holdfast.kernels.gpu.arrays import DeviceArray
 
-        return DeviceArray.of(np.asarray(array, dtype=np.float64), self._gpu().device, stream or 1)
+        return DeviceArray.upload(np.asarray(array, dtype=np.float64), self._require_gpu().device, stream or 1)
 
-    def _gpu(self) -> Any:
-        on_device = self.now()._on_device
+    def _require_gpu(self) -> Any:
+        on_device = self.current()._on_device
         if on_device is None:
             raise KernelError(f"kernel '{self.name}' is on the processor; make it with backend='cuda' for arrays on a GPU")
         return on_device
 
-    def single(self) -> Single:
-        """The kernel for one row at a time, as quick as it can be: for loops that control."""
-        return Single(self)
+    def single_row(self) -> SingleRowKernel:
+        """Return the kernel for one row at a time, as fast as possible, for control loops."""
+        return SingleRowKernel(self)
 
-    def _buffers(self, width: int) -> _Buffers:
-        """Those of this thread."""
-        made: dict[int, _Buffers] | None = getattr(self._scratch, "made", None)
-        if made is None:
-            made = self._scratch.made = {}
-        if width not in made:
+    def _thread_buffers(self, width: int) -> _Buffers:
+        """Return the buffers of this thread."""
+        buffers: dict[int, _Buffers] | None = getattr(self._scratch, "made", None)
+        if buffers is None:
+            buffers = self._scratch.made = {}
+        if width not in buffers:
             # Columns a power of two apart would fall on the same places of the cache.
             apart = width if width == self.lanes else width + self.lanes
             inputs, outputs = np.empty((self.program.n_in, apart)), np.empty((self.program.n_out, apart))
-            made[width] = _Buffers(inputs[:, :width], outputs[:, :width], self.bound(inputs, outputs, width))
-        return made[width]
+            buffers[width] = _Buffers(inputs[:, :width], outputs[:, :width], self.bind_arrays(inputs, outputs, width))
+        return buffers[width]
 
-    def _run(self, arrays: list[Array], out: Array, start: int, stop: int, call: object) -> bool:
-        used = stop - start
+    def _run_chunk(self, arrays: list[Array], out: Array, start: int, stop: int, call: object) -> bool:
+        used_rows = stop - start
         # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
         width = self.lanes
-        while width < used:
+        while width < used_rows:
             width *= 2
-        scratch = self._buffers(width)
+        scratch = self._thread_buffers(width)
         row = 0
         for a in arrays:
             rows = slice(row, row + a.shape[1])
             if a.shape[0] > 1:
-                scratch.inputs[rows, :used] = a[start:stop].T
+                scratch.inputs[rows, :used_rows] = a[start:stop].T
             elif scratch.call is not call:
                 scratch.inputs[rows] = a.T
             row += a.shape[1]
         scratch.call = call
-        if used < width:
-            scratch.inputs[:, used:] = scratch.inputs[:, used - 1 : used]
+        if used_rows < width:
+            scratch.inputs[:, used_rows:] = scratch.inputs[:, used_rows - 1 : used_rows]
         scratch.compute()
-        out[start:stop] = scratch.outputs[: out.shape[1], :used].T
-        return math.isnan(scratch.outputs[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
+        out[start:stop] = scratch.outputs[: out.shape[1], :used_rows].T
+        return math.isnan(scratch.outputs[0, :used_rows].min())  # NaN if any is: one pass, and one handing over of Python
 
     def __repr__(self) -> str:
         p = self.program
@@ -324,7 +328,7 @@ class Kernel:
 
 @dataclass
 class _Buffers:
-    """Columns of inputs and of outputs, what computes these from those, and the call whose numbers for every row are there."""
+    """Columns of inputs and outputs, the function between them, and the call whose constant inputs they hold."""
 
     inputs: Array
     outputs: Array
@@ -332,8 +336,8 @@ class _Buffers:
     call: object = None
 
 
-class Single:
-    """A kernel for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the bits of ``Kernel.rows``.
+class SingleRowKernel:
+    """Kernel for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the bits of ``Kernel.rows``.
 
     Without any checks, and not for several threads at once. Everything is compiled when it is made.
 
@@ -344,16 +348,16 @@ class Single:
     def __init__(self, kernel: Kernel) -> None:
         program, compiled = kernel.program, kernel._compiled
         if kernel._on_device is not None:
-            compiled = Compiled(program)  # a single row is no work for a GPU; the processor has the same bits for it
+            compiled = CompiledProgram(program)  # a single row is no work for a GPU; the processor has the same bits for it
         self.inputs, self._outputs = np.zeros(program.n_in), np.zeros(program.n_out)
         self._kernel, self._compiled = kernel, compiled  # the code lives as long as what compiled it
         self._given = (self.inputs.ctypes.data, self._outputs.ctypes.data, 1, 1)
-        self._call = None if compiled is None else compiled.one.call
+        self._call = None if compiled is None else compiled.single_row_code.call
 
     def run(self) -> Array:
         """The results (n_out,) of ``inputs``; a new array."""
         if self._call is None:
-            casadi_backend.call(self._kernel.program.function, self.inputs[:, None], self._outputs[:, None])
+            casadi_backend.evaluate_columns(self._kernel.program.function, self.inputs[:, None], self._outputs[:, None])
         else:
             self._call(*self._given)
         return self._outputs.copy()
@@ -364,7 +368,7 @@ class Single:
         return self.run()
 
 
-def _squeeze(shape: tuple[int, int]) -> tuple[int, ...]:
+def _squeeze_shape(shape: tuple[int, int]) -> tuple[int, ...]:
     rows, columns = shape
     if columns == 1:
         return () if rows == 1 else (rows,)

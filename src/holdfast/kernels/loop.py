@@ -1,4 +1,4 @@
-"""A step kernel repeated until each row is done: the only way holdfast iterates over a batch."""
+"""Step kernel repeated until each row is finished, the only iteration over a batch in holdfast."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from numpy.typing import NDArray
 
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.threads import in_pool, pool, thread_count
-from holdfast.notice import Count, unheard
+from holdfast.kernels.threads import in_pool, shared_pool, thread_count
+from holdfast.notice import ProgressCount, ignore_count
 
 Array = NDArray[np.float64]
 Tell = Callable[[int], None]
 
-_BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
-_MOST, _LEAST = 4096, 256  # rows of that; no result depends on it
-_STRETCH = 1000  # steps after which somebody is told of them
-_NEVER = 1 << 62  # when a row comes that is not there
+_WORKER_BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
+_MAX_WORKER_ROWS, _MIN_WORKER_ROWS = 4096, 256  # rows of that; no result depends on it
+_STEPS_PER_REPORT = 1000  # steps after which somebody is told of them
+_UNREACHED_STEP = 1 << 62  # when a row comes that is not there
 
 
 @dataclass(frozen=True, kw_only=True)
 class LoopResult:
-    """Where the rows ended.
+    """Final states of the rows of a loop.
 
     Attributes:
         state: (N, s) the state at which the residual was last measured.
@@ -42,7 +42,7 @@ class LoopResult:
 
 
 class Loop:
-    """``state -> next state`` with a residual, repeated row by row until the residual is small.
+    """Step ``state -> next state`` with a residual, repeated row by row until the residual is small.
 
     Rows that are done leave the batch and others take their place, and each row's result is the one it had at that moment:
     results do not depend on the other rows, on their order or on threads.
@@ -74,29 +74,31 @@ class Loop:
         ahead: bool = False,
         times: int = 1,
     ) -> None:
-        self._take(Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend=backend), ahead, times)
+        self._set_step(Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend=backend), ahead, times)
 
     @classmethod
-    def of(cls, step: Kernel, ahead: bool, times: int) -> Loop:
-        """The loop of a step kernel that another loop had."""
+    def from_step(cls, step: Kernel, ahead: bool, times: int) -> Loop:
+        """Return the loop of a step kernel that another loop had."""
         loop = cls.__new__(cls)
-        loop._take(step, ahead, times)
+        loop._set_step(step, ahead, times)
         return loop
 
-    def _take(self, step: Kernel, ahead: bool, times: int) -> None:
+    def _set_step(self, step: Kernel, ahead: bool, times: int) -> None:
         self.step, self.ahead, self.times = step, ahead, times
         self.size = step.program.n_out - 1
         program, lanes = step.program, step.lanes
-        fits = min(_MOST, max(_LEAST, _BYTES // (8 * (program.n_in + program.n_out))))
+        rows_in_cache = min(_MAX_WORKER_ROWS, max(_MIN_WORKER_ROWS, _WORKER_BYTES // (8 * (program.n_in + program.n_out))))
         # Columns a power of two apart would fall on the same places of the cache.
-        self._width = (fits // lanes | 1) * lanes
+        self._width = (rows_in_cache // lanes | 1) * lanes
 
     @property
-    def made_of(self) -> str | None:
-        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
-        return self.step.made_of
+    def source_digest(self) -> str | None:
+        """Digest of the sources of the loop, where known; see :func:`holdfast.kernels.cached_kernel`."""
+        return self.step.source_digest
 
-    def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int, *, over: Tell = unheard) -> LoopResult:
+    def run(
+        self, state: Array, parameters: Array, tolerance: float, most_steps: int, *, report: Tell = ignore_count
+    ) -> LoopResult:
         """Iterate.
 
         Args:
@@ -104,49 +106,61 @@ class Loop:
             parameters: (N, p) all parameters of a row one after the other, matrices row by row.
             tolerance: A row is done when its residual is at most this.
             most_steps: Give up after this many steps.
-            over: Is told of how many rows more have come within the tolerance, from any thread.
+            report: Is told of how many rows more have come within the tolerance, from any thread.
         """
         rows = len(state)
-        on_device = self.step.now()._on_device
+        on_device = self.step.current()._on_device
         if on_device is not None:
-            with Count(f"starts of {self.step.name}", rows) as told:
+            with ProgressCount(f"starts of {self.step.name}", rows) as row_counter:
 
-                def ended(all_of: int, within: int) -> None:
-                    told(all_of)
-                    over(within)
+                def report_ended(all_of: int, within: int) -> None:
+                    row_counter(all_of)
+                    report(within)
 
-                found = on_device.iterate(state, parameters, tolerance, most=most_steps, ahead=self.ahead, ended=ended)
-            return LoopResult(state=found[0], residual=found[1], done=found[2], steps=found[3])
-        workers = min(thread_count(), -(-rows // _LEAST))
-        batch = _Batch(state, parameters, tolerance, most_steps)
-        ends, steps = Count(f"starts of {self.step.name}", rows), Count("steps", most_steps * self.times, most=True)
-        with ends as batch.ended, steps as stepped:
-            batch.over = over
-            if rows <= _LEAST:  # they begin together, and all may be on their way to the last step
+                result = on_device.run_loop(
+                    state, parameters, tolerance, max_steps=most_steps, ahead=self.ahead, ended=report_ended
+                )
+            return LoopResult(state=result[0], residual=result[1], done=result[2], steps=result[3])
+        workers = min(thread_count(), -(-rows // _MIN_WORKER_ROWS))
+        batch = _RowQueue(state, parameters, tolerance, most_steps)
+        counters, steps = (
+            ProgressCount(f"starts of {self.step.name}", rows),
+            ProgressCount("steps", most_steps * self.times, most=True),
+        )
+        with counters as batch.ended, steps as stepped:
+            batch.over = report
+            if rows <= _MIN_WORKER_ROWS:  # they begin together, and all may be on their way to the last step
                 batch.stepped = stepped
 
-            def work(_: int) -> None:
-                self._iterate(batch, min(self._width, -(-rows // workers)))
+            def iterate_batch(_: int) -> None:
+                self._iterate_rows(batch, min(self._width, -(-rows // workers)))
 
             if workers <= 1 or in_pool():
                 workers = 1
                 if rows:
-                    work(0)
+                    iterate_batch(0)
             else:
-                list(pool().map(work, range(workers)))
+                list(shared_pool().map(iterate_batch, range(workers)))
         return batch.result
 
-    def _iterate(self, batch: _Batch, most: int) -> None:
-        """Take rows, step them all, put those that are done back and others in their place, until there are none."""
+    def _iterate_rows(self, batch: _RowQueue, max_rows: int) -> None:
+        """Take rows, step them all, return the finished rows and replace them by others until none are left."""
         result, size, ahead, tolerance = batch.result, self.size, self.ahead, batch.tolerance
-        left = batch.take(most)
-        if not left.size:
+        active_rows = batch.take_rows(max_rows)
+        if not active_rows.size:
             return
-        columns, out, step = self._stage(*batch.inputs(left))
-        state, after, residual = columns[:size], out[:size], out[-1, : left.size]  # views are made once, not in each step
-        begun, wanted = np.zeros(left.size, dtype=np.int64), np.full(left.size, tolerance)  # when rows came; NaN: gone
+        columns, outputs, step = self._make_stage(*batch.row_inputs(active_rows))
+        state, after, residual = (
+            columns[:size],
+            outputs[:size],
+            outputs[-1, : active_rows.size],
+        )  # views are made once, not in each step
+        begun, wanted = (
+            np.zeros(active_rows.size, dtype=np.int64),
+            np.full(active_rows.size, tolerance),
+        )  # when rows came; NaN: gone
         # Steps taken where a residual is measured, and of how many was told; when a row gives up, or this is to be told.
-        now, last, told = int(ahead), min(batch.most_steps, _STRETCH), 0
+        now, last, told = int(ahead), min(batch.most_steps, _STEPS_PER_REPORT), 0
         while True:
             step()
             small = residual <= wanted
@@ -156,66 +170,66 @@ class Loop:
                 continue
             over = small if now < last else small | (now - begun >= batch.most_steps)
             done = over.nonzero()[0]
-            rows = left[done]
+            rows = active_rows[done]
             result.state[rows] = (after if ahead else state)[:, done].T
             result.residual[rows] = residual[done]
             result.done[rows] = small[done]
             result.steps[rows] = now - begun[done]
             batch.ended(done.size)
-            if batch.stepped is not unheard:
+            if batch.stepped is not ignore_count:
                 batch.stepped((now - told) * self.times)
-            if batch.over is not unheard:
+            if batch.over is not ignore_count:
                 batch.over(int(np.count_nonzero(small[done])))
             told = now
             state[...] = after
-            fresh = batch.take(done.size)
+            fresh = batch.take_rows(done.size)
             places, gone = done[: fresh.size], done[fresh.size :]
             if fresh.size:
-                columns[:, places] = np.concatenate(batch.inputs(fresh))
-                left[places], begun[places] = fresh, now + (not ahead)
+                columns[:, places] = np.concatenate(batch.row_inputs(fresh))
+                active_rows[places], begun[places] = fresh, now + (not ahead)
             if gone.size:
-                wanted[gone], begun[gone] = np.nan, _NEVER
-                still = (begun < _NEVER).nonzero()[0]
+                wanted[gone], begun[gone] = np.nan, _UNREACHED_STEP
+                still = (begun < _UNREACHED_STEP).nonzero()[0]
                 if not still.size:
                     return
-                if 4 * still.size <= 3 * left.size:
+                if 4 * still.size <= 3 * active_rows.size:
                     # No rows are left to take: a batch that shrinks is cheaper.
-                    columns, out, step = self._stage(columns.take(still, axis=1))
-                    left, begun, wanted = left[still], begun[still], wanted[still]
-                    state, after, residual = columns[:size], out[:size], out[-1, : left.size]
+                    columns, outputs, step = self._make_stage(columns.take(still, axis=1))
+                    active_rows, begun, wanted = active_rows[still], begun[still], wanted[still]
+                    state, after, residual = columns[:size], outputs[:size], outputs[-1, : active_rows.size]
             now += 1
-            last = min(int(begun.min()) + batch.most_steps, told + _STRETCH)
+            last = min(int(begun.min()) + batch.most_steps, told + _STEPS_PER_REPORT)
 
-    def walk(self, state: Array, parameters: Array, steps: int) -> Array:
-        """The states (steps + 1, N, s) of every row on its way, ``state`` first; the residual is not looked at."""
-        way = np.empty((steps + 1, *state.shape))
-        way[0] = state
-        columns, out, step = self._stage(state.T, parameters.T)
-        before, after, rows = columns[: self.size], out[: self.size], out[: self.size, : len(state)].T
+    def trace_states(self, state: Array, parameters: Array, steps: int) -> Array:
+        """Return the states (steps + 1, N, s) of every row, ``state`` first, without checking the residual."""
+        states = np.empty((steps + 1, *state.shape))
+        states[0] = state
+        columns, outputs, step = self._make_stage(state.T, parameters.T)
+        before, after, rows = columns[: self.size], outputs[: self.size], outputs[: self.size, : len(state)].T
         for k in range(1, steps + 1):
             step()
-            way[k], before[...] = rows, after
-        return way
+            states[k], before[...] = rows, after
+        return states
 
-    def _stage(self, *values: Array) -> tuple[Array, Array, Callable[[], None]]:
-        """Columns of states and parameters, those of the results, and the step from these to those.
+    def _make_stage(self, *values: Array) -> tuple[Array, Array, Callable[[], None]]:
+        """Return the columns of states and parameters, the columns of the results, and the step between them.
 
         The SIMD width divides their number: the last of the columns is repeated.
         """
-        used = values[0].shape[1]
-        width = -(-used // self.step.lanes) * self.step.lanes
-        columns, out = np.empty((self.step.program.n_in, width)), np.empty((self.size + 1, width))
-        np.concatenate(values, out=columns[:, :used])
-        columns[:, used:] = columns[:, used - 1 : used]
-        return columns, out, self.step.bound(columns, out)
+        used_width = values[0].shape[1]
+        width = -(-used_width // self.step.lanes) * self.step.lanes
+        columns, outputs = np.empty((self.step.program.n_in, width)), np.empty((self.size + 1, width))
+        np.concatenate(values, out=columns[:, :used_width])
+        columns[:, used_width:] = columns[:, used_width - 1 : used_width]
+        return columns, outputs, self.step.bind_arrays(columns, outputs)
 
 
-class _Batch:
-    """Rows that wait for a worker, and who is told of rows that ended, steps taken, and rows within the tolerance."""
+class _RowQueue:
+    """Rows that wait for a worker, with counters of finished rows, steps taken, and rows within the tolerance."""
 
-    ended: Tell = staticmethod(unheard)
-    stepped: Tell = staticmethod(unheard)
-    over: Tell = staticmethod(unheard)
+    ended: Tell = staticmethod(ignore_count)
+    stepped: Tell = staticmethod(ignore_count)
+    over: Tell = staticmethod(ignore_count)
 
     def __init__(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> None:
         rows = len(state)
@@ -228,14 +242,14 @@ class _Batch:
         )
         self._parameters, self._next, self._lock = parameters, 0, threading.Lock()
 
-    def take(self, count: int) -> NDArray[np.int64]:
-        """Up to so many rows that nobody has had."""
+    def take_rows(self, count: int) -> NDArray[np.int64]:
+        """Return up to ``count`` rows that no worker has had."""
         with self._lock:
             start = self._next
             self._next = min(start + count, len(self._parameters))
             return np.arange(start, self._next)
 
-    def inputs(self, rows: NDArray[np.int64]) -> tuple[Array, Array]:
-        """(s, R) where these consecutive rows start, and (p, R) their parameters."""
-        some = slice(rows[0], rows[-1] + 1)
-        return self.result.state[some].T, self._parameters[some].T
+    def row_inputs(self, rows: NDArray[np.int64]) -> tuple[Array, Array]:
+        """Return the start states (s, R) of these consecutive rows and their parameters (p, R)."""
+        selection = slice(rows[0], rows[-1] + 1)
+        return self.result.state[selection].T, self._parameters[selection].T

@@ -1,4 +1,4 @@
-"""A CasADi expression as a flat list of scalar instructions: what every backend translates."""
+"""CasADi expression as a flat list of scalar instructions, which every backend translates."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OP_NAMES = {getattr(ca, name): name for name in dir(ca) if name.startswith("OP_"
 
 @dataclass(frozen=True)
 class Instruction:
-    """One scalar operation: ``work[output] = op(work[inputs])``; constants carry their value."""
+    """Scalar operation ``work[output] = op(work[inputs])``; constants carry their value."""
 
     op: int
     output: int
@@ -45,22 +45,22 @@ class Program:
         self.input_shapes = [tuple(x.shape) for x in inputs]
         self.output_shapes = [tuple(y.shape) for y in outputs]
         self._build: Callable[[], Program] | None = None
-        self.n_in, self.n_out = _count(self.input_shapes), _count(self.output_shapes)
-        self.function = _function(inputs, outputs)
+        self.n_in, self.n_out = _count_elements(self.input_shapes), _count_elements(self.output_shapes)
+        self.function = _make_function(inputs, outputs)
         self.size = int(self.function.n_instructions())
 
     @classmethod
-    def known(cls, facts: list[Any], build: Callable[[], Program]) -> Program:
-        """A program of which :meth:`facts` are known; it is built if its operations are asked for."""
+    def from_facts(cls, facts: list[Any], build: Callable[[], Program]) -> Program:
+        """Return a program with known :meth:`facts`, which is built only when its operations are needed."""
         program = cls.__new__(cls)
         program.name, shapes_in, shapes_out, program.size, program.digest = facts
         program.input_shapes, program.output_shapes = [tuple(x) for x in shapes_in], [tuple(y) for y in shapes_out]
-        program.n_in, program.n_out = _count(program.input_shapes), _count(program.output_shapes)
+        program.n_in, program.n_out = _count_elements(program.input_shapes), _count_elements(program.output_shapes)
         program._build = build
         return program
 
     def facts(self) -> list[Any]:
-        """What there is to know without the operations."""
+        """Return the properties that are known without the operations."""
         return [self.name, self.input_shapes, self.output_shapes, self.size, self.digest]
 
     recipe: str | None = None  # digest of what it is made of, if it has one
@@ -77,48 +77,48 @@ class Program:
         f = self.function
         rows: list[Instruction] = []
         for k in range(f.n_instructions()):
-            op, out, inp = f.instruction_id(k), f.instruction_output(k), f.instruction_input(k)
+            op, outputs, inputs = f.instruction_id(k), f.instruction_output(k), f.instruction_input(k)
             if op == ca.OP_CONST:
-                rows.append(Instruction(op, out[0], (), f.instruction_constant(k)))
+                rows.append(Instruction(op, outputs[0], (), f.instruction_constant(k)))
             elif op == ca.OP_INPUT:
-                rows.append(Instruction(op, out[0], (inp[1],)))
+                rows.append(Instruction(op, outputs[0], (inputs[1],)))
             elif op == ca.OP_OUTPUT:
-                rows.append(Instruction(op, out[1], (inp[0],)))
+                rows.append(Instruction(op, outputs[1], (inputs[0],)))
             else:
-                rows.append(Instruction(op, out[0], tuple(inp)))
+                rows.append(Instruction(op, outputs[0], tuple(inputs)))
         return rows
 
     def shared_divisors(self) -> dict[int, int]:
-        """Instructions that divide by something that others divide by too -> the instruction that made it."""
-        made: dict[int, int] = {}  # work slot -> instruction that wrote it last
+        """Return the divisions by a divisor that others share, each with the instruction that computes the divisor."""
+        producers: dict[int, int] = {}  # work slot -> instruction that wrote it last
         divisor: dict[int, int] = {}
         for k, row in enumerate(self.instructions):
             if row.op in (ca.OP_DIV, ca.OP_INV):
-                divisor[k] = made[row.inputs[-1]]
+                divisor[k] = producers[row.inputs[-1]]
             if row.op != ca.OP_OUTPUT:
-                made[row.output] = k
+                producers[row.output] = k
         uses = Counter(divisor.values())
         return {k: d for k, d in divisor.items() if uses[d] > 1}
 
     @cached_property
     def digest(self) -> str:
         """SHA-256 of the operations, names and constants (bit for bit): the identity of the computation."""
-        h = hashlib.sha256(f"{self.n_in},{self.n_out}".encode())
+        hasher = hashlib.sha256(f"{self.n_in},{self.n_out}".encode())
         for row in self.instructions:
-            h.update(f"{OP_NAMES[row.op]}:{row.output}:{row.inputs}".encode())
+            hasher.update(f"{OP_NAMES[row.op]}:{row.output}:{row.inputs}".encode())
             if row.op == ca.OP_CONST:
-                h.update(struct.pack("<d", row.constant))
-        return h.hexdigest()
+                hasher.update(struct.pack("<d", row.constant))
+        return hasher.hexdigest()
 
 
-def _function(inputs: Sequence[SX], outputs: Sequence[SX]) -> Any:
-    flat_in = ca.vertcat(*[_row_major(x) for x in inputs])
-    return ca.Function("program", [flat_in], [ca.vertcat(*[_row_major(y) for y in outputs])], {"cse": True})
+def _make_function(inputs: Sequence[SX], outputs: Sequence[SX]) -> Any:
+    flat_in = ca.vertcat(*[_to_row_major(x) for x in inputs])
+    return ca.Function("program", [flat_in], [ca.vertcat(*[_to_row_major(y) for y in outputs])], {"cse": True})
 
 
-def _count(shapes: list[tuple[int, int]]) -> int:
+def _count_elements(shapes: list[tuple[int, int]]) -> int:
     return sum(rows * columns for rows, columns in shapes)
 
 
-def _row_major(x: SX) -> SX:
+def _to_row_major(x: SX) -> SX:
     return ca.vec(ca.densify(x).T)

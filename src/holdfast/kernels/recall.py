@@ -1,4 +1,4 @@
-"""Kernels and texts that need not be built again: a second start finds them without making the expressions."""
+"""Cache kernels and texts on disk, so that a second start need not build their expressions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from holdfast.kernels import cache
 from holdfast.kernels.kernel import Kernel, default_backend
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import Program
-from holdfast.kernels.recipe import digest_of
+from holdfast.kernels.recipe import fingerprint
 
 P = ParamSpec("P")
 K = TypeVar("K", Kernel, Loop)
@@ -24,66 +24,68 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_making.clear)  # a child process has none of the threads that hold them
 
 
-def recalled(build: Callable[P, K]) -> Callable[P, K]:
-    """A function or method that builds a kernel or a loop, called only where its result is not known from before.
+def cached_kernel(build: Callable[P, K]) -> Callable[P, K]:
+    """Wrap a function or method that builds a kernel or a loop, so that it is called only where its result is not cached.
 
     What it builds may depend on nothing but its arguments and the sources of holdfast. Where an argument has no digest
     (``holdfast.kernels.recipe``), and outside of holdfast, whose sources count, it is called as ever.
     """
 
     @wraps(build)
-    def from_memory(*args: P.args, **kwargs: P.kwargs) -> K:
-        recipe = _recipe(build, args, kwargs) if default_backend() != "casadi" else None
+    def build_or_load(*args: P.args, **kwargs: P.kwargs) -> K:
+        recipe = _digest_of_call(build, args, kwargs) if default_backend() != "casadi" else None
         if recipe is None:
             return build(*args, **kwargs)
-        entry = cache.key(recipe, "facts")
+        entry = cache.cache_key(recipe, "facts")
         with _making.setdefault(recipe, threading.RLock()):  # threads that need it at once: one builds, the others find it
-            facts = cache.load(entry)
+            facts = cache.load_entry(entry)
             if facts is None:
-                made = build(*args, **kwargs)
-                cache.store(entry, _facts(made))
-                _kernel(made).program.recipe = recipe
-                return made
-            return cast(K, _known(facts, recipe, lambda: _kernel(build(*args, **kwargs)).program))
+                kernel = build(*args, **kwargs)
+                cache.store_entry(entry, _write_facts(kernel))
+                _kernel_of(kernel).program.recipe = recipe
+                return kernel
+            return cast(K, _read_facts(facts, recipe, lambda: _kernel_of(build(*args, **kwargs)).program))
 
-    return from_memory
+    return build_or_load
 
 
-def recalled_data(build: Callable[P, T]) -> Callable[P, T]:
-    """As :func:`recalled`, of a function that gives what JSON takes: a text, a number, a dictionary of texts."""
+def cached_json(build: Callable[P, T]) -> Callable[P, T]:
+    """Wrap a function that returns JSON data (a text, a number, or a dictionary of texts), cached as by
+    :func:`cached_kernel`.
+    """
 
     @wraps(build)
-    def from_memory(*args: P.args, **kwargs: P.kwargs) -> T:
-        recipe = _recipe(build, args, kwargs)
+    def build_or_load(*args: P.args, **kwargs: P.kwargs) -> T:
+        recipe = _digest_of_call(build, args, kwargs)
         if recipe is None:
             return build(*args, **kwargs)
-        data = cache.load(recipe)
+        data = cache.load_entry(recipe)
         if data is None:
-            made = build(*args, **kwargs)
-            cache.store(recipe, json.dumps(made).encode())
-            return made
+            content = build(*args, **kwargs)
+            cache.store_entry(recipe, json.dumps(content).encode())
+            return content
         return cast(T, json.loads(data))
 
-    return from_memory
+    return build_or_load
 
 
-def _recipe(build: Callable[..., object], args: object, kwargs: object) -> str | None:
-    ours = build.__module__.partition(".")[0] == "holdfast"
-    return digest_of(build.__module__, build.__qualname__, args, kwargs) if ours else None
+def _digest_of_call(build: Callable[..., object], args: object, kwargs: object) -> str | None:
+    is_own = build.__module__.partition(".")[0] == "holdfast"
+    return fingerprint(build.__module__, build.__qualname__, args, kwargs) if is_own else None
 
 
-def _kernel(made: Kernel | Loop) -> Kernel:
-    return made.step if isinstance(made, Loop) else made
+def _kernel_of(built: Kernel | Loop) -> Kernel:
+    return built.step if isinstance(built, Loop) else built
 
 
-def _facts(made: Kernel | Loop) -> bytes:
-    loop = [made.ahead, made.times] if isinstance(made, Loop) else None
-    return json.dumps([loop, *_kernel(made).program.facts()]).encode()
+def _write_facts(built: Kernel | Loop) -> bytes:
+    loop = [built.ahead, built.times] if isinstance(built, Loop) else None
+    return json.dumps([loop, *_kernel_of(built).program.facts()]).encode()
 
 
-def _known(facts: bytes, recipe: str, build: Callable[[], Program]) -> Kernel | Loop:
-    loop, *about = json.loads(facts)
-    program = Program.known(about, build)
+def _read_facts(facts: bytes, recipe: str, build: Callable[[], Program]) -> Kernel | Loop:
+    loop, *program_facts = json.loads(facts)
+    program = Program.from_facts(program_facts, build)
     program.recipe = recipe
-    kernel = Kernel.of(program)
-    return kernel if loop is None else Loop.of(kernel, *loop)
+    kernel = Kernel.from_program(program)
+    return kernel if loop is None else Loop.from_step(kernel, *loop)

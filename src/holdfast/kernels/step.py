@@ -1,4 +1,4 @@
-"""One control step at a time, as fast as Python can call it."""
+"""Single control step, as fast as Python can call it."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from holdfast.kernels.kernel import Kernel
 Array = NDArray[np.float64]
 
 
-class Step:
-    """One control step ``(q, velocity) -> rates`` with a buffer of its own: not for several threads at once.
+class ControlStep:
+    """Control step ``(q, velocity) -> rates`` with its own buffer, not for several threads at once.
 
     Nothing is checked. The bits are those of the law's batch.
     """
 
     def __init__(self, kernel: Kernel, n: int) -> None:
-        single = kernel.single()
+        single = kernel.single_row()
         self._run, self._in, self._n = single.run, single.inputs, n
         self._out = np.full(kernel.program.n_out, np.nan)
         # Memory views are filled in half the time that NumPy's slices take.
@@ -36,35 +36,35 @@ class Step:
             self._velocity[:] = velocity
         except (TypeError, ValueError):  # whole numbers, or lists
             self._in[: self._n], self._in[self._n :] = q, velocity
-        self._out = out = self._run()
-        return out[: self._n]
+        self._out = outputs = self._run()
+        return outputs[: self._n]
 
     @property
-    def others(self) -> Array:
-        """What the kernel tells besides the rates, of the last call: of a resolution the shares and the damping."""
+    def extra_outputs(self) -> Array:
+        """Further outputs of the kernel in the last call: of a resolution the fractions and the damping."""
         return self._out[self._n :]
 
 
-class Steps(ABC):
-    """What can be called in a control loop, once it is prepared."""
+class Steppable(ABC):
+    """Base of objects with a control step, once it is prepared."""
 
     @abstractmethod
     def _step_kernel(self) -> tuple[Kernel, int]:
-        """What a step computes, joint rates first, and the number of joints."""
+        """Return the kernel of a step, joint rates first, and the number of joints."""
 
     @cached_property
-    def _prepared(self) -> Step:
-        return Step(*self._step_kernel())
+    def _prepared_step(self) -> ControlStep:
+        return ControlStep(*self._step_kernel())
 
-    def prepare(self) -> Step:
+    def prepare(self) -> ControlStep:
         """Compile :attr:`step`, which takes up to a few seconds at first use and milliseconds later; returns it.
 
         A loop that controls a robot calls this before it begins.
         """
-        return self._prepared
+        return self._prepared_step
 
     @property
-    def step(self) -> Step:
+    def step(self) -> ControlStep:
         """``step(q, velocity) -> rates`` for one configuration: for a control loop, without any checks.
 
         It never compiles; what else was computed is in ``step.others``.
@@ -74,4 +74,4 @@ class Steps(ABC):
         """
         if "_prepared" not in self.__dict__:
             raise KernelError("the step of this law is not compiled yet; call its prepare() once, before the control loop")
-        return self._prepared
+        return self._prepared_step

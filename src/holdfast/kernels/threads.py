@@ -1,4 +1,4 @@
-"""One pool of threads for the whole process; kernels release the GIL while they run."""
+"""Pool of threads for the whole process; kernels release the GIL while they run."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from concurrent.futures import ThreadPoolExecutor
 
 from holdfast.grammar import is_count
 
-_PREFIX = "holdfast-pool"
+_THREAD_PREFIX = "holdfast-pool"
 _lock = threading.Lock()
 _pool: ThreadPoolExecutor | None = None
 _count: int | None = None
 
 
 def thread_count() -> int:
-    """Threads used: :func:`set_threads`, else ``HOLDFAST_THREADS``, else the processors this process may use."""
+    """Return the number of threads: :func:`set_threads`, else ``HOLDFAST_THREADS``, else the processors this
+    process may use.
+    """
     if _count is not None:
         return _count
     setting = os.environ.get("HOLDFAST_THREADS", "")
@@ -38,12 +40,12 @@ def set_threads(count: int | None) -> None:
 
 
 def in_pool() -> bool:
-    """True inside a task of the pool, where waiting for the pool again could wait forever."""
-    return threading.current_thread().name.startswith(_PREFIX)
+    """Return True inside a task of the pool, where waiting for the pool again could deadlock."""
+    return threading.current_thread().name.startswith(_THREAD_PREFIX)
 
 
 def _after_fork() -> None:
-    """A child process has none of its parent's threads: a pool of its own is made when it is needed."""
+    """Reset the pool in a child process, which has none of its parent's threads."""
     global _pool, _lock
     _pool, _lock = None, threading.Lock()
 
@@ -52,10 +54,10 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_after_fork)
 
 
-def pool() -> ThreadPoolExecutor:
-    """The shared pool, made at first use."""
+def shared_pool() -> ThreadPoolExecutor:
+    """Return the shared pool, made at first use."""
     global _pool
     with _lock:
         if _pool is None:
-            _pool = ThreadPoolExecutor(thread_count(), thread_name_prefix=_PREFIX)
+            _pool = ThreadPoolExecutor(thread_count(), thread_name_prefix=_THREAD_PREFIX)
         return _pool

@@ -1,4 +1,4 @@
-"""Following a path: resolution of redundancy, tracking, the trajectory, its events and how slow it must be."""
+"""Path tracking: redundancy resolution, the trajectory, its events, and how slow it must be."""
 
 from holdfast._lazy import offer
 

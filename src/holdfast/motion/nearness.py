@@ -1,4 +1,4 @@
-"""How near a motion is to what it keeps clear of: limits of the rates at every step, and what is nearest along the whole."""
+"""Clearance along a motion: limits of the joint rates at every step, and the nearest pair along the whole motion."""
 
 from __future__ import annotations
 
@@ -9,38 +9,38 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.objects.one_row import OneRow
+from holdfast.clearance.objects.one_row import SingleConfigurationClearance
 
 Array = NDArray[np.float64]
 
-ROWS = 2  # that a step keeps: what is nearest, and what was a moment ago
-_NEVER = -1e9  # m/s: less than any rate makes of a distance
-_FAR = 0.05  # rad and m: so far a slope is taken to hold
-_ALIKE = 0.05  # of a slope: nearer ones are of one thing
-_KEPT = 6  # slopes that are remembered
-_SLACK = 2e-5  # m: a step along something round is off by its square, and the next one makes up for it
-_PARTS = (1.0, 0.5)  # of a step that are tried before none of it
+ENFORCED_LIMITS = 2  # that a step keeps: what is nearest, and what was a moment ago
+_NO_LIMIT_RATE = -1e9  # m/s: less than any rate makes of a distance
+_GRADIENT_RANGE = 0.05  # rad and m: so far a slope is taken to hold
+_SIMILARITY_FRACTION = 0.05  # of a slope: nearer ones are of one thing
+_MEMORY_SIZE = 6  # slopes that are remembered
+_DISTANCE_SLACK_M = 2e-5  # m: a step along something round is off by its square, and the next one makes up for it
+_STEP_FRACTIONS = (1.0, 0.5)  # of a step that are tried before none of it
 
 
 @dataclass(frozen=True, eq=False)
-class Near:
-    """What a motion keeps clear of, at N instants.
+class ClearanceHistory:
+    """Distances of a motion to obstacles and links at N instants.
 
     Attributes:
-        room: (N,) smallest distance beyond what is to be kept, the margin included, m.
-        pair: (N,) position in ``names`` of the pair that has it.
-        names: Of the pairs, ``joint3 & table``.
-        kept: (P,) what is kept of each pair, m.
+        margin: (N,) smallest distance beyond what is to be kept, the margin included, m.
+        nearest_pair: (N,) position in ``pair_names`` of the pair that has it.
+        pair_names: Of the pairs, ``joint3 & table``.
+        min_distances: (P,) what is kept of each pair, m.
     """
 
-    room: Array
-    pair: NDArray[np.int64]
-    names: list[str]
-    kept: Array
+    margin: Array
+    nearest_pair: NDArray[np.int64]
+    pair_names: list[str]
+    min_distances: Array
 
 
-class Room:
-    """The room that a motion has beyond what it keeps, and how fast it may shrink.
+class ClearanceRateLimit:
+    """The clearance of a motion above the required margin, and how fast it may shrink.
 
     One pair is the nearest, and its slope jumps where another gets nearer: in a corner the motion would go to and fro between
     the two. So the slopes of the last moments are remembered, and each is a limit of its own as long as the arm is near by.
@@ -53,59 +53,72 @@ class Room:
 
     def __init__(self, clearance: Clearance, margin: float, rate: float) -> None:
         self.clearance, self.margin, self.rate = clearance, margin, rate
-        self._nearest = OneRow(clearance)
-        self._steepest = clearance.changes(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
-        self._seen: list[tuple[Array, float, Array]] = []
+        self._nearest = SingleConfigurationClearance(clearance)
+        self._gradient_bounds = clearance.lipschitz_bounds(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
+        self._samples: list[tuple[Array, float, Array]] = []
 
-    def _look(self, q: Array) -> tuple[Array, float, Array]:
-        """The configuration (n,), its room and the slope of that (n,); remembered, the latest first."""
-        if self._seen and np.array_equal(self._seen[0][0], q):
-            return self._seen[0]
-        room, slope = self._nearest(q)
-        found = (q.copy(), room - self.margin, slope)
-        others = [x for x in self._seen if np.abs(x[0] - q).max() < _FAR and not _alike(x[2], found[2])]
-        self._seen = [found, *others[: _KEPT - 1]]
-        return found
+    def _evaluate(self, q: Array) -> tuple[Array, float, Array]:
+        """Return the configuration (n,), its clearance and the gradient (n,), and remember them, the latest first."""
+        if self._samples and np.array_equal(self._samples[0][0], q):
+            return self._samples[0]
+        clearance, gradient = self._nearest(q)
+        sample = (q.copy(), clearance - self.margin, gradient)
+        others = [
+            other
+            for other in self._samples
+            if np.abs(other[0] - q).max() < _GRADIENT_RANGE and not _are_similar(other[2], sample[2])
+        ]
+        self._samples = [sample, *others[: _MEMORY_SIZE - 1]]
+        return sample
 
-    def idle(self, q: Array, rates: Array) -> bool:
-        """Whether nothing that was seen last can be near enough to limit these rates (n,): then nothing is looked at."""
-        if not self._seen:
+    def is_inactive(self, q: Array, rates: Array) -> bool:
+        """Return True if no remembered pair can be near enough to limit the rates (n,), so that no distance is computed."""
+        if not self._samples:
             return False
-        where, room, _ = self._seen[0]
-        least = room - float(self._steepest @ np.abs(q - where))
-        return float(self._steepest @ np.abs(rates)) < self.rate * least
+        sample_q, clearance, _ = self._samples[0]
+        smallest_clearance = clearance - float(self._gradient_bounds @ np.abs(q - sample_q))
+        return float(self._gradient_bounds @ np.abs(rates)) < self.rate * smallest_clearance
 
-    def limits(self, q: Array) -> Array:
-        """(K, n + 1) the limits at a configuration (n,): slopes, and after each the least that the rates may make of it, m/s.
+    def rate_limits(self, q: Array) -> Array:
+        """Return the limits (K, n + 1) at a configuration (n,): gradients, and after each the smallest product with the rates,
+        m/s.
 
         The first is what is nearest, the second what is nearest of the things that were seen a moment ago; one at least is
         of something, and slopes of 0 limit nothing.
         """
-        first = self._look(q)
-        around = sorted(((room + float(slope @ (q - where)), slope) for where, room, slope in self._seen[1:]), key=_room)
-        seen = [(first[1], first[2]), *around, (np.inf, np.zeros(len(q)))]
-        return np.array([np.append(slope, max(-self.rate * room, _NEVER)) for room, slope in seen])
+        latest = self._evaluate(q)
+        around = sorted(
+            ((clearance + float(gradient @ (q - sample_q)), gradient) for sample_q, clearance, gradient in self._samples[1:]),
+            key=_extrapolated_clearance,
+        )
+        entries = [(latest[1], latest[2]), *around, (np.inf, np.zeros(len(q)))]
+        return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
 
-    def part(self, q: Array, moved: Array) -> float:
-        """How much of a step from one configuration (n,) to another the room allows: all, unless it is used up on the way."""
-        before = self._look(q)
-        for part in _PARTS:
-            if self._look(q + part * (moved - q))[1] >= min(before[1], -_SLACK):
-                return part
-        self._seen = [before, *self._seen[: _KEPT - 1]]
+    def allowed_fraction(self, q: Array, step_end: Array) -> float:
+        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up on the
+        way.
+        """
+        step_start = self._evaluate(q)
+        for fraction in _STEP_FRACTIONS:
+            if self._evaluate(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):
+                return fraction
+        self._samples = [step_start, *self._samples[: _MEMORY_SIZE - 1]]
         return 0.0
 
-    def along(self, q: Array) -> Near:
-        """What is nearest at configurations (N, n)."""
+    def trace_clearance(self, q: Array) -> ClearanceHistory:
+        """Return the nearest pairs at configurations (N, n)."""
         clearance = self.clearance
-        return Near(
-            clearance.room(q) - self.margin, clearance.closest_pair(q), clearance.pair_names, clearance.margins + self.margin
+        return ClearanceHistory(
+            clearance.margin_left(q) - self.margin,
+            clearance.closest_pair(q),
+            clearance.pair_names,
+            clearance.margins + self.margin,
         )
 
 
-def _room(seen: tuple[float, Array]) -> float:
-    return seen[0]
+def _extrapolated_clearance(entry: tuple[float, Array]) -> float:
+    return entry[0]
 
 
-def _alike(one: Array, other: Array) -> bool:
-    return float(np.linalg.norm(one - other)) <= _ALIKE * float(np.linalg.norm(other))
+def _are_similar(gradient: Array, reference: Array) -> bool:
+    return float(np.linalg.norm(gradient - reference)) <= _SIMILARITY_FRACTION * float(np.linalg.norm(reference))

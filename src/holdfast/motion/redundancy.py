@@ -1,4 +1,4 @@
-"""The resolution laws: what each does with the self-motion."""
+"""The resolution laws, which differ in the self-motion."""
 
 from __future__ import annotations
 
@@ -7,17 +7,23 @@ from collections.abc import Sequence
 import casadi as ca
 import numpy as np
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.program import SX
-from holdfast.linalg import Cholesky, damped_least_norm, gram
-from holdfast.motion.resolution import BLUNT, Resolution, oriented_gradient, oriented_value, slope_along
+from holdfast.linalg import Cholesky, damped_gram, damped_least_norm
+from holdfast.motion.resolution import (
+    SINGULAR_REGULARIZATION,
+    Resolution,
+    null_space_gradient,
+    oriented_gradient,
+    oriented_value,
+)
 
 
-@checked_class
+@check_constructor
 class GradientProjection(Resolution):
     """Self-motion down (or up) the gradient of the objective, kept off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
 
@@ -55,13 +61,13 @@ class GradientProjection(Resolution):
             raise InputError(f"gain is {gain:g}; it must be 0 or more: the objective knows which way is better")
         self.gain = gain
 
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        return self.gain * oriented_gradient(self.objective, q, j)
+    def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
+        return self.gain * oriented_gradient(self.objective, q, jacobian)
 
 
-@checked_class
+@check_constructor
 class ExtendedJacobian(Resolution):
-    """Keeps the objective at an extremum along the self-motion: the null-space part of its gradient stays 0.
+    """Law that holds the objective at an extremum along the self-motion: the null-space part of its gradient stays 0.
 
     The rows ``d(N' grad)/dq`` are added to J. Where they lose rank although J does not, the extremum that is tracked ends
     or splits: an algorithmic singularity, at which the rates grow without bound.
@@ -97,15 +103,17 @@ class ExtendedJacobian(Resolution):
             raise InputError(f"gain is {gain:g}; it must be above 0")
         self.gain = gain
 
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        null, slope = slope_along(self.objective, self.task, q)
-        rows = ca.jacobian(slope, q)
-        return null @ damped_least_norm(rows @ null, -self.gain * slope - rows @ particular, BLUNT)
+    def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
+        null_space, gradient = null_space_gradient(self.objective, self.task, q)
+        gradient_jacobian = ca.jacobian(gradient, q)
+        return null_space @ damped_least_norm(
+            gradient_jacobian @ null_space, -self.gain * gradient - gradient_jacobian @ particular, SINGULAR_REGULARIZATION
+        )
 
 
-@checked_class
+@check_constructor
 class AugmentedJacobian(Resolution):
-    """Brings the objective to a wanted value and keeps it there: its gradient is one more row of the task.
+    """Law that brings the objective to a requested value and holds it there: its gradient is one more row of the task.
 
     Args:
         arm: The arm.
@@ -142,11 +150,13 @@ class AugmentedJacobian(Resolution):
             raise InputError(f"gain is {gain:g}; it must be above 0")
         self.wanted, self.gain = wanted, gain
 
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
+    def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
         sign = 1.0 if self.objective.better == "larger" else -1.0
-        slope = oriented_gradient(self.objective, q, j)
-        missing = self.gain * (sign * self.wanted - oriented_value(self.objective, q, j)) - ca.dot(slope, particular)
+        gradient = oriented_gradient(self.objective, q, jacobian)
+        missing = self.gain * (sign * self.wanted - oriented_value(self.objective, q, jacobian)) - ca.dot(gradient, particular)
         # Least norm within the null space; where the objective does not change there, it cannot be helped.
-        across = slope - j.T @ ca.vertcat(*Cholesky(gram(j, BLUNT)).solve(ca.vertsplit(ca.densify(j @ slope))))
-        steep = ca.sumsqr(across)
-        return across * missing / (steep + 1e-6 * (steep + ca.sumsqr(slope)) + 1e-30)
+        projected_gradient = gradient - jacobian.T @ ca.vertcat(
+            *Cholesky(damped_gram(jacobian, SINGULAR_REGULARIZATION)).solve(ca.vertsplit(ca.densify(jacobian @ gradient)))
+        )
+        steepness = ca.sumsqr(projected_gradient)
+        return projected_gradient * missing / (steepness + 1e-6 * (steepness + ca.sumsqr(gradient)) + 1e-30)

@@ -1,4 +1,4 @@
-"""Redundancy resolution: the end effector does its task, and the self-motion serves an objective.
+"""Redundancy resolution: the end effector follows its task, and the self-motion serves an objective.
 
 Every law is one straight-line program: joint rates ``d + J_A^+ (v - J d) + s (z - J_A^+ J z)``, where the columns of J that
 belong to joints at a limit are taken out (A) and these joints move at their bound (d), z is what the law wants of the
@@ -29,7 +29,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
@@ -39,18 +39,18 @@ from holdfast.errors import InputError, TaskError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.kernels.step import Steps
-from holdfast.linalg import Cholesky, gram, householder, lowest
-from holdfast.motion.rows import Row, turned_away
+from holdfast.kernels.recall import cached_kernel
+from holdfast.kernels.step import Steppable
+from holdfast.linalg import Cholesky, damped_gram, factor_householder, select_at_smallest
+from holdfast.motion.rows import Row, limit_self_motion
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-BLUNT = 1e-12  # keeps a factorisation of a singular matrix finite
-_CLOSE_TO_SINGULAR = 0.02  # share of the arm's typical manipulability below which rates are damped
-_SAMPLES = 512
-_FAR = 1e9  # stands for no limit, rad/s
+SINGULAR_REGULARIZATION = 1e-12  # keeps a factorisation of a singular matrix finite
+_DAMPED_FRACTION = 0.02  # share of the arm's typical manipulability below which rates are damped
+_VOLUME_SAMPLES = 512
+_NO_LIMIT_RATE = 1e9  # stands for no limit, rad/s
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +72,8 @@ class Rates:
     status: NDArray[np.uint8]
 
 
-@checked_class
-class Resolution(Steps):
+@check_constructor
+class Resolution(Steppable):
     """A law that turns a velocity of the end effector into joint rates.
 
     Args:
@@ -102,187 +102,200 @@ class Resolution(Steps):
         period: float | None = 0.01,
         damping: float = 0.05,
     ) -> None:
-        for what, value in (("rate_cap", rate_cap), ("period", period)):
+        for argument_name, value in (("rate_cap", rate_cap), ("period", period)):
             if value is not None and not (np.isfinite(value) and value > 0):
-                raise InputError(f"{what} is {value:g}; it must be above 0, or None")
+                raise InputError(f"{argument_name} is {value:g}; it must be above 0, or None")
         if not (np.isfinite(damping) and damping >= 0):
             raise InputError(f"damping is {damping:g}; it must be 0 or more")
-        chosen = chosen_task(arm, objective, task, "pose")
+        chosen = choose_task(arm, objective, task, "pose")
         self.arm, self.objective, self.task = arm, objective, chosen
         self.rate_cap, self.period, self.damping = rate_cap, period, damping
 
     @property
     def redundancy(self) -> int:
-        """Joints minus rows of the task."""
+        """Number of joints minus the number of task components."""
         return self.arm.n - self.task.m
 
     @abstractmethod
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        """The self-motion wanted, (n,), before it is projected; ``particular`` is the least-norm motion of the task."""
+    def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
+        """Return the desired self-motion (n,) before projection; ``particular`` is the least-norm motion of the task."""
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
     def expression(self, q: SX, twist: SX, rows: Sequence[Row] = ()) -> SX:
-        """Joint rates (n,), then the shares of self-motion and of the task and the damping, of q (n,) and a twist (6,).
+        """Return joint rates (n,), the fractions of self-motion and of the task, and the damping, of q (n,) and a twist (6,).
 
         The twist is the tool's, linear (m/s) and angular (rad/s) in the world frame; rows the task leaves free are ignored.
         A row ``(g, b)``, (n,) and a number, asks for ``g' rates >= b`` as well; there may be two.
         """
         arm, n = self.arm, self.arm.n
-        c = kinematics.chain(arm, q)
-        full = kinematics.jacobian_of(arm, c, c.position)
+        chain = kinematics.kinematic_chain(arm, q)
+        full_jacobian = kinematics.chain_jacobian(arm, chain, chain.position)
         scale = ca.SX(ca.DM(np.r_[[1 / self.task.length] * 3, [1.0] * 3]))
-        j = ca.horzcat(*[self.task.error(full[:, k] * scale, c.rotation) for k in range(n)])
-        v = self.task.error(twist * scale, c.rotation)
-        low, high = self._bounds(q)
-        alone, _, task, damp = self._kept(q, j, v, low, high, rows, serve=False)
-        rates, share, served, served_damp = self._kept(q, j, v, low, high, rows, serve=True)
-        bounded = self._bounded(low, high)
+        jacobian = ca.horzcat(*[self.task.error(full_jacobian[:, k] * scale, chain.rotation) for k in range(n)])
+        velocity = self.task.error(twist * scale, chain.rotation)
+        low, high = self._rate_bounds(q)
+        task_rates, _, task_only_fraction, task_damping = self._limited_rates(
+            q, jacobian, velocity, low, high, rows, serve=False
+        )
+        rates, motion_fraction, served_fraction, served_damping = self._limited_rates(
+            q, jacobian, velocity, low, high, rows, serve=True
+        )
+        bounded = self._bounded_joints(low, high)
         if not bounded and not rows:
-            return ca.vertcat(rates, share, served, served_damp)
+            return ca.vertcat(rates, motion_fraction, served_fraction, served_damping)
         # Where the limits leave no room for all of the self-motion that is wanted, as much of it as they do leave: both
         # motions keep the task, so does every motion between them.
-        between = ca.SX(1)
-        limited = [(low[k], alone[k], rates[k], high[k]) for k in bounded]
-        limited += [(b, ca.dot(g, alone), ca.dot(g, rates), None) for g, b in rows]
-        for least, first, last, most in limited:
-            way = last - first
-            for bound, towards in ((most, way > 1e-12), (least, way < -1e-12)):
+        blend = ca.SX(1)
+        limited = [(low[k], task_rates[k], rates[k], high[k]) for k in bounded]
+        limited += [(bound_rate, ca.dot(gradient, task_rates), ca.dot(gradient, rates), None) for gradient, bound_rate in rows]
+        for smallest, task_rate, served_rate, largest in limited:
+            change = served_rate - task_rate
+            for bound, is_towards in ((largest, change > 1e-12), (smallest, change < -1e-12)):
                 if bound is not None:
-                    reach = (bound - first) / ca.if_else(towards, way, 1)
-                    between = ca.if_else(towards, ca.if_else(reach < between, reach, between), between)
-        between = ca.if_else(between > 0, between, 0)
-        mixed = alone + between * (rates - alone)
-        yields = served < task
+                    fraction = (bound - task_rate) / ca.if_else(is_towards, change, 1)
+                    blend = ca.if_else(is_towards, ca.if_else(fraction < blend, fraction, blend), blend)
+        blend = ca.if_else(blend > 0, blend, 0)
+        blended = task_rates + blend * (rates - task_rates)
+        task_yields = served_fraction < task_only_fraction
         return ca.vertcat(
-            ca.if_else(yields, mixed * task, rates * served),
-            ca.if_else(yields, between * share, share),
-            ca.if_else(yields, task, served),
-            ca.if_else(yields, damp + between * served_damp, served_damp),
+            ca.if_else(task_yields, blended * task_only_fraction, rates * served_fraction),
+            ca.if_else(task_yields, blend * motion_fraction, motion_fraction),
+            ca.if_else(task_yields, task_only_fraction, served_fraction),
+            ca.if_else(task_yields, task_damping + blend * served_damping, served_damping),
         )
 
     @staticmethod
-    def _bounded(low: list[SX | None], high: list[SX | None]) -> list[int]:
+    def _bounded_joints(low: list[SX | None], high: list[SX | None]) -> list[int]:
         return [k for k in range(len(low)) if low[k] is not None or high[k] is not None]
 
-    def _kept(
-        self, q: SX, j: SX, v: SX, low: list[SX | None], high: list[SX | None], rows: Sequence[Row], serve: bool
+    def _limited_rates(
+        self,
+        q: SX,
+        jacobian: SX,
+        velocity: SX,
+        lower: list[SX | None],
+        upper: list[SX | None],
+        rows: Sequence[Row],
+        serve: bool,
     ) -> tuple[SX, SX, SX, SX]:
-        """Rates (n,) for the task, with the self-motion that is wanted or without, and joints taken out at their bounds.
+        """Return rates (n,) for the task, with or without the desired self-motion; joints at their bounds are held there.
 
         Also the share of the self-motion that the cap lets pass, the share of all of it that no bound forbids, and the damping.
         """
         n = self.arm.n
-        fixed, free = ca.SX(n, 1), ca.SX.ones(n, 1)
-        wanted: SX = None
-        bounded = self._bounded(low, high)
+        fixed_rates, free = ca.SX(n, 1), ca.SX.ones(n, 1)
+        desired: SX = None
+        bounded = self._bounded_joints(lower, upper)
         passes = min(self.redundancy, len(bounded)) + 1
-        for number in range(passes):
-            masked = ca.horzcat(*[j[:, k] * free[k] for k in range(n)]) if number else j
-            regular = Cholesky(gram(masked, BLUNT))
-            volume = regular.determinant() / self._typical_volume
-            damp = ca.if_else(volume < 1, self.damping**2 * (1 - volume) + BLUNT, BLUNT)
-            factor = Cholesky(gram(masked, damp))
+        for pass_index in range(passes):
+            masked = ca.horzcat(*[jacobian[:, k] * free[k] for k in range(n)]) if pass_index else jacobian
+            undamped = Cholesky(damped_gram(masked, SINGULAR_REGULARIZATION))
+            volume = undamped.determinant() / self._typical_volume
+            damping = ca.if_else(volume < 1, self.damping**2 * (1 - volume) + SINGULAR_REGULARIZATION, SINGULAR_REGULARIZATION)
+            factor = Cholesky(damped_gram(masked, damping))
 
-            def pinv(e: SX, masked: SX = masked, factor: Cholesky = factor) -> SX:
-                return masked.T @ ca.vertcat(*factor.solve(ca.vertsplit(ca.densify(e))))
+            def apply_pseudoinverse(vector: SX, masked: SX = masked, factor: Cholesky = factor) -> SX:
+                return masked.T @ ca.vertcat(*factor.solve(ca.vertsplit(ca.densify(vector))))
 
-            particular = fixed + pinv(v - j @ fixed)
-            rates, share = particular, ca.SX(1)
+            particular = fixed_rates + apply_pseudoinverse(velocity - jacobian @ fixed_rates)
+            rates, fraction = particular, ca.SX(1)
             if serve:
-                if number == 0:
-                    wanted = self._wanted(q, j, particular)
-                own = wanted * free
-                self_motion = own - pinv(j @ own)
-                share = self._share(particular, self_motion)
-                rates = particular + share * self_motion
+                if pass_index == 0:
+                    desired = self._desired_self_motion(q, jacobian, particular)
+                desired_free = desired * free
+                self_motion = desired_free - apply_pseudoinverse(jacobian @ desired_free)
+                fraction = self._capped_fraction(particular, self_motion)
+                rates = particular + fraction * self_motion
             if rows:
-                across = [g * free - pinv(j @ (g * free)) for g, _ in rows]
-                turned, capped, changed = turned_away(rows, particular, rates - particular, across, self.rate_cap)
-                rates, share = particular + turned, ca.if_else(changed, capped, share)
-            if number < passes - 1:
-                worst, which, bound = ca.SX(1 + 1e-9), ca.SX(-1), ca.SX(0)
+                projected = [gradient * free - apply_pseudoinverse(jacobian @ (gradient * free)) for gradient, _ in rows]
+                correction, capped_fraction, changed = limit_self_motion(
+                    rows, particular, rates - particular, projected, self.rate_cap
+                )
+                rates, fraction = particular + correction, ca.if_else(changed, capped_fraction, fraction)
+            if pass_index < passes - 1:
+                worst_ratio, worst_joint, worst_bound = ca.SX(1 + 1e-9), ca.SX(-1), ca.SX(0)
                 for k in bounded:
-                    ratio, limit = self._excess(rates[k], low[k], high[k])
+                    ratio, limit = self._bound_ratio(rates[k], lower[k], upper[k])
                     ratio = ratio * free[k]
-                    more = ratio > worst
-                    worst, which, bound = (
-                        ca.if_else(more, ratio, worst),
-                        ca.if_else(more, k, which),
-                        ca.if_else(more, limit, bound),
+                    is_worse = ratio > worst_ratio
+                    worst_ratio, worst_joint, worst_bound = (
+                        ca.if_else(is_worse, ratio, worst_ratio),
+                        ca.if_else(is_worse, k, worst_joint),
+                        ca.if_else(is_worse, limit, worst_bound),
                     )
-                taken = [ca.if_else(which == k, 1.0, 0.0) if k in bounded else ca.SX(0) for k in range(n)]
-                fixed = ca.vertcat(*[fixed[k] + taken[k] * bound for k in range(n)])
-                free = ca.vertcat(*[free[k] * (1 - taken[k]) for k in range(n)])
+                newly_fixed = [ca.if_else(worst_joint == k, 1.0, 0.0) if k in bounded else ca.SX(0) for k in range(n)]
+                fixed_rates = ca.vertcat(*[fixed_rates[k] + newly_fixed[k] * worst_bound for k in range(n)])
+                free = ca.vertcat(*[free[k] * (1 - newly_fixed[k]) for k in range(n)])
         # What is beyond a bound now cannot be avoided like this: everything slows down together.
-        task = ca.SX(1)
+        task_fraction = ca.SX(1)
         for k in bounded:
-            ratio, _ = self._excess(rates[k], low[k], high[k])
+            ratio, _ = self._bound_ratio(rates[k], lower[k], upper[k])
             slower = ca.if_else(ratio > 1 + 1e-9, 1 / ratio, 1.0)
-            task = ca.if_else(slower < task, slower, task)
-        for g, b in rows:
-            ratio, _ = self._excess(ca.dot(g, rates), b, None)
+            task_fraction = ca.if_else(slower < task_fraction, slower, task_fraction)
+        for gradient, lower_rate in rows:
+            ratio, _ = self._bound_ratio(ca.dot(gradient, rates), lower_rate, None)
             slower = ca.if_else(ratio > 1 + 1e-6, 1 / ratio, 1.0)
-            task = ca.if_else(slower < task, slower, task)
-        return rates, share, task, damp - BLUNT
+            task_fraction = ca.if_else(slower < task_fraction, slower, task_fraction)
+        return rates, fraction, task_fraction, damping - SINGULAR_REGULARIZATION
 
-    def _bounds(self, q: SX) -> tuple[list[SX | None], list[SX | None]]:
-        """Smallest and largest rate of every joint; None where there is none."""
-        low: list[SX | None] = []
-        high: list[SX | None] = []
+    def _rate_bounds(self, q: SX) -> tuple[list[SX | None], list[SX | None]]:
+        """Return the smallest and largest rate of every joint; None where there is none."""
+        lower: list[SX | None] = []
+        upper: list[SX | None] = []
         for k, joint in enumerate(self.arm.joints):
-            fastest = ca.SX(joint.velocity) if np.isfinite(joint.velocity) else None
-            below, above = (None if fastest is None else -fastest), fastest
+            velocity_limit = ca.SX(joint.velocity) if np.isfinite(joint.velocity) else None
+            min_rate, max_rate = (None if velocity_limit is None else -velocity_limit), velocity_limit
             if self.period is not None and np.isfinite(joint.upper):
-                room = (joint.upper - q[k]) / self.period
-                above = room if above is None else ca.if_else(room < above, room, above)
+                rate_to_limit = (joint.upper - q[k]) / self.period
+                max_rate = rate_to_limit if max_rate is None else ca.if_else(rate_to_limit < max_rate, rate_to_limit, max_rate)
             if self.period is not None and np.isfinite(joint.lower):
-                room = (joint.lower - q[k]) / self.period
-                below = room if below is None else ca.if_else(room > below, room, below)
-            low.append(below)
-            high.append(above)
-        return low, high
+                rate_to_limit = (joint.lower - q[k]) / self.period
+                min_rate = rate_to_limit if min_rate is None else ca.if_else(rate_to_limit > min_rate, rate_to_limit, min_rate)
+            lower.append(min_rate)
+            upper.append(max_rate)
+        return lower, upper
 
     @staticmethod
-    def _excess(rate: SX, low: SX | None, high: SX | None) -> tuple[SX, SX]:
-        """By which factor a rate passes its bound (up to 1: it does not), and the bound it passes."""
-        tiny = 1e-9
-        up = ca.SX(-_FAR) if high is None else rate / ca.if_else(high > tiny, high, tiny)
-        down = ca.SX(-_FAR) if low is None else rate / ca.if_else(low < -tiny, low, -tiny)
-        upwards = up > down
+    def _bound_ratio(rate: SX, low: SX | None, high: SX | None) -> tuple[SX, SX]:
+        """Return the ratio of a rate to its bound (up to 1: within the bound), and that bound."""
+        smallest = 1e-9
+        upper_ratio = ca.SX(-_NO_LIMIT_RATE) if high is None else rate / ca.if_else(high > smallest, high, smallest)
+        lower_ratio = ca.SX(-_NO_LIMIT_RATE) if low is None else rate / ca.if_else(low < -smallest, low, -smallest)
+        upwards = upper_ratio > lower_ratio
         bound = ca.if_else(upwards, 0 if high is None else high, 0 if low is None else low)
-        return ca.if_else(upwards, up, down), bound
+        return ca.if_else(upwards, upper_ratio, lower_ratio), bound
 
-    def _share(self, particular: SX, self_motion: SX) -> SX:
-        """Share of the self-motion that keeps the norm of the rates under the cap; the two are orthogonal."""
+    def _capped_fraction(self, particular: SX, self_motion: SX) -> SX:
+        """Return the fraction of the self-motion that keeps the norm of the rates under the cap; both parts are orthogonal."""
         if self.rate_cap is None:
             return ca.SX(1)
-        p, s = ca.sumsqr(particular), ca.sumsqr(self_motion)
-        room = self.rate_cap**2 - p
-        slowed = ca.sqrt(ca.if_else(room > 0, room, 0) / ca.if_else(s > 1e-30, s, 1e-30))
-        return ca.if_else(p + s <= self.rate_cap**2, 1.0, ca.if_else(slowed < 1, slowed, 1.0))
+        task_square, motion_square = ca.sumsqr(particular), ca.sumsqr(self_motion)
+        remainder = self.rate_cap**2 - task_square
+        fraction = ca.sqrt(ca.if_else(remainder > 0, remainder, 0) / ca.if_else(motion_square > 1e-30, motion_square, 1e-30))
+        return ca.if_else(task_square + motion_square <= self.rate_cap**2, 1.0, ca.if_else(fraction < 1, fraction, 1.0))
 
     @cached_property
     def _typical_volume(self) -> float:
         """Square of the manipulability below which rates are damped."""
-        low = np.where(np.isfinite(self.arm.lower), self.arm.lower, -np.pi)
-        high = np.where(np.isfinite(self.arm.upper), self.arm.upper, np.pi)
+        lower = np.where(np.isfinite(self.arm.lower), self.arm.lower, -np.pi)
+        upper = np.where(np.isfinite(self.arm.upper), self.arm.upper, np.pi)
         q = kinematics.joint_symbols(self.arm)
-        j = self.task.jacobian(self.arm, q)
-        volume = Kernel("volume", [q], [Cholesky(gram(j, BLUNT)).determinant()])
-        samples = np.random.default_rng(0).uniform(low, high, (_SAMPLES, self.arm.n))
-        return float(np.median(volume.rows(samples))) * _CLOSE_TO_SINGULAR**2
+        jacobian = self.task.jacobian(self.arm, q)
+        volume = Kernel("volume", [q], [Cholesky(damped_gram(jacobian, SINGULAR_REGULARIZATION)).determinant()])
+        samples = np.random.default_rng(0).uniform(lower, upper, (_VOLUME_SAMPLES, self.arm.n))
+        return float(np.median(volume.rows(samples))) * _DAMPED_FRACTION**2
 
     # ---- calls -------------------------------------------------------------------------------------------------
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _kernel(self) -> Kernel:
         q, twist = kinematics.joint_symbols(self.arm), ca.SX.sym("twist", 6)
         return Kernel(self.name, [q, twist], [self.expression(q, twist)])
 
     def rates(self, q: ArrayLike, twist: ArrayLike) -> Rates:
-        """Joint rates for a twist of the end effector.
+        """Return joint rates for a twist of the end effector.
 
         Args:
             q: (n,) or (N, n), rad and m.
@@ -292,18 +305,26 @@ class Resolution(Steps):
             InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
-        a = rows[0] if single else rows
-        t = np.asarray(twist, dtype=np.float64)
-        if t.shape[-1:] != (6,) or t.ndim > 2 or (t.ndim == 2 and a.ndim == 2 and len(t) != len(a)):
-            raise InputError(f"twist has shape {t.shape}; it must be (6,) or (N, 6), one for each configuration")
+        joints = rows[0] if single else rows
+        twists = np.asarray(twist, dtype=np.float64)
+        if (
+            twists.shape[-1:] != (6,)
+            or twists.ndim > 2
+            or (twists.ndim == 2 and joints.ndim == 2 and len(twists) != len(joints))
+        ):
+            raise InputError(f"twist has shape {twists.shape}; it must be (6,) or (N, 6), one for each configuration")
         n = self.arm.n
-        out = self._kernel.rows(a, t)
-        status = np.where(out[:, n + 2] > 0, Status.SINGULAR, Status.OK).astype(np.uint8)
-        status[out[:, n + 1] < 1] = Status.SLOWED
-        status[np.isnan(out).any(axis=1)] = Status.BAD_INPUT
-        one = 0 if a.ndim == 1 and t.ndim == 1 else slice(None)
+        outputs = self._kernel.rows(joints, twists)
+        status = np.where(outputs[:, n + 2] > 0, Status.SINGULAR, Status.OK).astype(np.uint8)
+        status[outputs[:, n + 1] < 1] = Status.SLOWED
+        status[np.isnan(outputs).any(axis=1)] = Status.BAD_INPUT
+        selection = 0 if joints.ndim == 1 and twists.ndim == 1 else slice(None)
         return Rates(
-            rates=out[one, :n], self_motion=out[one, n], task=out[one, n + 1], damping=out[one, n + 2], status=status[one]
+            rates=outputs[selection, :n],
+            self_motion=outputs[selection, n],
+            task=outputs[selection, n + 1],
+            damping=outputs[selection, n + 2],
+            status=status[selection],
         )
 
     def _step_kernel(self) -> tuple[Kernel, int]:
@@ -313,8 +334,8 @@ class Resolution(Steps):
         return f"<{self.name}, {self.objective.name}, arm {self.arm.name!r}, task {self.task.name!r}>"
 
 
-def chosen_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str] | None, default: str) -> Task:
-    """The task that leaves the self-motion to an objective: the one given, the objective's own, or the default.
+def choose_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str] | None, default: str) -> Task:
+    """Choose the task that leaves the self-motion to an objective: the given task, the objective's own, or the default.
 
     Raises:
         InputError: The objective belongs to another arm.
@@ -327,10 +348,10 @@ def chosen_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str]
             f"{objective.name} is not one symbolic program for joints that fail together, so no law can serve it; use single "
             "failures, relative manipulability or the geometric mean singular value"
         )
-    own = objective.own_task
-    chosen = own if task is None and own is not None else as_task(arm, default if task is None else task)
-    if own is not None and not own.same_rows(chosen):
-        raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{chosen.name}'; use one task")
+    own_task = objective.own_task
+    chosen = own_task if task is None and own_task is not None else as_task(arm, default if task is None else task)
+    if own_task is not None and not own_task.same_rows(chosen):
+        raise TaskError(f"{objective.name} is defined for the task '{own_task.name}', not for '{chosen.name}'; use one task")
     if arm.n <= chosen.m:
         raise TaskError(
             f"task '{chosen.name}' prescribes {chosen.m} rows and '{arm.name}' has {arm.n} joints, so there is no "
@@ -342,30 +363,33 @@ def chosen_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str]
 # ---- the objective as symbols ------------------------------------------------------------------------------------------
 
 
-def oriented_value(objective: Objective, q: SX, j: SX) -> SX:
-    """The objective, negated where smaller is better."""
-    return sum(p.weight * lowest(p.values, p.values)[0] for p in objective.exact_parts(q, j, householder(j), _axes(q)))
+def oriented_value(objective: Objective, q: SX, jacobian: SX) -> SX:
+    """Return the objective, negated where smaller is better."""
+    return sum(
+        part.weight * select_at_smallest(part.values, part.values)[0]
+        for part in objective.exact_parts(q, jacobian, factor_householder(jacobian), _unit_vectors(q))
+    )
 
 
-def oriented_gradient(objective: Objective, q: SX, j: SX) -> SX:
-    """Gradient (n,) of :func:`oriented_value`; of the worst of several failures that of the first."""
+def oriented_gradient(objective: Objective, q: SX, jacobian: SX) -> SX:
+    """Return the gradient (n,) of :func:`oriented_value`; of the worst of several failures that of the first."""
     total = ca.SX(int(q.numel()), 1)
-    for part in objective.exact_parts(q, j, householder(j), _axes(q)):
+    for part in objective.exact_parts(q, jacobian, factor_householder(jacobian), _unit_vectors(q)):
         rows = [ca.vertcat(*row) for row in part.slopes]
-        total = total + part.weight * lowest(part.values, rows)[0]
+        total = total + part.weight * select_at_smallest(part.values, rows)[0]
     return total
 
 
-def slope_along(objective: Objective, task: Task, q: SX) -> tuple[SX, SX]:
-    """Null-space basis N (n, r), and the slope ``N' grad`` (r,) of :func:`oriented_value` along it.
+def null_space_gradient(objective: Objective, task: Task, q: SX) -> tuple[SX, SX]:
+    """Return the null-space basis N (n, r), and the gradient ``N' grad`` (r,) of :func:`oriented_value` along it.
 
     The objective is best, or worst, along the self-motion where the slope is 0.
     """
-    j = task.jacobian(objective.arm, q)
-    null = ca.vertcat(*[ca.horzcat(*row) for row in householder(j).null_rows()])
-    return null, ca.densify(null.T @ oriented_gradient(objective, q, j))
+    jacobian = task.jacobian(objective.arm, q)
+    null_space = ca.vertcat(*[ca.horzcat(*row) for row in factor_householder(jacobian).null_rows()])
+    return null_space, ca.densify(null_space.T @ oriented_gradient(objective, q, jacobian))
 
 
-def _axes(q: SX) -> list[SX]:
+def _unit_vectors(q: SX) -> list[SX]:
     n = int(q.numel())
     return [ca.SX(ca.DM(np.eye(n)[:, k])) for k in range(n)]

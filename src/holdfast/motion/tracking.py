@@ -1,4 +1,4 @@
-"""Follow a path with the end effector while the self-motion serves an objective."""
+"""Tracking of a path by the end effector while the self-motion serves an objective."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
-from holdfast.motion.events import Course, Curvature, find_events
-from holdfast.motion.integration import integrate
-from holdfast.motion.nearness import Room
+from holdfast.motion.events import Curvature, MotionHistory, find_events
+from holdfast.motion.integration import integrate_law
+from holdfast.motion.nearness import ClearanceRateLimit
 from holdfast.motion.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
-from holdfast.motion.resolution import Resolution, chosen_task
+from holdfast.motion.resolution import Resolution, choose_task
 from holdfast.motion.trajectory import Trajectory
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
 from holdfast.solvers.inverse_kinematics import solve_ik, solver
@@ -30,20 +30,20 @@ from holdfast.solvers.optima import optimise
 
 Array = NDArray[np.float64]
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
-TRACKING = ("gradient-projection", "extended-jacobian")  # these stay at a local best
+OPTIMUM_METHODS = ("gradient-projection", "extended-jacobian")  # these stay at a local best
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
-_STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
-_SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
-_FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
-_PROBES = 64
-_AT = 1e-6  # rad and m from a limit
-_AWAY = 100  # steps: time constant with which the room to what is near may shrink
-_GRID = 101  # poses whose whole manifold is traced
+_MIN_CONTROL_STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
+_SETTLING_STEPS = 10  # steps: time constant of the gain that is chosen if none is given
+_MAX_SELF_MOTION_STEP = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
+_GAIN_PROBES = 64
+_LIMIT_TOLERANCE = 1e-6  # rad and m from a limit
+_APPROACH_STEPS = 100  # steps: time constant with which the room to what is near may shrink
+_TRACED_POSES = 101  # poses whose whole manifold is traced
 
 
-@checked
-@says("following the path")
+@check_arguments
+@reports_progress("following the path")
 def follow(
     arm: Arm,
     path: TimedPath,
@@ -67,7 +67,7 @@ def follow(
     cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> Trajectory:
-    """Joint motion along a timed path of the end effector, with redundancy resolution.
+    """Compute the joint motion along a timed path of the end effector, with redundancy resolution.
 
     Args:
         arm: The arm.
@@ -110,8 +110,8 @@ def follow(
 
     Source: English and Maciejewski 1998, sections II and VI.
     """
-    objective = _objective(minimise, maximise)
-    chosen = chosen_task(arm, objective, task, "pose" if path.path.oriented else "position")
+    objective = _read_objective(minimise, maximise)
+    resolved_task = choose_task(arm, objective, task, "pose" if path.path.oriented else "position")
     if samples < 3:
         raise InputError(f"samples is {samples}; it must be 3 or more")
     if method not in METHODS:
@@ -120,112 +120,125 @@ def follow(
         raise InputError(f"rate_cap is {rate_cap:g}; it must be above 0, or None")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    kept = chosen_clearance(arm, clearance, cell, looks=False)
-    if kept is None and margin:
+    resolved_clearance = chosen_clearance(arm, clearance, cell, looks=False)
+    if resolved_clearance is None and margin:
         raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")
     time = np.linspace(0.0, path.duration, samples)
     poses = path.pose(time)
-    start = _start(arm, objective, chosen, poses[0], q, seed, kept, margin)
-    curvature = Curvature(objective, chosen)
-    substeps = -(-_STEPS // (samples - 1))
+    start = _find_start(arm, objective, resolved_task, poses[0], q, seed, resolved_clearance, margin)
+    curvature = Curvature(objective, resolved_task)
+    substeps = -(-_MIN_CONTROL_STEPS // (samples - 1))
     step = path.duration / (samples - 1) / substeps
     if method == "none":
         gain = 0.0
     elif gain is None:
-        gain = _gain(method, curvature, poses, step, seed)
+        gain = _choose_gain(method, curvature, poses, step, seed)
     law: Resolution
     period = step if limits else None
-    finest = _FARTHEST / step
-    cap = finest if rate_cap is None else min(rate_cap, finest)
-    keep: float | None = None
+    finest_cap = _MAX_SELF_MOTION_STEP / step
+    cap = finest_cap if rate_cap is None else min(rate_cap, finest_cap)
+    target_value: float | None = None
     if method == "extended-jacobian":
-        law = ExtendedJacobian(arm, objective, gain, task=chosen, rate_cap=cap, period=period, damping=damping)
+        law = ExtendedJacobian(arm, objective, gain, task=resolved_task, rate_cap=cap, period=period, damping=damping)
     elif method == "augmented-jacobian":
-        keep = float(objective(start)) if wanted is None else wanted
-        law = AugmentedJacobian(arm, objective, keep, gain=gain, task=chosen, rate_cap=cap, period=period, damping=damping)
+        target_value = float(objective(start)) if wanted is None else wanted
+        law = AugmentedJacobian(
+            arm, objective, target_value, gain=gain, task=resolved_task, rate_cap=cap, period=period, damping=damping
+        )
     else:
-        law = GradientProjection(arm, objective, gain, task=chosen, rate_cap=cap, period=period, damping=damping)
-    if wanted is not None and keep is None:
+        law = GradientProjection(arm, objective, gain, task=resolved_task, rate_cap=cap, period=period, damping=damping)
+    if wanted is not None and target_value is None:
         raise InputError(f"wanted is what the augmented Jacobian keeps; {method} does not, leave it out")
-    settle = q is None and method in TRACKING
-    room = None if kept is None else Room(kept, margin, 1 / (_AWAY * step))
-    joints, rates, shares = integrate(law, path, start, (samples - 1) * substeps, step, limits, settle, room)
-    course = _course(arm, objective, curvature, path.duration, joints, rates, shares, limits)
-    limited = f"the rate cap of {cap:.4g} rad/s" if cap == rate_cap else f"the finest step of {_FARTHEST:g} rad"
-    near = None if room is None else room.along(joints)
-    happened = find_events(objective, course, method in TRACKING, keep, limited, near)
-    fastest = int(course.rate_norm.argmax())
-    few = slice(None, None, substeps)
-    position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
-    best_value, best_q = (
-        _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed, kept, margin) if best else (None, None)
+    settle = q is None and method in OPTIMUM_METHODS
+    rate_limit = (
+        None if resolved_clearance is None else ClearanceRateLimit(resolved_clearance, margin, 1 / (_APPROACH_STEPS * step))
     )
-    alike: dict[str, Any] = {"minimise": minimise, "maximise": maximise, "rate_cap": rate_cap, "task": chosen, "q": start}
-    alike |= {"samples": samples, "limits": limits, "damping": damping, "seed": seed}
-    alike |= {"clearance": kept, "margin": margin}
-    found = Trajectory(
+    joints, rates, fractions = integrate_law(law, path, start, (samples - 1) * substeps, step, limits, settle, rate_limit)
+    history = _motion_history(arm, objective, curvature, path.duration, joints, rates, fractions, limits)
+    cap_phrase = f"the rate cap of {cap:.4g} rad/s" if cap == rate_cap else f"the finest step of {_MAX_SELF_MOTION_STEP:g} rad"
+    clearance_history = None if rate_limit is None else rate_limit.trace_clearance(joints)
+    events = find_events(objective, history, method in OPTIMUM_METHODS, target_value, cap_phrase, clearance_history)
+    peak_index = int(history.rate_norm.argmax())
+    sampled = slice(None, None, substeps)
+    position_error, rotation_error = solver(arm, resolved_task).task_errors(joints[sampled], poses)
+    best_value, best_q = (
+        _find_best_motion(arm, objective, resolved_task, poses, time, rate_cap, spacing, seed, resolved_clearance, margin)
+        if best
+        else (None, None)
+    )
+    plain_options: dict[str, Any] = {
+        "minimise": minimise,
+        "maximise": maximise,
+        "rate_cap": rate_cap,
+        "task": resolved_task,
+        "q": start,
+    }
+    plain_options |= {"samples": samples, "limits": limits, "damping": damping, "seed": seed}
+    plain_options |= {"clearance": resolved_clearance, "margin": margin}
+    trajectory = Trajectory(
         arm=arm,
-        task=chosen,
+        task=resolved_task,
         objective=objective,
         method=law.name if method != "none" else "least-norm rates",
         gain=gain,
         seed=seed,
         rate_cap=rate_cap,
         time=time,
-        q=joints[few],
-        qd=rates[few],
-        qdd=np.gradient(rates[few], time, axis=0, edge_order=2),
+        q=joints[sampled],
+        qd=rates[sampled],
+        qdd=np.gradient(rates[sampled], time, axis=0, edge_order=2),
         poses=poses,
         position_error=position_error,
         rotation_error=rotation_error,
-        value=course.value[few],
-        curvature=course.curvature[few],
-        self_motion=shares[few, 0],
-        task_share=shares[few, 1],
-        damping=shares[few, 2],
+        value=history.value[sampled],
+        curvature=history.curvature[sampled],
+        self_motion=fractions[sampled, 0],
+        task_share=fractions[sampled, 1],
+        damping=fractions[sampled, 2],
         steps=len(joints) - 1,
-        peak_rate=float(course.rate_norm[fastest]),
-        peak_time=float(course.time[fastest]),
-        events=happened,
+        peak_rate=float(history.rate_norm[peak_index]),
+        peak_time=float(history.time[peak_index]),
+        events=events,
         best_value=best_value,
         best_path=best_q,
         torque_bound=torque_bound,
-        clear_of=kept,
+        clear_of=resolved_clearance,
         margin=margin,
-        _plain=None if method == "none" else partial(follow, arm, path, method="none", **alike),
+        _plain=None if method == "none" else partial(follow, arm, path, method="none", **plain_options),
     )
     if torque_bound is not None:
-        found.slowness(torque_bound)  # it may be refused
-    return found
+        trajectory.slowness(torque_bound)  # it may be refused
+    return trajectory
 
 
-def _course(
+def _motion_history(
     arm: Arm,
     objective: Objective,
     curvature: Curvature,
     duration: float,
     joints: Array,
     rates: Array,
-    shares: Array,
+    fractions: Array,
     limits: bool,
-) -> Course:
+) -> MotionHistory:
     at_limit = {
-        joint.name: limits & ((joints[:, k] <= joint.lower + _AT) | (joints[:, k] >= joint.upper - _AT))
-        for k, joint in enumerate(arm.joints)
+        joint.name: limits
+        & ((joints[:, index] <= joint.lower + _LIMIT_TOLERANCE) | (joints[:, index] >= joint.upper - _LIMIT_TOLERANCE))
+        for index, joint in enumerate(arm.joints)
     }
-    return Course(
+    return MotionHistory(
         np.linspace(0.0, duration, len(joints)),
         np.asarray(objective(joints)),
         curvature.smallest(joints),
         np.linalg.norm(rates, axis=1),
-        shares[:, 0],
-        shares[:, 1],
-        shares[:, 2],
+        fractions[:, 0],
+        fractions[:, 1],
+        fractions[:, 2],
         at_limit,
     )
 
 
-def _objective(minimise: Objective | None, maximise: Objective | None) -> Objective:
+def _read_objective(minimise: Objective | None, maximise: Objective | None) -> Objective:
     if (minimise is None) == (maximise is None):
         raise InputError("give exactly one of minimise and maximise")
     if minimise is not None:
@@ -234,59 +247,60 @@ def _objective(minimise: Objective | None, maximise: Objective | None) -> Object
     return maximise if maximise.better == "larger" else maximise.reversed()
 
 
-def _start(
+def _find_start(
     arm: Arm,
     objective: Objective,
     task: Task,
-    first: Array,
+    first_pose: Array,
     q: ArrayLike | None,
     seed: int,
-    kept: Clearance | None,
+    clearance: Clearance | None,
     margin: float,
 ) -> Array:
-    """Where to start: given, or the best configuration of the first pose."""
+    """Return the start configuration: the given one, or the best configuration of the first pose."""
     if q is None:
-        found = optimise(arm, first, objective, seed=seed, task=task, clearance=kept, margin=margin)
-        if not found.success and kept is not None:
-            found.require_ok()
-        if not found.success:
+        optimum = optimise(arm, first_pose, objective, seed=seed, task=task, clearance=clearance, margin=margin)
+        if not optimum.success and clearance is not None:
+            optimum.require_ok()
+        if not optimum.success:
             raise HoldfastError(
                 f"no configuration of '{arm.name}' was found for the first pose of the path, within its joint limits: move the "
                 "path, prescribe fewer rows, or widen the limits"
             )
-        return found.q
+        return optimum.q
     start = arm.check_configurations(q)
     if start.ndim != 1 or not np.isfinite(start).all():
         raise InputError(f"the start q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
     engine = solver(arm, task)
-    position, rotation = (float(x[0]) for x in engine.errors(start[None], first[None]))
-    if not engine.verdict(start[None], first[None], 1e-3)[0]:
+    position_error, rotation_error = (float(error[0]) for error in engine.task_errors(start[None], first_pose[None]))
+    if not engine.check_solutions(start[None], first_pose[None], 1e-3)[0]:
         raise InputError(
-            f"the start q is {position:.3g} m and {rotation:.3g} rad from the first pose of the path, or outside the joint "
+            f"the start q is {position_error:.3g} m and {rotation_error:.3g} rad from the first pose of the path, or "
+            f"outside the joint "
             "limits; leave it out to have one found"
         )
-    if kept is not None and float(kept.room(start)) < margin:
-        raise InputError(f"at the start q the arm {kept.too_close(margin, start)}; leave it out to have one found")
+    if clearance is not None and float(clearance.margin_left(start)) < margin:
+        raise InputError(f"at the start q the arm {clearance.too_close(margin, start)}; leave it out to have one found")
     return start
 
 
-def _gain(method: str, curvature: Curvature, poses: Array, step: float, seed: int) -> float:
-    """A gain with which the self-motion settles in a few steps, without overshooting."""
-    rate = 1 / (_SETTLE * step)
+def _choose_gain(method: str, curvature: Curvature, poses: Array, step: float, seed: int) -> float:
+    """Choose a gain with which the self-motion settles in a few steps, without overshooting."""
+    rate = 1 / (_SETTLING_STEPS * step)
     if method != "gradient-projection":
         return rate
-    chosen = poses[np.linspace(0, len(poses) - 1, _PROBES).astype(int)]
-    reach = solve_ik(curvature.objective.arm, chosen, seed, task=curvature.task, restarts=20)
-    some = reach.q[reach.success]
-    if not len(some):
+    probed_poses = poses[np.linspace(0, len(poses) - 1, _GAIN_PROBES).astype(int)]
+    solutions = solve_ik(curvature.objective.arm, probed_poses, seed, task=curvature.task, restarts=20)
+    configurations = solutions.q[solutions.success]
+    if not len(configurations):
         return 0.0
-    matrices = curvature(some)[1]
-    size = np.abs(np.linalg.eigvalsh(matrices[np.isfinite(matrices).all(axis=(1, 2))])).max(axis=1, initial=0.0)
-    typical = float(np.quantile(size, 0.9)) if size.size else 0.0
+    matrices = curvature(configurations)[1]
+    curvatures = np.abs(np.linalg.eigvalsh(matrices[np.isfinite(matrices).all(axis=(1, 2))])).max(axis=1, initial=0.0)
+    typical = float(np.quantile(curvatures, 0.9)) if curvatures.size else 0.0
     return rate / typical if typical > 0 else 0.0
 
 
-def _best(
+def _find_best_motion(
     arm: Arm,
     objective: Objective,
     task: Task,
@@ -295,26 +309,26 @@ def _best(
     rate_cap: float | None,
     spacing: float,
     seed: int,
-    kept: Clearance | None,
+    clearance: Clearance | None,
     margin: float,
 ) -> tuple[Array, Array]:
-    """Best value of each pose and the best continuous motion, on a coarser grid of poses, brought back to all samples.
+    """Return the best value of each pose and the best continuous motion, interpolated from a coarser grid of poses.
 
     Of configurations that are clear, if that is asked for.
     """
     sign = -1.0 if objective.better == "larger" else 1.0
-    few = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _GRID)).astype(int))
-    fastest = np.array([j.velocity for j in arm.joints])
+    grid_index = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _TRACED_POSES)).astype(int))
+    velocity_limits = np.array([joint.velocity for joint in arm.joints])
     if rate_cap is not None:
-        fastest = np.minimum(fastest, rate_cap)
+        velocity_limits = np.minimum(velocity_limits, rate_cap)
     # Where a joint has no limit, the path's own default says what counts as continuous.
-    limit = fastest * float(np.diff(time[few]).max()) if np.isfinite(fastest).all() else None
+    rate_limit = velocity_limits * float(np.diff(time[grid_index]).max()) if np.isfinite(velocity_limits).all() else None
 
-    def cost(q: Array) -> Array:
+    def evaluate_cost(q: Array) -> Array:
         value = sign * np.asarray(objective(q))
-        return value if kept is None else np.where(kept.room(q) >= margin, value, np.nan)
+        return value if clearance is None else np.where(clearance.margin_left(q) >= margin, value, np.nan)
 
-    found = best_path(arm, poses[few], cost, task=task, spacing=spacing, rate_limit=limit, seed=seed)
-    values = np.interp(time, time[few], sign * found.global_value)
-    motion = np.stack([np.interp(time, time[few], column) for column in found.q.T], axis=1)
+    fibre_path = best_path(arm, poses[grid_index], evaluate_cost, task=task, spacing=spacing, rate_limit=rate_limit, seed=seed)
+    values = np.interp(time, time[grid_index], sign * fibre_path.global_value)
+    motion = np.stack([np.interp(time, time[grid_index], column) for column in fibre_path.q.T], axis=1)
     return values, motion

@@ -1,4 +1,4 @@
-"""The result of following a path: joints over time, what it cost, and what happened on the way."""
+"""The result of tracking a path: joints over time, errors, objective values, and events."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError, StoreError
-from holdfast.files.output import guarded, writing
-from holdfast.files.spreadsheet import cell
-from holdfast.indices.objective import Objective, Opposite, WeightedSum
+from holdfast.files.output import guard_writing, open_replacement
+from holdfast.files.spreadsheet import escape_cell
+from holdfast.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.motion.slowness import SlowMotion, slow_enough
 from holdfast.paths.joint_table import motion_columns
@@ -25,12 +25,12 @@ from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-ON_PATH = 1e-4  # m and rad
+PATH_TOLERANCE = 1e-4  # m and rad
 
 
 @dataclass(frozen=True, kw_only=True)
 class Event:
-    """Something that happened along a path.
+    """An event along a path.
 
     Attributes:
         kind: ``algorithmic singularity``, ``not at an extremum``, ``fast motion``, ``zero cost``, ``value not kept``,
@@ -110,70 +110,70 @@ class Trajectory(Result):
 
     @property
     def rate_norm(self) -> Array:
-        """(T,) norm of the joint rates, rad/s (prismatic joints in m/s)."""
+        """Norm of the joint rates, (T,) rad/s (prismatic joints in m/s)."""
         return np.asarray(np.linalg.norm(self.qd, axis=1))
 
     @cached_property
     def clearance(self) -> Array | None:
-        """(T,) smallest distance from what the motion keeps clear of, m; a lower bound for objects. None if nobody looked."""
+        """Smallest distance to the checked obstacles and links, (T,) m; a lower bound for objects. None if not checked."""
         return None if self.clear_of is None else self.clear_of(self.q)
 
     @property
     def nearest(self) -> tuple[int, str] | None:
-        """The sample of the smallest clearance and the pair that has it, ``joint3 & table``; None if there is no pair."""
+        """Sample of the smallest clearance and its pair, ``joint3 & table``; None if there is no pair."""
         if self.clear_of is None or self.clearance is None or not self.clear_of.pair_names:
             return None
-        k = int(self.clearance.argmin())
-        return k, self.clear_of.pair_names[int(self.clear_of.by_pair(self.q[k]).argmin())]
+        sample = int(self.clearance.argmin())
+        return sample, self.clear_of.pair_names[int(self.clear_of.by_pair(self.q[sample]).argmin())]
 
     @cached_property
     def without(self) -> Trajectory | None:
-        """The same path from the same start with least-norm rates: without the objective. None if this is such a motion."""
+        """The same path from the same start with least-norm rates; None if this motion has no objective."""
         return None if self._plain is None else self._plain()
 
     @property
     def worst(self) -> float:
-        """The worst value of the objective on the way."""
+        """Worst value of the objective along the path."""
         return float(self.value.max() if self.objective.better == "smaller" else self.value.min())
 
     @property
     def on_path(self) -> bool:
         """True if the end effector never left its path by more than 0.1 mm and 0.1 mrad."""
-        return bool(np.nanmax(self.position_error) <= ON_PATH and np.nanmax(self.rotation_error) <= ON_PATH)
+        return bool(np.nanmax(self.position_error) <= PATH_TOLERANCE and np.nanmax(self.rotation_error) <= PATH_TOLERANCE)
 
     @property
     def tool_error(self) -> str:
-        """The largest error of the end effector in what the task prescribes, for people."""
+        """Largest error of the end effector in the components that the task prescribes, as text."""
         rows = self.task.rows
         parts = []
-        for error, unit, used in ((self.position_error, "mm", rows[:, :3]), (self.rotation_error, "mrad", rows[:, 3:])):
-            if np.any(used):
-                most = 1000 * float(np.nanmax(error))
-                shown = f"{most:.0f}" if most >= 100 else f"{most:.3g}" if most >= 1e-3 else "less than 0.001"
-                parts.append(f"{shown} {unit}")
+        for error, unit, rows_used in ((self.position_error, "mm", rows[:, :3]), (self.rotation_error, "mrad", rows[:, 3:])):
+            if np.any(rows_used):
+                largest = 1000 * float(np.nanmax(error))
+                number_text = f"{largest:.0f}" if largest >= 100 else f"{largest:.3g}" if largest >= 1e-3 else "less than 0.001"
+                parts.append(f"{number_text} {unit}")
         return " and ".join(parts)
 
     @property
     def headline(self) -> str:
-        """Whether the end effector stayed on its path, and if not, when it left and how far it got from it."""
+        """Sentence on whether the end effector stayed on its path, and if not, when it left and how far."""
         if self.on_path:
             return f"the end effector stays on its path, off it by {self.tool_error}"
-        off = (self.position_error > ON_PATH) | (self.rotation_error > ON_PATH)
-        slowed = {"end effector slowed", "near a singularity"}
-        why = [e.kind for e in self.events if e.kind in slowed or e.kind == "joint limit"]
-        reason = f" ({', '.join(dict.fromkeys(why))})" if why else ""
+        is_off_path = (self.position_error > PATH_TOLERANCE) | (self.rotation_error > PATH_TOLERANCE)
+        slowing_kinds = {"end effector slowed", "near a singularity"}
+        causes = [event.kind for event in self.events if event.kind in slowing_kinds or event.kind == "joint limit"]
+        reason = f" ({', '.join(dict.fromkeys(causes))})" if causes else ""
         return (
-            f"THE END EFFECTOR LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s, by up to {self.tool_error}, "
-            f"for {off.mean():.0%} of the time{reason}"
+            f"THE END EFFECTOR LEAVES ITS PATH at {self.time[is_off_path.argmax()]:.4g} s, by up to {self.tool_error}, "
+            f"for {is_off_path.mean():.0%} of the time{reason}"
         )
 
     @property
     def by_joint(self) -> dict[str, Array]:
         """Measures of the failure of each joint, (T, n) signed, of every susceptibility in the objective, by its name."""
-        return {m.slug: m.by_joint(self.q) for m in susceptibilities(self.objective)}
+        return {measure.slug: measure.by_joint(self.q) for measure in find_susceptibilities(self.objective)}
 
     def torques(self, time_scale: float = 1.0) -> Array:
-        """Torques (T, n) of the whole dynamics, viscous friction included, N m and N, with time stretched by a factor.
+        """Compute torques (T, n) of the whole dynamics with viscous friction, N m and N, with time stretched by a factor.
 
         Source: English and Maciejewski 1998, eq. (5).
 
@@ -186,7 +186,7 @@ class Trajectory(Result):
         return self.arm.inverse_dynamics(self.q, self.qd / time_scale, self.qdd / time_scale**2)
 
     def columns(self) -> dict[str, Array]:
-        """Named columns (T,) of the table that files hold: time, joints, rates, accelerations, errors, objective."""
+        """Return the columns (T,) of the exported table by name: time, joints, rates, accelerations, errors, objective."""
         table = {"time_s": self.time}
         for names, values in zip(motion_columns(self.arm), (self.q, self.qd, self.qdd), strict=True):
             table |= dict(zip(names, values.T, strict=True))
@@ -197,7 +197,7 @@ class Trajectory(Result):
             "self_motion_fraction": self.self_motion,
             "task_fraction": self.task_share,
         }
-        for measure in susceptibilities(self.objective):
+        for measure in find_susceptibilities(self.objective):
             for joint, unit, column in zip(self.arm.joints, measure.joint_unit, measure.by_joint(self.q).T, strict=True):
                 table[f"{joint.name}_{measure.slug}_{unit}"] = column
         if self.best_value is not None:
@@ -213,10 +213,10 @@ class Trajectory(Result):
             StoreError: The file cannot be written.
         """
         table = self.columns()
-        with writing(Path(path), "motion") as file:
+        with open_replacement(Path(path), "motion") as file:
             writer = csv.writer(file)
-            writer.writerow(map(cell, table))
-            writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
+            writer.writerow(map(escape_cell, table))
+            writer.writerows(zip(*[[repr(float(number)) for number in column] for column in table.values()], strict=True))
         return Path(path)
 
     def to_parquet(self, path: str | Path) -> Path:
@@ -229,25 +229,25 @@ class Trajectory(Result):
             import pyarrow
             from pyarrow import parquet
 
-            with guarded(Path(path), "motion", "choose another path"):
+            with guard_writing(Path(path), "motion", "choose another path"):
                 parquet.write_table(pyarrow.table(self.columns()), Path(path))
         except ImportError as error:
             raise StoreError(f"'{path}': Parquet needs pyarrow; install holdfast[parquet], or write CSV") from error
         return Path(path)
 
     def slowness(self, bound: float) -> list[SlowMotion]:
-        """How slow each joint asks the motion to be, n of them: see :func:`holdfast.motion.slow_enough`.
+        """Check for each of the n joints how slow the motion must be: see :func:`holdfast.motion.slow_enough`.
 
         Args:
             bound: Of ``|torque - gravity torque|``, N m and N, of every joint.
 
         Source: English and Maciejewski 1998, eq. (6).
         """
-        each = np.where(np.eye(self.arm.n) > 0, bound, np.inf)
-        return [slow_enough(self.arm, self.q, self.qd, qdd=self.qdd, bound=one) for one in each]
+        joint_bounds = np.where(np.eye(self.arm.n) > 0, bound, np.inf)
+        return [slow_enough(self.arm, self.q, self.qd, qdd=self.qdd, bound=joint_bound) for joint_bound in joint_bounds]
 
     def describe(self) -> list[str]:
-        """A few sentences for people: how far, how well, and what happened."""
+        """Describe the motion in sentences: its length, its quality, and its events."""
         lines = [
             f"{self.headline}; {self.method} on {self.arm.title}, {self.time[-1]:.4g} s, {len(self.time)} samples",
             f"{self.objective.name}: {self.value[0]:.4g} at the start, {self.value[-1]:.4g} at the end, "
@@ -255,18 +255,20 @@ class Trajectory(Result):
             f"largest norm of the joint rates {self.peak_rate:.4g} rad/s at {self.peak_time:.4g} s",
         ]
         if self.nearest is not None and self.clearance is not None:
-            k, pair = self.nearest
-            lines.append(f"smallest clearance {1000 * self.clearance[k]:.4g} mm ({pair}) at {self.time[k]:.4g} s")
-        return lines + [e.text for e in self.events]
+            sample, pair = self.nearest
+            lines.append(f"smallest clearance {1000 * self.clearance[sample]:.4g} mm ({pair}) at {self.time[sample]:.4g} s")
+        return lines + [event.text for event in self.events]
 
 
-def susceptibilities(objective: Objective) -> list[Susceptibility]:
-    """Those an objective is made of; of two of one kind the first."""
-    if isinstance(objective, Opposite):
-        return susceptibilities(objective.objective)
-    parts = [o for _, o in objective.terms] if isinstance(objective, WeightedSum) else [objective]
-    found: dict[str, Susceptibility] = {}
+def find_susceptibilities(objective: Objective) -> list[Susceptibility]:
+    """Find the susceptibilities that an objective contains; of two of one kind the first."""
+    if isinstance(objective, NegatedObjective):
+        return find_susceptibilities(objective.objective)
+    parts = [term for _, term in objective.terms] if isinstance(objective, WeightedSum) else [objective]
+    by_slug: dict[str, Susceptibility] = {}
     for part in parts:
-        for measure in [part] if isinstance(part, Susceptibility) else susceptibilities(part) if part is not objective else []:
-            found.setdefault(measure.slug, measure)
-    return list(found.values())
+        for measure in (
+            [part] if isinstance(part, Susceptibility) else find_susceptibilities(part) if part is not objective else []
+        ):
+            by_slug.setdefault(measure.slug, measure)
+    return list(by_slug.values())

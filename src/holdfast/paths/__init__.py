@@ -1,4 +1,4 @@
-"""What the end effector should do: lines, arcs and sequences of poses, and how fast."""
+"""Motions of the end effector: lines, arcs, and sequences of poses, with their timing."""
 
 from holdfast._lazy import offer
 

@@ -9,23 +9,23 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.poses import check_poses, rotation_vectors, rotations_of_vectors
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.timing import Trapezoid
-from holdfast.result import Shown
+from holdfast.result import Presentable
 
 Array = NDArray[np.float64]
 
-_FARTHEST = 1e12  # m; beyond, squares overflow
-_SAME = 1e-12  # m and rad: poses closer than this are one pose
-_SMOOTH = 1e-9  # relative jump of the twist below which a corner is none
+_MAX_COORDINATE = 1e12  # m; beyond, squares overflow
+_EQUAL_POSE_TOLERANCE = 1e-12  # m and rad: poses closer than this are one pose
+_CORNER_TOLERANCE = 1e-9  # relative jump of the twist below which a corner is none
 
 
 @dataclass(frozen=True, eq=False)
-class Path(Shown):
-    """A path of the end effector, ``s`` from 0 to 1, made of L legs. Use :func:`line`, :func:`arc` or :func:`sequence`.
+class Path(Presentable):
+    """Path of the end effector, ``s`` from 0 to 1, that consists of L legs. Use :func:`line`, :func:`arc`, or :func:`sequence`.
 
     On a leg, with u from 0 to 1, the position is ``center + exp(u sweep) (p0 - center) + u shift`` and the orientation
     ``exp(u turn) R0``: both at constant speed, about axes that stay still in the world. The speed is the same on all
@@ -51,121 +51,132 @@ class Path(Shown):
     name: str = "path"
 
     @cached_property
-    def _sizes(self) -> tuple[Array, Array]:
-        """(L,) way of the end effector, m, and turn, rad, of each leg."""
-        around = np.linalg.norm(np.cross(self.sweep, self.starts[:, :3, 3] - self.center), axis=1)
-        return np.hypot(np.linalg.norm(self.shift, axis=1), around), np.linalg.norm(self.turn, axis=1)
+    def _leg_sizes(self) -> tuple[Array, Array]:
+        """Travel of the end effector, m, and rotation, rad, of each leg, (L,) each."""
+        arc_lengths = np.linalg.norm(np.cross(self.sweep, self.starts[:, :3, 3] - self.center), axis=1)
+        return np.hypot(np.linalg.norm(self.shift, axis=1), arc_lengths), np.linalg.norm(self.turn, axis=1)
 
     @property
     def length(self) -> float:
-        """Way of the end effector, m; of a path on which the end effector only turns, rad."""
-        moved = float(self._sizes[0].sum())
-        return moved if moved > _SAME else float(self._sizes[1].sum())
+        """Length of the end effector's path, m, or rad for a path on which the end effector only rotates."""
+        travel = float(self._leg_sizes[0].sum())
+        return travel if travel > _EQUAL_POSE_TOLERANCE else float(self._leg_sizes[1].sum())
 
     @cached_property
     def bounds(self) -> Array:
-        """(L + 1,) values of s at which the legs begin and end. A leg that only turns counts 1 rad as 1 m."""
-        moved, turned = self._sizes
-        ends = np.cumsum(np.where(moved > _SAME, moved, turned))
-        return np.concatenate([[0.0], ends[:-1] / ends[-1], [1.0]])
+        """Values (L + 1,) of s at which the legs begin and end; a leg that only rotates counts 1 rad as 1 m."""
+        travel, angles = self._leg_sizes
+        cumulative = np.cumsum(np.where(travel > _EQUAL_POSE_TOLERANCE, travel, angles))
+        return np.concatenate([[0.0], cumulative[:-1] / cumulative[-1], [1.0]])
 
     @cached_property
     def corners(self) -> Array:
-        """(C,) values of s, inside the path, at which the twist jumps."""
-        inner = self.bounds[1:-1]
-        before, after = self._twist(inner, np.arange(inner.size)), self._twist(inner, np.arange(1, inner.size + 1))
-        return np.asarray(inner[np.linalg.norm(after - before, axis=1) > _SMOOTH * np.linalg.norm(before, axis=1)])
+        """Values (C,) of s, inside the path, at which the twist jumps."""
+        junctions = self.bounds[1:-1]
+        twist_before, twist_after = (
+            self._leg_twist(junctions, np.arange(junctions.size)),
+            self._leg_twist(junctions, np.arange(1, junctions.size + 1)),
+        )
+        return np.asarray(
+            junctions[
+                np.linalg.norm(twist_after - twist_before, axis=1) > _CORNER_TOLERANCE * np.linalg.norm(twist_before, axis=1)
+            ]
+        )
 
     def pose(self, s: ArrayLike) -> Array:
-        """Pose of the end effector in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is NaN.
+        """Return the pose of the end effector in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is
+        NaN.
 
         Raises:
             InputError: An s outside 0 to 1.
         """
-        at = _share(s)
-        leg, u = self._place(np.atleast_1d(at))
-        start = self.starts[leg]
-        arm = start[:, :3, 3] - self.center[leg]
-        out = np.zeros((u.size, 4, 4))
-        out[:, :3, :3] = rotations_of_vectors(u[:, None] * self.turn[leg]) @ start[:, :3, :3]
-        around = _turned(u[:, None] * self.sweep[leg], arm)
+        parameters = _check_path_parameters(s)
+        leg, fractions = self._locate(np.atleast_1d(parameters))
+        start_pose = self.starts[leg]
+        radius_vectors = start_pose[:, :3, 3] - self.center[leg]
+        poses = np.zeros((fractions.size, 4, 4))
+        poses[:, :3, :3] = rotations_of_vectors(fractions[:, None] * self.turn[leg]) @ start_pose[:, :3, :3]
+        rotated = _rotate_points(fractions[:, None] * self.sweep[leg], radius_vectors)
         # The way from the start, so that a straight leg does not meet the rounding of a turn by 0.
-        out[:, :3, 3] = start[:, :3, 3] + (around - arm) + u[:, None] * self.shift[leg]
-        out[:, 3, 3] = 1.0
-        out[np.isnan(u)] = np.nan
-        return out.reshape((*at.shape, 4, 4))
+        poses[:, :3, 3] = start_pose[:, :3, 3] + (rotated - radius_vectors) + fractions[:, None] * self.shift[leg]
+        poses[:, 3, 3] = 1.0
+        poses[np.isnan(fractions)] = np.nan
+        return poses.reshape((*parameters.shape, 4, 4))
 
     def twist(self, s: ArrayLike) -> Array:
-        """Derivative of the pose by s, exact, (6,) or (N, 6): linear (m), then angular (rad), both in the world frame.
+        """Return the exact derivative of the pose by s, (6,) or (N, 6): linear (m), then angular (rad), both in the world
+        frame.
 
         It jumps at the :attr:`corners`, where it is that of the leg which begins there.
 
         Raises:
             InputError: An s outside 0 to 1.
         """
-        at = _share(s)
-        flat = np.atleast_1d(at)
-        return self._twist(flat, self._place(flat)[0]).reshape((*at.shape, 6))
+        parameters = _check_path_parameters(s)
+        flat_parameters = np.atleast_1d(parameters)
+        return self._leg_twist(flat_parameters, self._locate(flat_parameters)[0]).reshape((*parameters.shape, 6))
 
     def twist_slope(self, s: ArrayLike) -> Array:
-        """Derivative of :meth:`twist` by s, (6,) or (N, 6): 0 but on arcs, and nothing of the jumps at corners.
+        """Return the derivative of :meth:`twist` by s, (6,) or (N, 6), which is 0 except on arcs and ignores the jumps at
+        corners.
 
         Raises:
             InputError: An s outside 0 to 1.
         """
-        at = _share(s)
-        flat = np.atleast_1d(at)
-        leg = self._place(flat)[0]
-        share = np.diff(self.bounds)[leg, None]
-        out = np.zeros((flat.size, 6))
+        parameters = _check_path_parameters(s)
+        flat_parameters = np.atleast_1d(parameters)
+        leg = self._locate(flat_parameters)[0]
+        leg_fractions = np.diff(self.bounds)[leg, None]
+        derivative = np.zeros((flat_parameters.size, 6))
         # Of the linear part, shift stays as it is and the part that turns about the centre turns.
-        linear = self._twist(flat, leg)[:, :3] * share - self.shift[leg]
-        out[:, :3] = np.cross(self.sweep[leg], linear) / share**2
-        out[np.isnan(flat)] = np.nan
-        return out.reshape((*at.shape, 6))
+        linear = self._leg_twist(flat_parameters, leg)[:, :3] * leg_fractions - self.shift[leg]
+        derivative[:, :3] = np.cross(self.sweep[leg], linear) / leg_fractions**2
+        derivative[np.isnan(flat_parameters)] = np.nan
+        return derivative.reshape((*parameters.shape, 6))
 
     def describe(self) -> str:
-        """One sentence for people, m and degrees."""
-        moved, turned = (float(x.sum()) for x in self._sizes)
+        """Describe the path in one sentence, in m and degrees."""
+        travel, angle = (float(leg_values.sum()) for leg_values in self._leg_sizes)
         parts = []
-        if moved > _SAME:
-            bent = np.linalg.norm(self.sweep, axis=1) > 0
-            kind = "arc" if bent.all() else "straight" if not bent.any() else "arcs and lines"
-            parts.append(f"{moved:.4g} m ({kind})")
-        if turned > _SAME:
-            parts.append(f"a turn of {np.rad2deg(turned):.4g} deg")
+        if travel > _EQUAL_POSE_TOLERANCE:
+            is_arc = np.linalg.norm(self.sweep, axis=1) > 0
+            kind = "arc" if is_arc.all() else "straight" if not is_arc.any() else "arcs and lines"
+            parts.append(f"{travel:.4g} m ({kind})")
+        if angle > _EQUAL_POSE_TOLERANCE:
+            parts.append(f"a turn of {np.rad2deg(angle):.4g} deg")
         corners = f", {self.corners.size} corner{'s' * (self.corners.size != 1)}" if self.corners.size else ""
         return f"{' and '.join(parts)}{corners}{'' if self.oriented else '; positions only'}"
 
     @classmethod
-    @checked
+    @check_arguments
     def load(cls, file: str | pathlib.Path) -> Path:
-        """A path from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
+        """Return a path from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
 
         Raises:
             InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
         """
-        return in_file(file)[0]
+        return load_path_file(file)[0]
 
-    def _place(self, s: Array) -> tuple[NDArray[np.intp], Array]:
-        """Leg (N,) and u (N,) from 0 to 1 on it, of s (N,)."""
+    def _locate(self, s: Array) -> tuple[NDArray[np.intp], Array]:
+        """Return the leg (N,) and the parameter u (N,) from 0 to 1 on it, of s (N,)."""
         leg = np.clip(np.searchsorted(self.bounds, s, side="right") - 1, 0, len(self.starts) - 1)
         return leg, (s - self.bounds[leg]) / np.diff(self.bounds)[leg]
 
-    def _twist(self, s: Array, leg: NDArray[np.intp]) -> Array:
-        """As :meth:`twist`, on legs (N,) that s (N,) lies on or at the end of."""
-        share = np.diff(self.bounds)[leg]
-        u = (s - self.bounds[leg]) / share
-        around = _turned(u[:, None] * self.sweep[leg], self.starts[leg, :3, 3] - self.center[leg])
-        linear = self.shift[leg] + np.cross(self.sweep[leg], around)
-        out = np.concatenate([linear, self.turn[leg]], axis=1) / share[:, None]
-        out[np.isnan(s)] = np.nan
-        return out
+    def _leg_twist(self, s: Array, leg: NDArray[np.intp]) -> Array:
+        """Return :meth:`twist` on legs (N,) that contain s (N,) or end at it."""
+        leg_fractions = np.diff(self.bounds)[leg]
+        u = (s - self.bounds[leg]) / leg_fractions
+        rotated = _rotate_points(u[:, None] * self.sweep[leg], self.starts[leg, :3, 3] - self.center[leg])
+        linear = self.shift[leg] + np.cross(self.sweep[leg], rotated)
+        twists = np.concatenate([linear, self.turn[leg]], axis=1) / leg_fractions[:, None]
+        twists[np.isnan(s)] = np.nan
+        return twists
 
 
-@checked
+@check_arguments
 def line(start: ArrayLike, end: ArrayLike, name: str = "line") -> Path:
-    """A straight line of the end effector; the orientation turns at constant speed about one axis, the short way round.
+    """Return a straight line of the end effector; the orientation rotates at constant speed about one axis, by the smaller
+    angle.
 
     Args:
         start: (4, 4) pose in the world, or (3,) position, m.
@@ -178,9 +189,9 @@ def line(start: ArrayLike, end: ArrayLike, name: str = "line") -> Path:
     return sequence([start, end], name)
 
 
-@checked
+@check_arguments
 def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> Path:
-    """Straight lines from pose to pose, without a stop and without rounding: the twist jumps at the corners.
+    """Return straight lines from pose to pose, without stops and without blends: the twist jumps at the corners.
 
     A real arm cannot do that at full speed; :class:`holdfast.paths.TimedPath` with ``stop=True`` stops at each corner.
 
@@ -192,20 +203,20 @@ def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> 
     Raises:
         InputError: Not poses or positions, too few, or two that follow each other are the same.
     """
-    t, oriented = _poses(poses)
-    if len(t) < 2:
-        raise InputError(f"a path needs 2 poses or more, got {len(t)}")
-    turn = _turns(t)
-    shift = np.diff(t[:, :3, 3], axis=0)
-    size = np.maximum(np.linalg.norm(shift, axis=1), np.linalg.norm(turn, axis=1))
-    if (size <= _SAME).any():
-        k = int(np.argmax(size <= _SAME))
-        raise InputError(f"poses {k} and {k + 1} of the path (from 0) are the same; leave one of them out")
-    none = np.zeros_like(shift)
-    return Path(t[:-1], shift, t[:-1, :3, 3], sweep=none, turn=turn, oriented=oriented, name=name)
+    matrices, oriented = _as_poses(poses)
+    if len(matrices) < 2:
+        raise InputError(f"a path needs 2 poses or more, got {len(matrices)}")
+    rotations = _rotations_between(matrices)
+    shift = np.diff(matrices[:, :3, 3], axis=0)
+    leg_sizes = np.maximum(np.linalg.norm(shift, axis=1), np.linalg.norm(rotations, axis=1))
+    if (leg_sizes <= _EQUAL_POSE_TOLERANCE).any():
+        index = int(np.argmax(leg_sizes <= _EQUAL_POSE_TOLERANCE))
+        raise InputError(f"poses {index} and {index + 1} of the path (from 0) are the same; leave one of them out")
+    no_sweep = np.zeros_like(shift)
+    return Path(matrices[:-1], shift, matrices[:-1, :3, 3], sweep=no_sweep, turn=rotations, oriented=oriented, name=name)
 
 
-@checked
+@check_arguments
 def arc(
     start: ArrayLike,
     via: ArrayLike | None = None,
@@ -217,7 +228,7 @@ def arc(
     turning: bool = False,
     name: str = "arc",
 ) -> Path:
-    """An arc of a circle: either through three points, or from a start about an axis.
+    """Return an arc of a circle, either through three points, or from a start about an axis.
 
     Args:
         start: (4, 4) pose in the world, or (3,) position, m.
@@ -233,121 +244,138 @@ def arc(
     Raises:
         InputError: Neither of the two forms, points on a line or the same, an axis or angle of 0, or a start on the axis.
     """
-    three, about = (via, end), (center, axis, angle)
-    if all(x is not None for x in three) and all(x is None for x in about) and not turning:
+    point_arguments, axis_arguments = (via, end), (center, axis, angle)
+    if (
+        all(argument is not None for argument in point_arguments)
+        and all(argument is None for argument in axis_arguments)
+        and not turning
+    ):
         assert via is not None
         assert end is not None
         return _arc_through(start, via, end, name)
-    if all(x is None for x in three) and all(x is not None for x in about):
+    if all(argument is None for argument in point_arguments) and all(argument is not None for argument in axis_arguments):
         assert center is not None
         assert axis is not None
         assert angle is not None
-        return _arc_about(start, _three(center, "center"), _three(axis, "axis"), float(angle), turning, name)
+        return _arc_about(start, _as_vector(center, "center"), _as_vector(axis, "axis"), float(angle), turning, name)
     raise InputError("an arc needs either via and end, or center, axis and angle (and turning, if the tool turns with it)")
 
 
 def _arc_through(start: ArrayLike, via: ArrayLike, end: ArrayLike, name: str) -> Path:
-    t, oriented = _poses([start, via, end])
-    a, b, c = t[:, :3, 3]
-    ab, ac = b - a, c - a
-    normal = np.cross(ab, ac)
-    size = max(float(np.linalg.norm(ab)), float(np.linalg.norm(ac)), float(np.linalg.norm(c - b)))
-    if np.linalg.norm(normal) <= 1e-9 * size**2 or size <= _SAME:
+    matrices, oriented = _as_poses([start, via, end])
+    first, middle, last = matrices[:, :3, 3]
+    first_chord, second_chord = middle - first, last - first
+    normal = np.cross(first_chord, second_chord)
+    longest_chord = max(
+        float(np.linalg.norm(first_chord)), float(np.linalg.norm(second_chord)), float(np.linalg.norm(last - middle))
+    )
+    if np.linalg.norm(normal) <= 1e-9 * longest_chord**2 or longest_chord <= _EQUAL_POSE_TOLERANCE:
         raise InputError("the three points of the arc lie on a line or are the same; give three points of one circle")
     # Circumcentre of a triangle, from its corner a.
-    center = a + np.cross(normal, ab * (ac @ ac) - ac * (ab @ ab)) / (2 * (normal @ normal))
+    center = first + np.cross(
+        normal, first_chord * (second_chord @ second_chord) - second_chord * (first_chord @ first_chord)
+    ) / (2 * (normal @ normal))
     axis = normal / np.linalg.norm(normal)
-    sweep = np.array([axis * _angle_about(axis, p - center, q - center) for p, q in ((a, b), (b, c))])
-    turn = _turns(t)
-    none = np.zeros((2, 3))
-    return Path(t[:-1], none, np.array([center, center]), sweep=sweep, turn=turn, oriented=oriented, name=name)
+    sweep = np.array(
+        [
+            axis * _angle_about(axis, from_point - center, to_point - center)
+            for from_point, to_point in ((first, middle), (middle, last))
+        ]
+    )
+    rotations = _rotations_between(matrices)
+    no_shift = np.zeros((2, 3))
+    return Path(matrices[:-1], no_shift, np.array([center, center]), sweep=sweep, turn=rotations, oriented=oriented, name=name)
 
 
 def _arc_about(start: ArrayLike, center: Array, axis: Array, angle: float, turning: bool, name: str) -> Path:
-    t, oriented = _poses([start])
+    matrices, oriented = _as_poses([start])
     length = float(np.linalg.norm(axis))
-    if length <= _SAME or not np.isfinite(angle) or abs(angle) <= _SAME:
+    if length <= _EQUAL_POSE_TOLERANCE or not np.isfinite(angle) or abs(angle) <= _EQUAL_POSE_TOLERANCE:
         raise InputError(f"the arc has axis {axis.tolist()} and angle {angle:g} rad; neither may be 0, and both must be finite")
     sweep = axis / length * angle
-    if np.linalg.norm(np.cross(sweep, t[0, :3, 3] - center)) <= _SAME:
+    if np.linalg.norm(np.cross(sweep, matrices[0, :3, 3] - center)) <= _EQUAL_POSE_TOLERANCE:
         raise InputError("the start of the arc lies on its axis; move the center away from it")
     if turning and not oriented:
         raise InputError("an arc that turns the end effector must start from a pose (4, 4), not from a position")
-    turn = sweep if turning else np.zeros(3)
-    return Path(t, np.zeros((1, 3)), center[None], sweep=sweep[None], turn=turn[None], oriented=oriented, name=name)
+    rotation = sweep if turning else np.zeros(3)
+    return Path(matrices, np.zeros((1, 3)), center[None], sweep=sweep[None], turn=rotation[None], oriented=oriented, name=name)
 
 
-def _angle_about(axis: Array, p: Array, q: Array) -> float:
-    """Angle from p to q about the axis, above 0 and below 2 pi."""
-    return float(np.arctan2(axis @ np.cross(p, q), p @ q) % (2 * np.pi))
+def _angle_about(axis: Array, from_vector: Array, to_vector: Array) -> float:
+    """Return the angle from the first to the second vector about the axis, above 0 and below 2 pi."""
+    return float(np.arctan2(axis @ np.cross(from_vector, to_vector), from_vector @ to_vector) % (2 * np.pi))
 
 
-def _turns(t: Array) -> Array:
-    """Rotation vectors (N - 1, 3), world frame, from each pose to the next, the short way round."""
-    r = t[:, :3, :3]
-    return rotation_vectors(r[1:] @ r[:-1].transpose(0, 2, 1))
+def _rotations_between(poses: Array) -> Array:
+    """Return rotation vectors (N - 1, 3), world frame, from each pose to the next, by the smaller angle."""
+    rotations = poses[:, :3, :3]
+    return rotation_vectors(rotations[1:] @ rotations[:-1].transpose(0, 2, 1))
 
 
-def _turned(vectors: Array, points: Array) -> Array:
-    """Points (N, 3) turned by rotation vectors (N, 3)."""
+def _rotate_points(vectors: Array, points: Array) -> Array:
+    """Return points (N, 3) rotated by rotation vectors (N, 3)."""
     return np.asarray((rotations_of_vectors(vectors) @ points[:, :, None])[:, :, 0])
 
 
-def _poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:
-    """Poses (N, 4, 4), and whether any orientation was given."""
+def _as_poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:
+    """Return poses (N, 4, 4), and whether any orientation was given."""
     try:
-        given = [np.asarray(value, dtype=np.float64) for value in values]  # type: ignore[union-attr]
+        arrays = [np.asarray(value, dtype=np.float64) for value in values]  # type: ignore[union-attr]
     except (TypeError, ValueError) as error:
         raise InputError("a path needs poses (4, 4) or positions (3,), all of them numbers") from error
-    out = np.tile(np.eye(4), (len(given), 1, 1))
-    whole = np.zeros(len(given), dtype=bool)
-    for k, value in enumerate(given):
+    poses = np.tile(np.eye(4), (len(arrays), 1, 1))
+    has_orientation = np.zeros(len(arrays), dtype=bool)
+    for index, value in enumerate(arrays):
         if value.shape not in ((3,), (4, 4)) or not np.isfinite(value).all():
-            raise InputError(f"pose {k} of the path has shape {value.shape}; it must be (4, 4) or (3,), finite numbers")
-        if np.abs(value).max() > _FARTHEST:
-            raise InputError(f"pose {k} of the path holds {np.abs(value).max():.3g}; numbers must be at most {_FARTHEST:g}")
-        whole[k] = value.shape == (4, 4)
-        if whole[k]:
-            out[k] = check_poses(value)[0]
+            raise InputError(f"pose {index} of the path has shape {value.shape}; it must be (4, 4) or (3,), finite numbers")
+        if np.abs(value).max() > _MAX_COORDINATE:
+            raise InputError(
+                f"pose {index} of the path holds {np.abs(value).max():.3g}; numbers must be at most {_MAX_COORDINATE:g}"
+            )
+        has_orientation[index] = value.shape == (4, 4)
+        if has_orientation[index]:
+            poses[index] = check_poses(value)[0]
         else:
-            out[k, :3, 3] = value
-    if whole.any():
-        known = np.flatnonzero(whole)
-        source = known[np.maximum(np.searchsorted(known, np.arange(len(given)), side="right") - 1, 0)]
-        out[:, :3, :3] = out[source, :3, :3]
-    return out, bool(whole.any())
+            poses[index, :3, 3] = value
+    if has_orientation.any():
+        oriented_indices = np.flatnonzero(has_orientation)
+        source_indices = oriented_indices[
+            np.maximum(np.searchsorted(oriented_indices, np.arange(len(arrays)), side="right") - 1, 0)
+        ]
+        poses[:, :3, :3] = poses[source_indices, :3, :3]
+    return poses, bool(has_orientation.any())
 
 
-def _three(value: ArrayLike, what: str) -> Array:
+def _as_vector(value: ArrayLike, label: str) -> Array:
     try:
-        a = np.asarray(value, dtype=np.float64)
+        array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
-        a = np.zeros(0)
-    if a.shape != (3,) or not np.isfinite(a).all():
-        raise InputError(f"{what} of the arc is {value!r}; it must be 3 finite numbers")
-    return a
+        array = np.zeros(0)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise InputError(f"{label} of the arc is {value!r}; it must be 3 finite numbers")
+    return array
 
 
-def _share(s: ArrayLike) -> Array:
-    a = real_numbers(s, "s")
-    if a.ndim > 1:
-        raise InputError(f"s has shape {a.shape}; it must be one number or (N,)")
-    if ((a < -1e-9) | (a > 1 + 1e-9)).any():
-        raise InputError(f"s is {float(np.nanmin(a)):g} to {float(np.nanmax(a)):g}; it must lie from 0 to 1")
-    return np.asarray(np.clip(a, 0.0, 1.0))
+def _check_path_parameters(s: ArrayLike) -> Array:
+    array = require_real_numbers(s, "s")
+    if array.ndim > 1:
+        raise InputError(f"s has shape {array.shape}; it must be one number or (N,)")
+    if ((array < -1e-9) | (array > 1 + 1e-9)).any():
+        raise InputError(f"s is {float(np.nanmin(array)):g} to {float(np.nanmax(array)):g}; it must lie from 0 to 1")
+    return np.asarray(np.clip(array, 0.0, 1.0))
 
 
-def in_file(file: str | pathlib.Path) -> tuple[Path, Trapezoid | None, bool]:
-    """The path in a file, its timing if it has one, and whether to stop at corners.
+def load_path_file(file: str | pathlib.Path) -> tuple[Path, Trapezoid | None, bool]:
+    """Return the path in a file, its timing if it has one, and whether to stop at corners.
 
     Raises:
         InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
     """
-    from holdfast.paths.path_file import read
+    from holdfast.paths.path_file import parse_path_file
 
-    shape, given, timing, stop = read(named := pathlib.Path(file))
-    make: dict[str, Callable[..., Path]] = {"line": line, "arc": arc, "sequence": sequence}
+    shape_name, arguments, timing, stop = parse_path_file(path_object := pathlib.Path(file))
+    constructors: dict[str, Callable[..., Path]] = {"line": line, "arc": arc, "sequence": sequence}
     try:
-        return make[shape](**given), None if timing is None else Trapezoid(**timing), stop
+        return constructors[shape_name](**arguments), None if timing is None else Trapezoid(**timing), stop
     except InputError as error:
-        raise InputError(f"path file '{named}': {error}") from error
+        raise InputError(f"path file '{path_object}': {error}") from error

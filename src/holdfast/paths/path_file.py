@@ -1,4 +1,4 @@
-"""Path files: YAML, validated.
+"""Read and validate path files in YAML.
 
 .. code-block:: yaml
 
@@ -37,125 +37,135 @@ from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
 from holdfast.files import reading
-from holdfast.files.yaml import Four, Number, Strict, Three, content, sentence
+from holdfast.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
 
 Array = NDArray[np.float64]
 
 Shape = Literal["line", "arc", "sequence"]
-POSITION, ORIENTATION = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
+POSITION_COLUMNS, QUATERNION_COLUMNS = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
 
 
-def read(path: pathlib.Path) -> tuple[Shape, dict[str, Any], dict[str, float] | None, bool]:
-    """The shape of the path in a file and its arguments; those of its timing, if it has one; whether to stop at corners.
+def parse_path_file(path: pathlib.Path) -> tuple[Shape, dict[str, Any], dict[str, float] | None, bool]:
+    """Return the shape of the path in a file and its arguments, those of its timing if it has one, and whether to stop at
+    corners.
 
     Raises:
         InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
     """
     try:
-        model = _PathFile.model_validate(content(path, "holdfast.paths.path_file", "line, arc or poses"))
+        model = _PathFile.model_validate(read_mapping(path, "holdfast.paths.path_file", "line, arc or poses"))
         timing = model.timing
         if timing is None:
-            return *_path(model, path), None, False
-        return *_path(model, path), timing.model_dump(exclude={"stop"}), timing.stop
+            return *_path_arguments(model, path), None, False
+        return *_path_arguments(model, path), timing.model_dump(exclude={"stop"}), timing.stop
     except ValidationError as error:
-        raise InputError(f"path file '{path}': {sentence(error, _PathFile, TAGS)}") from error
+        raise InputError(f"path file '{path}': {describe_error(error, _PathFile, POSE_LIST_TAGS)}") from error
     except InputError as error:
         raise InputError(f"path file '{path}': {error}") from error
 
 
-class _Pose(Strict):
+class _PoseEntry(Strict):
     xyz: Three
     urdf_rpy: Three | None = None
     quaternion: Four | None = None
 
 
-class _Line(Strict):
-    start: _Pose = Field(alias="from")
-    to: _Pose
+class _LineEntry(Strict):
+    start: _PoseEntry = Field(alias="from")
+    to: _PoseEntry
 
 
-class _Arc(Strict):
-    start: _Pose = Field(alias="from")
-    via: _Pose | None = None
-    to: _Pose | None = None
+class _ArcEntry(Strict):
+    start: _PoseEntry = Field(alias="from")
+    via: _PoseEntry | None = None
+    to: _PoseEntry | None = None
     center: Three | None = None
     axis: Three | None = None
     angle: Number | None = None
     turning: bool = False
 
 
-class _Timing(Strict):
+class _TimingEntry(Strict):
     duration: Number
     accelerate: Number = 0.2
     decelerate: Number = 0.2
     stop: bool = False
 
 
-TAGS = ("as a list", "as a file")
+POSE_LIST_TAGS = ("as a list", "as a file")
 
 
 class _PathFile(Strict):
     name: str | None = None
     angles: Literal["deg", "rad"] = "rad"
-    line: _Line | None = None
-    arc: _Arc | None = None
+    line: _LineEntry | None = None
+    arc: _ArcEntry | None = None
     poses: (
         Annotated[
-            Annotated[list[_Pose], Tag(TAGS[0])] | Annotated[str, Tag(TAGS[1])],
-            Discriminator(lambda value: TAGS[1] if isinstance(value, str) else TAGS[0]),
+            Annotated[list[_PoseEntry], Tag(POSE_LIST_TAGS[0])] | Annotated[str, Tag(POSE_LIST_TAGS[1])],
+            Discriminator(lambda value: POSE_LIST_TAGS[1] if isinstance(value, str) else POSE_LIST_TAGS[0]),
         ]
         | None
     ) = None
-    timing: _Timing | None = None
+    timing: _TimingEntry | None = None
 
 
-def _path(model: _PathFile, file: pathlib.Path) -> tuple[Shape, dict[str, Any]]:
-    unit = np.pi / 180 if model.angles == "deg" else 1.0
+def _path_arguments(model: _PathFile, file: pathlib.Path) -> tuple[Shape, dict[str, Any]]:
+    radians_per_unit = np.pi / 180 if model.angles == "deg" else 1.0
     name = model.name or file.stem
-    if sum(x is not None for x in (model.line, model.arc, model.poses)) != 1:
+    if sum(entry is not None for entry in (model.line, model.arc, model.poses)) != 1:
         raise InputError("it must hold one of 'line:', 'arc:' and 'poses:'")
     if model.line is not None:
-        first, last = _pose(model.line.start, unit, "line.from"), _pose(model.line.to, unit, "line.to")
-        return "line", {"start": first, "end": last, "name": name}
+        start_pose, end_pose = (
+            _pose_array(model.line.start, radians_per_unit, "line.from"),
+            _pose_array(model.line.to, radians_per_unit, "line.to"),
+        )
+        return "line", {"start": start_pose, "end": end_pose, "name": name}
     if model.arc is not None:
-        a = model.arc
-        via, end = (None if p is None else _pose(p, unit, f"arc.{key}") for key, p in (("via", a.via), ("to", a.to)))
-        angle = None if a.angle is None else a.angle * unit
-        start = _pose(a.start, unit, "arc.from")
-        given = {"start": start, "via": via, "end": end, "center": a.center, "axis": a.axis, "angle": angle}
-        return "arc", {**given, "turning": a.turning, "name": name}
+        arc = model.arc
+        via, end = (
+            None if pose_entry is None else _pose_array(pose_entry, radians_per_unit, f"arc.{field_name}")
+            for field_name, pose_entry in (("via", arc.via), ("to", arc.to))
+        )
+        angle = None if arc.angle is None else arc.angle * radians_per_unit
+        arc_start = _pose_array(arc.start, radians_per_unit, "arc.from")
+        arguments = {"start": arc_start, "via": via, "end": end, "center": arc.center, "axis": arc.axis, "angle": angle}
+        return "arc", {**arguments, "turning": arc.turning, "name": name}
     if isinstance(model.poses, str):
-        return "sequence", {"poses": pose_table(file.parent / model.poses), "name": name}
+        return "sequence", {"poses": read_pose_table(file.parent / model.poses), "name": name}
     assert model.poses is not None
-    return "sequence", {"poses": [_pose(p, unit, f"poses[{k}]") for k, p in enumerate(model.poses)], "name": name}
+    return "sequence", {
+        "poses": [_pose_array(pose_entry, radians_per_unit, f"poses[{index}]") for index, pose_entry in enumerate(model.poses)],
+        "name": name,
+    }
 
 
-def _pose(pose: _Pose, unit: float, place: str) -> Array:
-    """(4, 4), or (3,) where there is no orientation."""
+def _pose_array(pose: _PoseEntry, radians_per_unit: float, location: str) -> Array:
+    """Return a pose (4, 4), or a position (3,) without an orientation."""
     if pose.urdf_rpy is not None and pose.quaternion is not None:
-        raise InputError(f"{place}: it has both urdf_rpy and quaternion; give one of them")
+        raise InputError(f"{location}: it has both urdf_rpy and quaternion; give one of them")
     if pose.urdf_rpy is not None:
-        return _whole(pose.xyz, rpy_rotation([angle * unit for angle in pose.urdf_rpy]))
+        return _assemble_pose(pose.xyz, rpy_rotation([angle * radians_per_unit for angle in pose.urdf_rpy]))
     if pose.quaternion is not None:
-        return _whole(pose.xyz, _rotation(np.array(pose.quaternion), place))
+        return _assemble_pose(pose.xyz, _rotation_matrix(np.array(pose.quaternion), location))
     return np.array(pose.xyz)
 
 
-def _whole(xyz: list[float] | Array, rotation: Array) -> Array:
-    out = np.eye(4)
-    out[:3, :3], out[:3, 3] = rotation, xyz
-    return out
+def _assemble_pose(xyz: list[float] | Array, rotation: Array) -> Array:
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = rotation, xyz
+    return pose
 
 
-def _rotation(quaternion: Array, place: str) -> Array:
-    size = float(np.linalg.norm(quaternion))
-    if not abs(size - 1) < 1e-2:  # files may round
-        raise InputError(f"{place}: the quaternion (x, y, z, w) has length {size:g}; it must be 1")
+def _rotation_matrix(quaternion: Array, location: str) -> Array:
+    norm = float(np.linalg.norm(quaternion))
+    if not abs(norm - 1) < 1e-2:  # files may round
+        raise InputError(f"{location}: the quaternion (x, y, z, w) has length {norm:g}; it must be 1")
     return rotations_of_quaternions(quaternion)
 
 
-def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
-    """Poses of a CSV file, one a line below the names of the columns.
+def read_pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
+    """Return the poses of a CSV file, one per line below the names of the columns.
 
     Args:
         file: The first line is ``x,y,z`` or ``x,y,z,qx,qy,qz,qw``, in any order; m, world.
@@ -168,25 +178,29 @@ def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
         InputError: What is wrong with which row.
     """
     try:
-        with reading.guarded(f"{option}: '{file.name}'", "give a CSV file that exists"):
-            lines = [[cell.strip() for cell in row] for row in csv.reader(reading.text(file).splitlines()) if row]
+        with reading.guard_reading(f"{option}: '{file.name}'", "give a CSV file that exists"):
+            lines = [[cell.strip() for cell in row] for row in csv.reader(reading.read_text(file).splitlines()) if row]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{option}: '{file.name}' is not a CSV file ({error})") from error
     names = tuple(lines[0]) if lines else ()
-    if sorted(names) not in (sorted(POSITION), sorted(POSITION + ORIENTATION)):
+    if sorted(names) not in (sorted(POSITION_COLUMNS), sorted(POSITION_COLUMNS + QUATERNION_COLUMNS)):
         raise InputError(
             f"{option}: the first line of '{file.name}' must be x,y,z or x,y,z,qx,qy,qz,qw; it is {','.join(names)}"
         )
     poses = []
-    for k, cells in enumerate(lines[1:]):
-        place = f"{option}: '{file.name}', row {k + 1}"
+    for index, cells in enumerate(lines[1:]):
+        location = f"{option}: '{file.name}', row {index + 1}"
         try:
             row = dict(zip(names, map(float, cells), strict=True))
         except ValueError as error:
-            raise InputError(f"{place}: it must hold {len(names)} numbers, got {','.join(cells)}") from error
+            raise InputError(f"{location}: it must hold {len(names)} numbers, got {','.join(cells)}") from error
         if not np.isfinite(list(row.values())).all():
-            raise InputError(f"{place}: it holds NaN or infinity; all numbers must be finite")
-        xyz = np.array([row[x] for x in POSITION])
-        whole = len(names) > 3
-        poses.append(_whole(xyz, _rotation(np.array([row[x] for x in ORIENTATION]), place)) if whole else xyz)
+            raise InputError(f"{location}: it holds NaN or infinity; all numbers must be finite")
+        position = np.array([row[column] for column in POSITION_COLUMNS])
+        has_orientation = len(names) > 3
+        poses.append(
+            _assemble_pose(position, _rotation_matrix(np.array([row[column] for column in QUATERNION_COLUMNS]), location))
+            if has_orientation
+            else position
+        )
     return poses

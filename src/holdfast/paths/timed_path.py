@@ -1,4 +1,4 @@
-"""A path with its timing: what a controller follows."""
+"""Path with its timing, for a controller to follow."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, checked_class, real_numbers
+from holdfast.arguments import check_arguments, check_constructor, require_real_numbers
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
-from holdfast.paths.path import Path, in_file
+from holdfast.paths.path import Path, load_path_file
 from holdfast.paths.timing import Timing, Trapezoid
-from holdfast.result import Shown
+from holdfast.result import Presentable
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class _Slowed:
+class _SlowedTiming:
     timing: Timing
     factor: float
 
@@ -39,8 +39,8 @@ class _Slowed:
 
 
 @dataclass(frozen=True, eq=False)
-class _Stopping:
-    """A timing for each part between corners: times in proportion to the ways."""
+class _StoppingTiming:
+    """Timing that applies another timing to each part between corners; durations are proportional to lengths."""
 
     timing: Timing
     stops: Array  # (K + 1,) values of s, from 0 to 1
@@ -49,28 +49,28 @@ class _Stopping:
     def duration(self) -> float:
         return self.timing.duration
 
-    def _part(self, t: Array) -> tuple[Array, Array, Array]:
-        """Last stop (a value of s), share of the part that runs, and time in the timing's own scale."""
-        part = np.clip(np.searchsorted(self.stops, t / self.duration, side="right") - 1, 0, self.stops.size - 2)
-        begin, share = self.stops[part], np.diff(self.stops)[part]
-        return begin, share, (t - begin * self.duration) / share
+    def _locate_part(self, t: Array) -> tuple[Array, Array, Array]:
+        """Return the last stop (a value of s), the fraction of the current part, and the time in the timing's own scale."""
+        index = np.clip(np.searchsorted(self.stops, t / self.duration, side="right") - 1, 0, self.stops.size - 2)
+        part_start, fraction = self.stops[index], np.diff(self.stops)[index]
+        return part_start, fraction, (t - part_start * self.duration) / fraction
 
     def s(self, t: Array) -> Array:
-        begin, share, local = self._part(t)
-        return begin + share * self.timing.s(local)
+        part_start, fraction, local_time = self._locate_part(t)
+        return part_start + fraction * self.timing.s(local_time)
 
     def rate(self, t: Array) -> Array:
-        return self.timing.rate(self._part(t)[2])
+        return self.timing.rate(self._locate_part(t)[2])
 
     def acceleration(self, t: Array) -> Array:
-        _, share, local = self._part(t)
-        return self.timing.acceleration(local) / share
+        _, fraction, local_time = self._locate_part(t)
+        return self.timing.acceleration(local_time) / fraction
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True, eq=False)
-class TimedPath(Shown):
-    """A path and how it is run through: what a controller follows.
+class TimedPath(Presentable):
+    """Path with its timing, for a controller to follow.
 
     Attributes:
         path: The path.
@@ -84,53 +84,57 @@ class TimedPath(Shown):
     stop: bool = False
 
     @cached_property
-    def _timing(self) -> Timing:
+    def _effective_timing(self) -> Timing:
         if not self.stop or not self.path.corners.size:
             return self.timing
-        return _Stopping(self.timing, np.concatenate([[0.0], self.path.corners, [1.0]]))
+        return _StoppingTiming(self.timing, np.concatenate([[0.0], self.path.corners, [1.0]]))
 
     @property
     def duration(self) -> float:
-        """Seconds."""
+        """Duration in seconds."""
         return float(self.timing.duration)
 
     def pose(self, t: ArrayLike) -> Array:
-        """Tool pose in the world at time t, s: (4, 4), or (N, 4, 4) for t (N,). Before 0 and after the end it is still."""
-        return self.path.pose(self._shares(_times(t)))
+        """Return the tool pose in the world at time t, s: (4, 4), or (N, 4, 4) for t (N,); constant before 0 and
+        after the end.
+        """
+        return self.path.pose(self._path_parameters(_check_times(t)))
 
     def twist(self, t: ArrayLike) -> Array:
-        """Twist (6,) or (N, 6): linear, m/s, then angular, rad/s, both in the world frame; 0 before 0 and after the end."""
-        at = _times(t)
-        return self.path.twist(self._shares(at)) * self._column(self._timing.rate, at)
+        """Return the twist (6,) or (N, 6): linear, m/s, then angular, rad/s, both in the world frame; 0 before 0 and after the
+        end.
+        """
+        times = _check_times(t)
+        return self.path.twist(self._path_parameters(times)) * self._evaluate_column(self._effective_timing.rate, times)
 
     def twist_rate(self, t: ArrayLike) -> Array:
-        """Derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2; nothing of the jumps at corners."""
-        at = _times(t)
-        s, rate, acceleration = (
-            self._shares(at),
-            self._column(self._timing.rate, at),
-            self._column(self._timing.acceleration, at),
+        """Return the derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2, without the jumps at corners."""
+        times = _check_times(t)
+        parameters, rate, acceleration = (
+            self._path_parameters(times),
+            self._evaluate_column(self._effective_timing.rate, times),
+            self._evaluate_column(self._effective_timing.acceleration, times),
         )
-        return self.path.twist_slope(s) * rate**2 + self.path.twist(s) * acceleration
+        return self.path.twist_slope(parameters) * rate**2 + self.path.twist(parameters) * acceleration
 
     def slowed(self, factor: float) -> TimedPath:
-        """The same motion ``factor`` times as long: twists are divided by it, their rates by its square.
+        """Return the same motion ``factor`` times as long: twists are divided by the factor, their rates by its square.
 
         Raises:
             InputError: A factor that is not above 0.
         """
         if not (np.isfinite(factor) and factor > 0):
             raise InputError(f"factor is {factor:g}; it must be above 0 (2: half as fast)")
-        return TimedPath(self.path, _Slowed(self.timing, float(factor)), self.stop)
+        return TimedPath(self.path, _SlowedTiming(self.timing, float(factor)), self.stop)
 
     def describe(self) -> str:
-        """One sentence for people."""
+        """Describe the path and its timing in one sentence."""
         return f"{self.path.describe()}, in {self.duration:.4g} s{', with a stop at each corner' if self.stop else ''}"
 
     @classmethod
-    @checked
+    @check_arguments
     def load(cls, file: str | pathlib.Path, duration: float | None = None) -> TimedPath:
-        """A path with its timing from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
+        """Return a path with its timing from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
 
         Args:
             file: The file.
@@ -139,7 +143,7 @@ class TimedPath(Shown):
         Raises:
             InputError: Unreadable, without timing, or a key that is unknown, missing or wrong; the message names it.
         """
-        path, timing, stop = in_file(file)
+        path, timing, stop = load_path_file(file)
         if duration is not None:
             timing = Trapezoid(duration) if timing is None else replace(timing, duration=duration)
         if timing is None:
@@ -149,15 +153,15 @@ class TimedPath(Shown):
             )
         return cls(path, timing, stop)
 
-    def _shares(self, t: Array) -> Array:
-        return np.asarray(self._timing.s(np.atleast_1d(t))).reshape(t.shape)
+    def _path_parameters(self, t: Array) -> Array:
+        return np.asarray(self._effective_timing.s(np.atleast_1d(t))).reshape(t.shape)
 
-    def _column(self, of: Callable[[Array], Array], t: Array) -> Array:
-        return np.asarray(of(np.atleast_1d(t))).reshape((*t.shape, 1))
+    def _evaluate_column(self, function: Callable[[Array], Array], t: Array) -> Array:
+        return np.asarray(function(np.atleast_1d(t))).reshape((*t.shape, 1))
 
 
-def _times(t: ArrayLike) -> Array:
-    a = real_numbers(t, "t")
-    if a.ndim > 1:
-        raise InputError(f"t has shape {a.shape}; it must be one time or (N,), s")
-    return a
+def _check_times(t: ArrayLike) -> Array:
+    array = require_real_numbers(t, "t")
+    if array.ndim > 1:
+        raise InputError(f"t has shape {array.shape}; it must be one time or (N,), s")
+    return array

@@ -1,4 +1,4 @@
-"""Timing: how a path is run through; knows no path."""
+"""Timing of a path, independent of its geometry."""
 
 from __future__ import annotations
 
@@ -8,40 +8,41 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 
 
 class Timing(Protocol):
-    """How s goes from 0 to 1. Any object with these members will do; each method takes t (N,), s, and gives (N,).
+    """Progress of s from 0 to 1. Any object with these members is accepted; each method takes t (N,), s, and returns (N,).
 
     At t below 0 or above the duration the end effector is at the start or the end.
     """
 
     @property
     def duration(self) -> float:
-        """Seconds."""
+        """Duration in seconds."""
         ...
 
     def s(self, t: Array) -> Array:
-        """Share of the path, 0 to 1."""
+        """Return the fraction of the path, 0 to 1."""
         ...
 
     def rate(self, t: Array) -> Array:
-        """ds/dt, 1/s."""
+        """Return ds/dt, 1/s."""
         ...
 
     def acceleration(self, t: Array) -> Array:
-        """d2s/dt2, 1/s^2; at a jump, the value behind it."""
+        """Return d2s/dt2, 1/s^2; at a jump, the value after it."""
         ...
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
 class Trapezoid:
-    """From rest to rest: the speed rises evenly, stays, and falls evenly. 20 %, 60 % and 20 % of the time by default.
+    """Motion from rest to rest: the speed rises linearly, stays constant, and falls linearly, by default for 20 %, 60 %, and 20
+    % of the time.
 
     Attributes:
         duration: s, above 0.
@@ -58,10 +59,11 @@ class Trapezoid:
     def __post_init__(self) -> None:
         if not (np.isfinite(self.duration) and self.duration > 0):
             raise InputError(f"timing: duration is {self.duration:g} s; it must be above 0")
-        up, down = self.accelerate, self.decelerate
-        if not (up >= 0 and down >= 0 and up + down <= 1 + 1e-12):
+        rise_fraction, fall_fraction = self.accelerate, self.decelerate
+        if not (rise_fraction >= 0 and fall_fraction >= 0 and rise_fraction + fall_fraction <= 1 + 1e-12):
             raise InputError(
-                f"timing: accelerate is {up:g} and decelerate {down:g}; they are shares of the time, together 0 to 1"
+                f"timing: accelerate is {rise_fraction:g} and decelerate {fall_fraction:g}; they are shares of the time, "
+                f"together 0 to 1"
             )
 
     @property
@@ -70,39 +72,39 @@ class Trapezoid:
         return 1 / (self.duration * (1 - (self.accelerate + self.decelerate) / 2))
 
     def s(self, t: Array) -> Array:
-        """Share of the path (N,) at t (N,)."""
-        rise, steady, fall = self._parts()
+        """Return the fraction of the path (N,) at t (N,)."""
+        rise, fall_start, fall = self._phase_times()
         # The area of the full rectangle, less what the two ramps lack of it.
-        x = np.clip(t, 0.0, self.duration)
-        first, last = np.minimum(x, rise), np.maximum(x - steady, 0.0)
-        lost = (first - first**2 / (2 * rise) if rise else 0.0) + (last**2 / (2 * fall) if fall else 0.0)
-        return np.where(t >= self.duration, 1.0, self.peak * (x - lost))
+        elapsed = np.clip(t, 0.0, self.duration)
+        rise_time, fall_time = np.minimum(elapsed, rise), np.maximum(elapsed - fall_start, 0.0)
+        deficit = (rise_time - rise_time**2 / (2 * rise) if rise else 0.0) + (fall_time**2 / (2 * fall) if fall else 0.0)
+        return np.where(t >= self.duration, 1.0, self.peak * (elapsed - deficit))
 
     def rate(self, t: Array) -> Array:
-        """ds/dt (N,), 1/s."""
-        rise, _, fall = self._parts()
-        up = t / rise if rise else 1.0
-        down = (self.duration - t) / fall if fall else 1.0
+        """Return ds/dt (N,), 1/s."""
+        rise, _, fall = self._phase_times()
+        rising = t / rise if rise else 1.0
+        falling = (self.duration - t) / fall if fall else 1.0
         inside = (t >= 0) & (t <= self.duration)
-        return _kept(t, self.peak * np.where(inside, np.minimum(1.0, np.minimum(up, down)), 0.0))
+        return _keep_nan(t, self.peak * np.where(inside, np.minimum(1.0, np.minimum(rising, falling)), 0.0))
 
     def acceleration(self, t: Array) -> Array:
-        """d2s/dt2 (N,), 1/s^2."""
-        rise, steady, fall = self._parts()
-        up = np.where((t >= 0) & (t < rise), 1 / rise if rise else 0.0, 0.0)
-        down = np.where((t >= steady) & (t < self.duration), 1 / fall if fall else 0.0, 0.0)
-        return _kept(t, self.peak * (up - down))
+        """Return d2s/dt2 (N,), 1/s^2."""
+        rise, fall_start, fall = self._phase_times()
+        rising = np.where((t >= 0) & (t < rise), 1 / rise if rise else 0.0, 0.0)
+        falling = np.where((t >= fall_start) & (t < self.duration), 1 / fall if fall else 0.0, 0.0)
+        return _keep_nan(t, self.peak * (rising - falling))
 
-    def _parts(self) -> tuple[float, float, float]:
-        """Seconds of the rise, when the fall begins, seconds of the fall."""
+    def _phase_times(self) -> tuple[float, float, float]:
+        """Return the duration of the rise, the time at which the fall begins, and the duration of the fall, in seconds."""
         fall = self.decelerate * self.duration
         return self.accelerate * self.duration, self.duration - fall, fall
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
 class Constant(Trapezoid):
-    """Constant speed from the first to the last moment.
+    """Motion at constant speed from start to end.
 
     Attributes:
         duration: s, above 0.
@@ -112,6 +114,6 @@ class Constant(Trapezoid):
     decelerate: float = field(default=0.0, init=False)
 
 
-def _kept(t: Array, value: Array) -> Array:
-    """NaN where t is: comparisons lose it."""
+def _keep_nan(t: Array, value: Array) -> Array:
+    """Return the values with NaN where t is NaN, because comparisons with NaN are False."""
     return np.where(np.isnan(t), np.nan, value)

@@ -1,4 +1,4 @@
-"""What needs MuJoCo: free swings, servos, the closed loop with masses."""
+"""Simulations with MuJoCo: free swings, servos, and the closed loop with masses."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""A simulated robot that is not quite its model: other masses, friction that the model does not state, and noisy sensors."""
+"""A simulated robot that differs from its model: other masses, friction that the model does not state, and noisy sensors."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.physics.model import mujoco_spec
+from holdfast.physics.model import build_mujoco_spec
 from holdfast.physics.servos import Servos
 
 Array = NDArray[np.float64]
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
 class Body:
-    """How a simulated robot differs from the model of its arm, and how well it measures itself.
+    """Differences between a simulated robot and the model of its arm, and the noise of its sensors.
 
     Attributes:
         seed: Of what differs: one robot has one, whatever it does.
@@ -73,36 +73,36 @@ class Body:
             HoldfastError: MuJoCo is not installed.
         """
         mujoco = import_mujoco()
-        model = _with_motors(arm, step=1 / (servos.rate * servos.substeps), rotor=self.rotor)
+        model = _build_motor_model(arm, step=1 / (servos.rate * servos.substeps), rotor=self.rotor)
         stiffness, damping = servos.gains(arm, mujoco, model, start=np.zeros(arm.n))
         model.actuator_biastype[:], model.actuator_biasprm[:, 2] = mujoco.mjtBias.mjBIAS_AFFINE, -damping
-        off = np.random.default_rng([1, self.seed])
-        model.body_mass[1:] *= (scale := 1 + off.uniform(-self.mismatch, self.mismatch, model.nbody - 1))
+        generator = np.random.default_rng([1, self.seed])
+        model.body_mass[1:] *= (scale := 1 + generator.uniform(-self.mismatch, self.mismatch, model.nbody - 1))
         model.body_inertia[1:] *= scale[:, None]
-        model.dof_frictionloss[:] = self.coulomb * (1 + off.uniform(-self.mismatch, self.mismatch, model.nv))
-        model.dof_damping[:] = self.viscous * (1 + off.uniform(-self.mismatch, self.mismatch, model.nv))
+        model.dof_frictionloss[:] = self.coulomb * (1 + generator.uniform(-self.mismatch, self.mismatch, model.nv))
+        model.dof_damping[:] = self.viscous * (1 + generator.uniform(-self.mismatch, self.mismatch, model.nv))
         return model, stiffness, damping
 
     def measured(self, poses: Array, rng: np.random.Generator) -> Array:
-        """Tool poses (N, 4, 4), as a measurement with noise tells them."""
+        """Return tool poses (N, 4, 4) as measured with noise."""
         from scipy.spatial.transform import Rotation
 
-        told = poses.copy()
-        told[:, :3, 3] += rng.normal(0, self.position, (len(poses), 3))
-        turned = Rotation.from_rotvec(rng.normal(0, self.angle, (len(poses), 3)))
-        told[:, :3, :3] = turned.as_matrix() @ poses[:, :3, :3]
-        return told
+        measured_poses = poses.copy()
+        measured_poses[:, :3, 3] += rng.normal(0, self.position, (len(poses), 3))
+        noise_rotation = Rotation.from_rotvec(rng.normal(0, self.angle, (len(poses), 3)))
+        measured_poses[:, :3, :3] = noise_rotation.as_matrix() @ poses[:, :3, :3]
+        return measured_poses
 
 
-def _with_motors(arm: Arm, *, step: float, rotor: float) -> Any:
+def _build_motor_model(arm: Arm, *, step: float, rotor: float) -> Any:
     """Build the ``mujoco.MjModel`` of an arm with a motor, whose control is its torque, at every joint."""
     mujoco = import_mujoco()
-    spec = mujoco_spec(arm, np.zeros(arm.n), range(arm.n), step=step)
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    model_spec = build_mujoco_spec(arm, np.zeros(arm.n), range(arm.n), step=step)
+    model_spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     for joint in arm.joints:
-        motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        motor = model_spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         if np.isfinite(joint.effort):
             motor.forcelimited, motor.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
-    model = spec.compile()
+    model = model_spec.compile()
     model.dof_armature[:] = [joint.armature or rotor for joint in arm.joints]
     return model

@@ -11,7 +11,7 @@ OBSERVER_RAD_S = 2 * np.pi * 20  # bandwidth with which an error of the joint se
 
 
 class Drives:
-    """Turns references into torques as the cascaded loops of a robot's drives do.
+    """The cascaded loops of a robot's drives, which turn references into torques.
 
     In each control cycle the position loop asks every motor for the torque
 
@@ -33,25 +33,27 @@ class Drives:
 
     def __init__(self, stiffness: Array, damping: Array, *, effort: Array, period: float) -> None:
         self.stiffness, self.damping, self._effort, self._period = stiffness, damping, effort, period
-        self._share = min(1.0, OBSERVER_RAD_S * period)
-        self.rate_error, self._error = np.zeros_like(stiffness), np.zeros_like(stiffness)
+        self._filter_fraction = min(1.0, OBSERVER_RAD_S * period)
+        self.rate_error, self._sensor_error = np.zeros_like(stiffness), np.zeros_like(stiffness)
 
     def sense(self, measured: Array, true: Array) -> None:
         """Update the rate error from measured and true positions (..., n) of this cycle, rad and m."""
         error = measured - true
-        self.rate_error = self.rate_error + self._share * ((error - self._error) / self._period - self.rate_error)
-        self._error = error
+        self.rate_error = self.rate_error + self._filter_fraction * (
+            (error - self._sensor_error) / self._period - self.rate_error
+        )
+        self._sensor_error = error
 
-    def command(self, reference: Array, rates: Array, measured: Array, *, gravity: Array, velocity: Array) -> Array:
+    def compute_command(self, reference: Array, rates: Array, measured: Array, *, gravity: Array, velocity: Array) -> Array:
         """Compute the controls (..., n) of the motors, N m and N, from which the drives subtract ``D`` times the velocity.
 
         The drive limits the sum to the effort before the motor makes a torque of it, so a weak motor is asked for no more
         than a healthy one.
         """
-        asked = self.stiffness * (reference - measured) + self.damping * (rates - self.rate_error) + gravity
-        damped = self.damping * velocity
-        return np.minimum(np.maximum(asked, damped - self._effort), damped + self._effort)
+        requested_torque = self.stiffness * (reference - measured) + self.damping * (rates - self.rate_error) + gravity
+        damping_torque = self.damping * velocity
+        return np.minimum(np.maximum(requested_torque, damping_torque - self._effort), damping_torque + self._effort)
 
-    def torque(self, command: Array, moved: Array) -> Array:
+    def compute_torque(self, command: Array, moved: Array) -> Array:
         """Compute the mean torque (..., n) of a cycle, N m and N, in which the joints moved (..., n), rad and m."""
         return np.clip(command - self.damping * (moved / self._period), -self._effort, self._effort)

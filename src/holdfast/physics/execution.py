@@ -1,4 +1,4 @@
-"""What became of a joint motion with bodies and motors: where the tool got to, what was kept, whether it is at rest."""
+"""The result of a joint motion with bodies and motors: tool error, constraint violations, limits, and rest."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from holdfast.clearance.contacts import Contact
 from holdfast.errors import HoldfastError
 from holdfast.failures import Degraded
 from holdfast.files.output import write_table
-from holdfast.keep.kept import WITHIN, Kept
+from holdfast.keep.kept import CONSTRAINT_TOLERANCE, ToolConstraint
 from holdfast.paths.joint_table import joint_columns
-from holdfast.physics.servos import Servos, lag, time_at_effort
+from holdfast.physics.servos import Servos, max_tracking_error, saturated_fraction
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Ended = Literal["finished", "stopped", "moving", "unstable"]
 
-BEYOND = 1e-3  # rad or m past a limit of position that servos may take
-_HARDLY = 1e-3  # mm or deg
-FASTER = 0.01  # of a speed limit: servos may be so much above it
+LIMIT_TOLERANCE = 1e-3  # rad or m past a limit of position that servos may take
+_MIN_SHOWN_ERROR = 1e-3  # mm or deg
+SPEED_TOLERANCE_FRACTION = 0.01  # of a speed limit: servos may be so much above it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -71,28 +71,28 @@ class Execution(Result):
     planned: Array
     torque: Array
     goal: Array | None = None
-    keep: tuple[Kept, ...] = ()
+    keep: tuple[ToolConstraint, ...] = ()
     contacts: tuple[Contact, ...] | None = None
     cell: Cell | None = None
     error_limit: tuple[float, float] | None = None
 
     @property
     def at(self) -> Array:
-        """(n,) where the arm is at the end, rad and m; with ``degraded`` what :func:`holdfast.recover` begins with."""
+        """(n,) configuration at the end, rad and m; with ``degraded`` the start of :func:`holdfast.recover`."""
         return np.asarray(self.q[-1])
 
     @cached_property
     def poses(self) -> Array:
-        """(T, 4, 4) of the end effector, m, world."""
+        """(T, 4, 4) poses of the end effector in the world, m."""
         return self.arm.forward_kinematics(self.q)
 
     @property
     def goal_distance(self) -> float | None:
-        """Between the tool point at the end and the goal, m; None without a goal."""
+        """Distance between the tool point at the end and the goal, m; None without a goal."""
         if self.goal is None:
             return None
-        wanted = self.goal[:3, 3] if self.goal.ndim == 2 else self.goal
-        return float(np.linalg.norm(self.poses[-1, :3, 3] - wanted))
+        goal_point = self.goal[:3, 3] if self.goal.ndim == 2 else self.goal
+        return float(np.linalg.norm(self.poses[-1, :3, 3] - goal_point))
 
     @property
     def goal_turn(self) -> float | None:
@@ -103,57 +103,57 @@ class Execution(Result):
 
     @property
     def there(self) -> bool:
-        """The tool is at the goal, within 1 mm and 0.5 deg; True without one."""
-        return (self.goal_distance or 0.0) <= WITHIN[0] and (self.goal_turn or 0.0) <= WITHIN[1]
+        """True if the tool is at the goal, within 1 mm and 0.5 deg, or if there is no goal."""
+        return (self.goal_distance or 0.0) <= CONSTRAINT_TOLERANCE[0] and (self.goal_turn or 0.0) <= CONSTRAINT_TOLERANCE[1]
 
     @cached_property
     def kept(self) -> tuple[tuple[float, float], ...]:
-        """Of each thing in ``keep`` how far off, m, and how far turned away, rad, the tool was at most."""
-        return tuple(one.farthest(self.poses) for one in self.keep)
+        """Largest position error, m, and orientation error, rad, of the tool for each constraint in ``keep``."""
+        return tuple(constraint.farthest(self.poses) for constraint in self.keep)
 
     @cached_property
     def broken(self) -> tuple[str, ...]:
-        """By how much what should be kept was broken, a phrase each; none if it was kept."""
-        return tuple(trouble for one in self.keep if (trouble := one.trouble(self.poses)))
+        """Violations of the constraints in ``keep``, a phrase each; none if all were satisfied."""
+        return tuple(violation for constraint in self.keep if (violation := constraint.trouble(self.poses)))
 
     @cached_property
     def beyond_limits(self) -> dict[str, float]:
         """Joints that were outside the limits in force by more than 1 mrad or 1 mm, by name, with the most, rad or m."""
-        over = np.zeros(self.arm.n)
-        for arm, part in self._in_force:
-            q = self.q[part]
-            over = np.maximum(over, np.maximum(arm.lower - q, q - arm.upper).max(axis=0, initial=0.0))
-        return {self.arm.joint_names[k]: float(over[k]) for k in np.flatnonzero(over > BEYOND)}
+        excess = np.zeros(self.arm.n)
+        for arm, samples in self._limits_in_force:
+            q = self.q[samples]
+            excess = np.maximum(excess, np.maximum(arm.lower - q, q - arm.upper).max(axis=0, initial=0.0))
+        return {self.arm.joint_names[joint]: float(excess[joint]) for joint in np.flatnonzero(excess > LIMIT_TOLERANCE)}
 
     @cached_property
     def too_fast(self) -> dict[str, float]:
         """Joints that were more than 1 % above the speed limit in force, by name, with their highest speed, rad/s or m/s."""
-        found: dict[str, float] = {}
-        for arm, part in self._in_force:
-            most = np.abs(self.rates[part]).max(axis=0, initial=0.0)
-            for joint, speed in zip(arm.joints, most, strict=True):
-                if speed > joint.velocity * (1 + FASTER):
-                    found[joint.name] = max(float(speed), found.get(joint.name, 0.0))
-        return found
+        speed_by_joint: dict[str, float] = {}
+        for arm, samples in self._limits_in_force:
+            peak_speeds = np.abs(self.rates[samples]).max(axis=0, initial=0.0)
+            for joint, speed in zip(arm.joints, peak_speeds, strict=True):
+                if speed > joint.velocity * (1 + SPEED_TOLERANCE_FRACTION):
+                    speed_by_joint[joint.name] = max(float(speed), speed_by_joint.get(joint.name, 0.0))
+        return speed_by_joint
 
     @property
-    def _in_force(self) -> list[tuple[Arm, slice]]:
-        """Arms with the limits in force, and in which rows: what is degraded is so from the first lock on."""
+    def _limits_in_force(self) -> list[tuple[Arm, slice]]:
+        """Arms with the limits in force and their samples; the degraded limits hold from the first lock on."""
         if self.degraded is None:
             return [(self.arm, slice(None))]
-        first = float(self.lock_time.min())
-        k = int(np.searchsorted(self.time, first - 1e-9)) if np.isfinite(first) else 0
-        return [(self.arm, slice(k)), (self.degraded.limited, slice(k, None))]
+        first_lock = float(self.lock_time.min())
+        sample = int(np.searchsorted(self.time, first_lock - 1e-9)) if np.isfinite(first_lock) else 0
+        return [(self.arm, slice(sample)), (self.degraded.limited, slice(sample, None))]
 
     @cached_property
     def locked(self) -> NDArray[np.bool_]:
-        """(T, n) True where a joint is locked."""
+        """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.lock_time - 1e-9)
 
     @property
     def tracking_error(self) -> Array:
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
-        return lag(self.q, self.reference, self.locked)
+        return max_tracking_error(self.q, self.reference, self.locked)
 
     @cached_property
     def following_error(self) -> Array:
@@ -165,79 +165,95 @@ class Execution(Result):
         """The joint that first exceeds the limit of the following error, by name, and when, s; None if none does."""
         if self.error_limit is None:
             return None
-        share = self.following_error / np.where(self.arm.prismatic, self.error_limit[1], self.error_limit[0])
-        late = np.flatnonzero((share > 1).any(axis=1))
-        return (self.arm.joint_names[int(share[late[0]].argmax())], float(self.time[late[0]])) if late.size else None
+        error_fraction = self.following_error / np.where(self.arm.prismatic, self.error_limit[1], self.error_limit[0])
+        exceeding = np.flatnonzero((error_fraction > 1).any(axis=1))
+        return (
+            (self.arm.joint_names[int(error_fraction[exceeding[0]].argmax())], float(self.time[exceeding[0]]))
+            if exceeding.size
+            else None
+        )
 
     @cached_property
     def tool_error(self) -> tuple[Array, Array]:
         """Distance (T,) between the measured and the planned tool point, m, and the angle (T,) between the two tools, rad."""
         planned = self.arm.forward_kinematics(self.planned)
-        turned = rotation_vectors(self.poses[:, :3, :3] @ planned[:, :3, :3].transpose(0, 2, 1))
-        return np.linalg.norm(self.poses[:, :3, 3] - planned[:, :3, 3], axis=1), np.linalg.norm(turned, axis=1)
+        rotations = rotation_vectors(self.poses[:, :3, :3] @ planned[:, :3, :3].transpose(0, 2, 1))
+        return np.linalg.norm(self.poses[:, :3, 3] - planned[:, :3, 3], axis=1), np.linalg.norm(rotations, axis=1)
 
     @property
     def saturated(self) -> Array:
-        """(n,) share of the time for which the motor of each joint was at its effort while the joint was healthy."""
-        return time_at_effort(self.arm, self.torque, self.locked)
+        """(n,) fraction of the time for which the motor of each joint was torque-saturated while the joint was healthy."""
+        return saturated_fraction(self.arm, self.torque, self.locked)
 
     @property
     def ok(self) -> bool:
-        """The motion was finished, the tool is at the goal, everything was kept, limits too, and nothing was touched."""
-        whole = self.outcome == "finished" and self.there and not self.broken
-        return whole and not self.beyond_limits and not self.too_fast and not self.contacts and self.exceeded is None
+        """True if the motion was finished at the goal without violated constraints, exceeded limits, or contacts."""
+        is_complete = self.outcome == "finished" and self.there and not self.broken
+        return is_complete and not self.beyond_limits and not self.too_fast and not self.contacts and self.exceeded is None
 
     def require_ok(self) -> Execution:
-        """Itself, or :class:`holdfast.HoldfastError` with what went wrong."""
+        """Return the execution, or raise :class:`holdfast.HoldfastError` with its faults."""
         if not self.ok:
             raise HoldfastError(f"execution: {'; '.join(self.faults())}")
         return self
 
     def faults(self) -> list[str]:
-        """What keeps it from being ``ok``, a phrase each."""
-        found = [] if self.outcome == "finished" else [_ENDS[self.outcome]]
+        """Return the reasons for which the execution is not ``ok``, a phrase each."""
+        phrases = [] if self.outcome == "finished" else [_OUTCOME_TEXTS[self.outcome]]
         if not self.there:
-            found.append(f"the tool is {self._miss()} off the goal")
-        found += [f"the tool was {trouble}" for trouble in self.broken]
-        found += [f"{name} was {x:.3g} {self._unit(name)} outside its limits" for name, x in self.beyond_limits.items()]
-        found += [f"{name} moved at {x:.4g} {self._unit(name)}/s, too fast" for name, x in self.too_fast.items()]
+            phrases.append(f"the tool is {self._format_goal_error()} off the goal")
+        phrases += [f"the tool was {violation}" for violation in self.broken]
+        phrases += [
+            f"{joint_name} was {value:.3g} {self._joint_unit(joint_name)} outside its limits"
+            for joint_name, value in self.beyond_limits.items()
+        ]
+        phrases += [
+            f"{joint_name} moved at {value:.4g} {self._joint_unit(joint_name)}/s, too fast"
+            for joint_name, value in self.too_fast.items()
+        ]
         if self.exceeded is not None and self.error_limit is not None:
             joint = self.arm.joints[self.arm.joint_index(self.exceeded[0])]
             factor, unit = joint.shown
             limit = factor * self.error_limit[joint.prismatic]
-            found.append(f"the following error first exceeds {limit:.4g} {unit} at {self.exceeded[1]:.4g} s, in {joint.name}")
-        return found + [contact.sentence() for contact in self.contacts or ()]
+            phrases.append(f"the following error first exceeds {limit:.4g} {unit} at {self.exceeded[1]:.4g} s, in {joint.name}")
+        return phrases + [contact.sentence() for contact in self.contacts or ()]
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        lines = [f"{self.arm.title}, {self.servos.describe()}, on MuJoCo: {_ENDS[self.outcome]} after {self.time[-1]:.3g} s"]
-        for k in np.flatnonzero(np.isfinite(self.lock_time) & (self.lock_time <= self.time[-1])):
-            joint, when = self.arm.joints[k], self.lock_time[k]
+        """Return the outcome of the execution in a few sentences."""
+        lines = [
+            f"{self.arm.title}, {self.servos.describe()}, on MuJoCo: {_OUTCOME_TEXTS[self.outcome]} after {self.time[-1]:.3g} s"
+        ]
+        for index in np.flatnonzero(np.isfinite(self.lock_time) & (self.lock_time <= self.time[-1])):
+            joint, lock_time = self.arm.joints[index], self.lock_time[index]
             factor, unit = joint.shown
-            since = f"locked at {when:.4g} s" if when > 0 else "locked"
-            lines.append(f"{joint.name} {since}, at {factor * self.at[k]:.4g} {unit}")
+            lock_text = f"locked at {lock_time:.4g} s" if lock_time > 0 else "locked"
+            lines.append(f"{joint.name} {lock_text}, at {factor * self.at[index]:.4g} {unit}")
         if self.noticed <= self.time[-1]:
             lines.append(f"the controller noticed at {self.noticed:.4g} s and slowed down")
         if self.goal is not None:
-            lines.append(f"the tool is {self._miss()} off the goal")
-        away, angle = (np.stack([error.max(), error[-1]]) for error in self.tool_error)
-        most, last = (f"{hardly(1000 * away[k])} mm and {hardly(np.rad2deg(angle[k]))} deg" for k in (0, 1))
-        lines.append(f"the tool is at most {most} off the motion, at the end {last}")
+            lines.append(f"the tool is {self._format_goal_error()} off the goal")
+        distances, angles = (np.stack([error.max(), error[-1]]) for error in self.tool_error)
+        largest_text, final_text = (
+            f"{format_error(1000 * distances[index])} mm and {format_error(np.rad2deg(angles[index]))} deg" for index in (0, 1)
+        )
+        lines.append(f"the tool is at most {largest_text} off the motion, at the end {final_text}")
         if self.error_limit is not None and self.exceeded is None:
             lines.append("the following error keeps its limit in every joint")
-        for one, (off, turned) in zip(self.keep, self.kept, strict=True):
-            said = [f"{1000 * off:.3g} mm off"] * bool(len(one.normals))
-            said += [f"{np.rad2deg(turned):.3g} deg turned away"] * bool(np.isfinite(one.widest))
-            lines.append(f"{one}: at most {' and '.join(said)}")
+        for constraint, (distance, rotation) in zip(self.keep, self.kept, strict=True):
+            error_texts = [f"{1000 * distance:.3g} mm off"] * bool(len(constraint.normals))
+            error_texts += [f"{np.rad2deg(rotation):.3g} deg turned away"] * bool(np.isfinite(constraint.widest))
+            lines.append(f"{constraint}: at most {' and '.join(error_texts)}")
         if not self.beyond_limits and not self.too_fast:
             lines.append("the joints kept within their limits and speeds")
-        return lines + [fault for fault in self.faults() if "off the goal" not in fault and fault != _ENDS[self.outcome]]
+        return lines + [
+            fault for fault in self.faults() if "off the goal" not in fault and fault != _OUTCOME_TEXTS[self.outcome]
+        ]
 
-    def _miss(self) -> str:
-        turned = "" if self.goal_turn is None else f" and {hardly(np.rad2deg(self.goal_turn))} deg"
-        return f"{hardly(1000 * (self.goal_distance or 0.0))} mm{turned}"
+    def _format_goal_error(self) -> str:
+        angle_text = "" if self.goal_turn is None else f" and {format_error(np.rad2deg(self.goal_turn))} deg"
+        return f"{format_error(1000 * (self.goal_distance or 0.0))} mm{angle_text}"
 
-    def _unit(self, name: str) -> str:
+    def _joint_unit(self, name: str) -> str:
         return self.arm.joints[self.arm.joint_index(name)].unit
 
     def to_csv(self, file: str | Path) -> Path:
@@ -250,12 +266,12 @@ class Execution(Result):
         return write_table(file, "motion", header, np.column_stack([self.time, self.q, self.poses[:, :3, 3]]))
 
 
-def hardly(value: float) -> str:
-    """A number of 0 or more; one too small to matter in mm or deg only as such."""
-    return f"{value:.3g}" if value >= _HARDLY or value == 0 else f"less than {_HARDLY:g}"
+def format_error(value: float) -> str:
+    """Return a number of 0 or more as text; a number too small to matter in mm or deg becomes an upper bound."""
+    return f"{value:.3g}" if value >= _MIN_SHOWN_ERROR or value == 0 else f"less than {_MIN_SHOWN_ERROR:g}"
 
 
-_ENDS = {
+_OUTCOME_TEXTS = {
     "finished": "the motion was carried out to its end",
     "stopped": "the arm stopped on the way",
     "moving": "the arm was still moving at the end",

@@ -1,4 +1,4 @@
-"""What a free swing of a failed joint was, over time and when brakes act."""
+"""The result of a free swing of a failed joint over time and when brakes act."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from holdfast.cell.cell import Cell
 from holdfast.clearance.contacts import Contact
 from holdfast.files.output import write_table
 from holdfast.result import Result
-from holdfast.words import capitalised
+from holdfast.words import capitalise_first
 
 Array = NDArray[np.float64]
 Outcome = Literal["rest", "stop", "contact", "balanced", "moving"]
 
-ENDS = {
+OUTCOME_TEXTS = {
     "rest": "hangs still",
     "stop": "lies against its stop",
     "contact": "lies against an object of the cell",
@@ -30,7 +30,7 @@ ENDS = {
 
 @dataclass(frozen=True, kw_only=True)
 class BrakedDrop:
-    """Where the tool is when the brakes act.
+    """State of the joint and the tool when the brakes act.
 
     The brakes are taken to stop the joint at once, so the tool stays there; ``speed`` says how bold that is.
 
@@ -51,7 +51,7 @@ class BrakedDrop:
 
 @dataclass(frozen=True, kw_only=True)
 class FreeSwing(Result):
-    """The motion of an arm at rest whose joint ``joint`` swings free from time 0, all others held.
+    """The motion of an arm at rest whose joint ``joint`` swings free from time 0, with all others locked.
 
     Attributes:
         arm: The arm.
@@ -101,19 +101,24 @@ class FreeSwing(Result):
         return self.outcome == "stop"
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the motion of the free swing in a few sentences."""
         failed = self.arm.joints[self.joint]
         factor, unit = failed.shown
-        lines = [f"Free swing of {failed.name}, arm {self.arm.title}, all other joints held", f"It {ENDS[self.outcome]}."]
+        lines = [
+            f"Free swing of {failed.name}, arm {self.arm.title}, all other joints held",
+            f"It {OUTCOME_TEXTS[self.outcome]}.",
+        ]
         if self.settled:
-            end, most = factor * self.rest_angle, factor * self.peak
-            lines.append(f"At the end it has moved {end:.4g} {unit}, on the way at most {most:.4g} {unit}.")
+            rest_value, peak_value = factor * self.rest_angle, factor * self.peak
+            lines.append(f"At the end it has moved {rest_value:.4g} {unit}, on the way at most {peak_value:.4g} {unit}.")
         if self.contacts is not None:
-            lines.append(f"{capitalised(self.contacts[0].sentence()) if self.contacts else 'It touches nothing on the way'}.")
+            lines.append(
+                f"{capitalise_first(self.contacts[0].sentence()) if self.contacts else 'It touches nothing on the way'}."
+            )
         lines += [
-            f"{d.after_ms:g} ms after the failure it has moved {factor * d.angle:.4g} {unit} and moves at "
-            f"{factor * d.speed:.4g} {unit}/s; the tool has dropped {1000 * d.drop:.4g} mm."
-            for d in self.drops
+            f"{braked.after_ms:g} ms after the failure it has moved {factor * braked.angle:.4g} {unit} and moves at "
+            f"{factor * braked.speed:.4g} {unit}/s; the tool has dropped {1000 * braked.drop:.4g} mm."
+            for braked in self.drops
         ]
         return lines
 

@@ -1,4 +1,4 @@
-"""A timed joint motion carried out by servos in MuJoCo, with joints that lock on the way."""
+"""A timed joint motion executed by servos in MuJoCo, with joints that lock on the way."""
 
 from __future__ import annotations
 
@@ -7,31 +7,31 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
-from holdfast.arm.mjcf import quiet
+from holdfast.arguments import check_arguments, require_real_numbers
+from holdfast.arm.mjcf import silence_mujoco
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Degraded, Locked, degraded_at, read_locks
-from holdfast.keep.labels import KeepLike, all_kept
-from holdfast.notice import each, says
+from holdfast.keep.labels import KeepLike, anchor_constraints
+from holdfast.notice import reports_progress, track
 from holdfast.physics.execution import Ended, Execution
-from holdfast.physics.plant import BURST, EARLY, Plant
-from holdfast.physics.servos import Servos, leads
-from holdfast.physics.surroundings import Touches
+from holdfast.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
+from holdfast.physics.servos import Servos, reference_leads
+from holdfast.physics.surroundings import ContactLog
 
 Array = NDArray[np.float64]
 
-SAME = 1e-6  # rad and m: a joint this near to where it is said to be locked is there
-AT_REST = 1e-3  # rad/s and m/s
-LONGEST = 3600.0  # s
+LOCK_POSITION_TOLERANCE = 1e-6  # rad and m: a joint this near to where it is said to be locked is there
+REST_SPEED = 1e-3  # rad/s and m/s
+MAX_DURATION_S = 3600.0  # s
 
 
-@checked
-@quiet()
-@says("executing the motion")
+@check_arguments
+@silence_mujoco()
+@reports_progress("executing the motion")
 def execute(
     arm: Arm,
     q: ArrayLike,
@@ -49,7 +49,7 @@ def execute(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
 ) -> Execution:
-    """Carry out a timed joint motion in MuJoCo with servos, and judge it (needs ``holdfast[physics]``).
+    """Execute a timed joint motion in MuJoCo with servos, and evaluate it (needs ``holdfast[physics]``).
 
     Bodies, motors and locks are those of :func:`holdfast.simulate_physics`: a joint that locks while it moves stops at once,
     and the jolt goes through the arm. The arm starts at rest where the motion begins. Until a lock is noticed the other joints
@@ -84,120 +84,132 @@ def execute(
         ArmError: Inertial data are missing or impossible, or a joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
-    way, seconds = _motion(arm, q, time)
-    for name, number in (("notice", notice or 0.0), ("stop", stop), ("settle", settle)):
-        if not 0 <= number <= LONGEST:
-            raise InputError(f"{name} is {number:g} s; it must be from 0 to {LONGEST:g} s")
-    degraded = degraded_at(arm, locked, way[0])
-    order = [arm.joint_names[k] for k in read_locks(arm, locked)] if not isinstance(locked, Degraded) else list(locked.locked)
-    locks = _lock_times(arm, degraded, order, lock_time, way[0])
+    waypoints, seconds = _check_motion(arm, q, time)
+    for joint_name, number in (("notice", notice or 0.0), ("stop", stop), ("settle", settle)):
+        if not 0 <= number <= MAX_DURATION_S:
+            raise InputError(f"{joint_name} is {number:g} s; it must be from 0 to {MAX_DURATION_S:g} s")
+    degraded = degraded_at(arm, locked, waypoints[0])
+    lock_order = (
+        [arm.joint_names[k] for k in read_locks(arm, locked)] if not isinstance(locked, Degraded) else list(locked.locked)
+    )
+    lock_times = _make_lock_times(arm, degraded, lock_order, lock_time, waypoints[0])
     if error_limit is not None and not (len(error_limit) == 2 and all(limit > 0 for limit in error_limit)):
         raise InputError(f"error_limit is {error_limit}; give two numbers above 0, in rad and m")
-    if notice is not None and not np.isfinite(locks).any():
+    if notice is not None and not np.isfinite(lock_times).any():
         raise InputError("notice has nothing to notice: no joint locks; give locked")
-    noticed = np.inf if notice is None else float(locks.min()) + notice
-    chosen = Servos() if servos is None else servos
-    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
-    around = None if looked is None or looked.cell is None else looked
-    plant = Plant(arm, way[0], np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen, around)
-    touches = Touches(around)
-    touches.require_clear(plant.model)
-    stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start=way[0])
-    wanted, over = _references(way, seconds, 1 / chosen.rate, noticed, stop, settle)
-    notes, stable = _drive(plant, wanted, locks, stiffness, damping, touches)
-    resting = float(np.abs(notes.rates[-1]).max()) < AT_REST
-    outcome: Ended = "unstable" if not stable else "moving" if not resting else "finished" if over else "stopped"
+    detection_time = np.inf if notice is None else float(lock_times.min()) + notice
+    chosen_servos = Servos() if servos is None else servos
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
+    plant = ServoPlant(arm, waypoints[0], np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen_servos, cell_clearance)
+    contact_log = ContactLog(cell_clearance)
+    contact_log.require_collision_free(plant.model)
+    stiffness, damping = chosen_servos.gains(arm, plant.mujoco, plant.model, start=waypoints[0])
+    references, reaches_end = _plan_references(waypoints, seconds, 1 / chosen_servos.rate, detection_time, stop, settle)
+    samples, is_stable = _drive_motion(plant, references, lock_times, stiffness, damping, contact_log)
+    is_at_rest = float(np.abs(samples.rates[-1]).max()) < REST_SPEED
+    outcome: Ended = "unstable" if not is_stable else "moving" if not is_at_rest else "finished" if reaches_end else "stopped"
     if degraded is not None:
-        now = {name: float(notes.q[-1, arm.joint_index(name)]) for name in degraded.locked}
-        degraded = replace(degraded, locked=now)
+        locked_positions = {joint_name: float(samples.q[-1, arm.joint_index(joint_name)]) for joint_name in degraded.locked}
+        degraded = replace(degraded, locked=locked_positions)
     return Execution(
         arm=arm,
         degraded=degraded,
-        servos=chosen,
+        servos=chosen_servos,
         stiffness=stiffness,
         damping=damping,
-        lock_time=locks,
-        noticed=np.inf if over else noticed,
+        lock_time=lock_times,
+        noticed=np.inf if reaches_end else detection_time,
         outcome=outcome,
-        time=np.arange(len(notes.q)) / chosen.rate,
-        q=notes.q,
-        rates=notes.rates,
-        reference=notes.reference,
-        planned=wanted[: len(notes.q)],
-        torque=notes.torque,
-        goal=_goal(goal),
-        keep=all_kept(keep, arm.forward_kinematics(way[0])),
-        contacts=touches.contacts(),
-        cell=None if around is None else around.cell,
+        time=np.arange(len(samples.q)) / chosen_servos.rate,
+        q=samples.q,
+        rates=samples.rates,
+        reference=samples.reference,
+        planned=references[: len(samples.q)],
+        torque=samples.torque,
+        goal=_check_goal(goal),
+        keep=anchor_constraints(keep, arm.forward_kinematics(waypoints[0])),
+        contacts=contact_log.list_contacts(),
+        cell=None if cell_clearance is None else cell_clearance.cell,
         error_limit=error_limit,
     )
 
 
-def _motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[Array, Array]:
-    """The configurations (S, n), and times (S,) from 0 on."""
-    way = np.atleast_2d(arm.check_configurations(q))
-    seconds = real_numbers(time, "time", "a number for each configuration, s")
-    if seconds.shape != (len(way),) or len(way) < 2:
+def _check_motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[Array, Array]:
+    """Return the checked configurations (S, n), and their times (S,) from 0 on."""
+    waypoints = np.atleast_2d(arm.check_configurations(q))
+    seconds = require_real_numbers(time, "time", "a number for each configuration, s")
+    if seconds.shape != (len(waypoints),) or len(waypoints) < 2:
         raise InputError(
-            f"time has shape {seconds.shape} and there are {len(way)} configurations; give two or more, and a time for each"
+            f"time has shape {seconds.shape} and there are {len(waypoints)} configurations; give two or more, and a "
+            f"time for each"
         )
-    if not (np.isfinite(way).all() and np.isfinite(seconds).all()):
+    if not (np.isfinite(waypoints).all() and np.isfinite(seconds).all()):
         raise InputError("the motion holds NaN or infinity; give finite numbers")
     if (np.diff(seconds) <= 0).any():
-        k = int((np.diff(seconds) <= 0).argmax()) + 1
-        raise InputError(f"time {k} is {seconds[k]:g} s, after {seconds[k - 1]:g} s; every time must be after the one before")
-    if seconds[-1] - seconds[0] > LONGEST:
-        raise InputError(f"the motion takes {seconds[-1] - seconds[0]:g} s; it must take {LONGEST:g} s or less")
-    return way, seconds - seconds[0]
-
-
-def _lock_times(arm: Arm, degraded: Degraded | None, order: list[str], lock_time: ArrayLike, start: Array) -> Array:
-    """When each joint locks (n,), s, of times in an order of names; infinite for joints that do not."""
-    times = np.full(arm.n, np.inf)
-    if degraded is None:
-        return times
-    for name, value in degraded.locked.items():
-        k = arm.joint_index(name)
-        if value is not None and abs(value - start[k]) > SAME:
-            raise InputError(
-                f"joint '{name}' is said to be locked at {value:.6g} and the motion begins with it at {start[k]:.6g} "
-                f"{arm.joints[k].unit}; a joint locks where it is"
-            )
-    given = real_numbers(lock_time, "lock_time", "one time, or one for each locked joint, s")
-    if given.shape not in ((), (len(degraded.locked),)) or not np.isfinite(given).all() or (given < 0).any():
+        index = int((np.diff(seconds) <= 0).argmax()) + 1
         raise InputError(
-            f"lock_time is {given.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for each joint "
+            f"time {index} is {seconds[index]:g} s, after {seconds[index - 1]:g} s; every time must be after the one before"
+        )
+    if seconds[-1] - seconds[0] > MAX_DURATION_S:
+        raise InputError(f"the motion takes {seconds[-1] - seconds[0]:g} s; it must take {MAX_DURATION_S:g} s or less")
+    return waypoints, seconds - seconds[0]
+
+
+def _make_lock_times(arm: Arm, degraded: Degraded | None, order: list[str], lock_time: ArrayLike, start: Array) -> Array:
+    """Return the lock time (n,) of each joint, s, from times in an order of names; infinite for healthy joints."""
+    lock_times = np.full(arm.n, np.inf)
+    if degraded is None:
+        return lock_times
+    for name, value in degraded.locked.items():
+        joint = arm.joint_index(name)
+        if value is not None and abs(value - start[joint]) > LOCK_POSITION_TOLERANCE:
+            raise InputError(
+                f"joint '{name}' is said to be locked at {value:.6g} and the motion begins with it at {start[joint]:.6g} "
+                f"{arm.joints[joint].unit}; a joint locks where it is"
+            )
+    times_in_order = require_real_numbers(lock_time, "lock_time", "one time, or one for each locked joint, s")
+    if (
+        times_in_order.shape not in ((), (len(degraded.locked),))
+        or not np.isfinite(times_in_order).all()
+        or (times_in_order < 0).any()
+    ):
+        raise InputError(
+            f"lock_time is {times_in_order.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for "
+            f"each joint "
             "that locks"
         )
-    for name, when in zip(order, np.broadcast_to(given, len(degraded.locked)), strict=True):
-        times[arm.joint_index(name)] = when
-    return times
+    for name, joint_time in zip(order, np.broadcast_to(times_in_order, len(degraded.locked)), strict=True):
+        lock_times[arm.joint_index(name)] = joint_time
+    return lock_times
 
 
-def _goal(goal: ArrayLike | None) -> Array | None:
+def _check_goal(goal: ArrayLike | None) -> Array | None:
     if goal is None:
         return None
-    given = real_numbers(goal, "goal", "a pose (4, 4) or a place (3,), m")
-    if given.shape not in ((4, 4), (3,)) or not np.isfinite(given).all():
-        raise InputError(f"goal has shape {given.shape}; give a pose (4, 4) or a place (3,) of finite numbers, m")
-    return given if given.ndim == 1 else np.asarray(check_poses(given)[0])
+    goal_array = require_real_numbers(goal, "goal", "a pose (4, 4) or a place (3,), m")
+    if goal_array.shape not in ((4, 4), (3,)) or not np.isfinite(goal_array).all():
+        raise InputError(f"goal has shape {goal_array.shape}; give a pose (4, 4) or a place (3,) of finite numbers, m")
+    return goal_array if goal_array.ndim == 1 else np.asarray(check_poses(goal_array)[0])
 
 
-def _references(way: Array, seconds: Array, period: float, noticed: float, stop: float, settle: float) -> tuple[Array, bool]:
-    """(K + 1, n) where the servos are to be at each control cycle, and whether that leads to the end of the motion."""
-    end = float(seconds[-1])
-    over = not noticed + stop / 2 < end  # slowing down takes it half as far as full speed
-    last = end if noticed >= end else noticed + stop
-    time = np.arange(int(np.ceil((last + settle) / period - 1e-9)) + 1) * period
-    slowing = np.clip(time - noticed, 0.0, stop)
-    lost = slowing**2 / (2 * stop) if stop else 0.0
-    clock = np.minimum(np.minimum(time, noticed) + slowing - lost, end)
-    return np.stack([np.interp(clock, seconds, column) for column in way.T], axis=1), over
+def _plan_references(
+    waypoints: Array, seconds: Array, period: float, detection_time: float, stop_duration: float, settle_duration: float
+) -> tuple[Array, bool]:
+    """Return (K + 1, n) the servo references at each control cycle, and whether they lead to the end of the motion."""
+    end_time = float(seconds[-1])
+    reaches_end = not detection_time + stop_duration / 2 < end_time  # slowing down takes it half as far as full speed
+    stop_end = end_time if detection_time >= end_time else detection_time + stop_duration
+    time = np.arange(int(np.ceil((stop_end + settle_duration) / period - 1e-9)) + 1) * period
+    slowing_time = np.clip(time - detection_time, 0.0, stop_duration)
+    lost_time = slowing_time**2 / (2 * stop_duration) if stop_duration else 0.0
+    clock = np.minimum(np.minimum(time, detection_time) + slowing_time - lost_time, end_time)
+    return np.stack([np.interp(clock, seconds, column) for column in waypoints.T], axis=1), reaches_end
 
 
 @dataclass(frozen=True)
-class _Notes:
-    """Noted at each of T control cycles, (T, n), as in :class:`holdfast.Execution`."""
+class _ExecutionSamples:
+    """Samples at each of T control cycles, (T, n), as in :class:`holdfast.Execution`."""
 
     q: Array
     rates: Array
@@ -205,28 +217,28 @@ class _Notes:
     torque: Array
 
 
-def _drive(
-    plant: Plant, wanted: Array, lock_time: Array, stiffness: Array, damping: Array, touches: Touches
-) -> tuple[_Notes, bool]:
-    """The motion as it is measured, and whether the physics stayed within bounds."""
-    period, feed, lead = 1 / plant.servos.rate, damping / stiffness, leads(plant.arm, stiffness)
+def _drive_motion(
+    plant: ServoPlant, references: Array, lock_time: Array, stiffness: Array, damping: Array, contact_log: ContactLog
+) -> tuple[_ExecutionSamples, bool]:
+    """Return the measured motion, and whether the physics stayed within bounds."""
+    period, rate_feed, max_leads = 1 / plant.servos.rate, damping / stiffness, reference_leads(plant.arm, stiffness)
     healthy = np.ones(plant.arm.n, dtype=bool)
-    plant.tune(stiffness, damping)
+    plant.set_gains(stiffness, damping)
     cycles: list[tuple[Array, Array, Array, Array]] = []
-    for k in each("control cycles", range(len(wanted)), most=True, every=100):
-        left = lock_time > k * period + EARLY
-        if not left.all() and (left != healthy).any():
-            healthy = left
-            plant = plant.locked(healthy)
-            plant.tune(stiffness, damping)
+    for cycle in track("control cycles", range(len(references)), most=True, every=100):
+        still_healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
+        if not still_healthy.all() and (still_healthy != healthy).any():
+            healthy = still_healthy
+            plant = plant.lock_joints(healthy)
+            plant.set_gains(stiffness, damping)
         q, rates = plant.q, plant.rates
-        following = wanted[min(k + 1, len(wanted) - 1)]
-        reference = np.clip(following, q - lead, q + lead)
+        next_reference = references[min(cycle + 1, len(references) - 1)]
+        reference = np.clip(next_reference, q - max_leads, q + max_leads)
         cycles.append((q, rates, reference, plant.torque))
-        if not float(rates @ rates) < BURST**2:
+        if not float(rates @ rates) < MAX_PHYSICAL_SPEED**2:
             break
-        plant.follow(reference + feed * (following - wanted[k]) / period)
+        plant.step_towards(reference + rate_feed * (next_reference - references[cycle]) / period)
         if plant.data.ncon > 0:
-            touches.note(plant.model, plant.data, (k + 1) * period)
-    notes = _Notes(*(np.array(column) for column in zip(*cycles, strict=True)))
-    return notes, len(cycles) == len(wanted)
+            contact_log.record_contacts(plant.model, plant.data, (cycle + 1) * period)
+    samples = _ExecutionSamples(*(np.array(column) for column in zip(*cycles, strict=True)))
+    return samples, len(cycles) == len(references)

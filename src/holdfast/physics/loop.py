@@ -1,4 +1,4 @@
-"""The closed loop of a controller that does not know of a locked joint, with bodies and motors."""
+"""The closed loop of a controller without fault information, with bodies and motors."""
 
 from __future__ import annotations
 
@@ -8,38 +8,38 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
-from holdfast.arm.mjcf import quiet
+from holdfast.arguments import check_arguments
+from holdfast.arm.mjcf import silence_mujoco
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.failures import Locked
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
-from holdfast.notice import each, says
-from holdfast.physics.plant import BURST, EARLY, Plant
+from holdfast.kernels.recall import cached_kernel
+from holdfast.notice import reports_progress, track
+from holdfast.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
 from holdfast.physics.run import Ending, PhysicalRun, Why
-from holdfast.physics.servos import Servos, leads
-from holdfast.physics.surroundings import Touches
-from holdfast.simulation.batch import ARRIVES
+from holdfast.physics.servos import Servos, reference_leads
+from holdfast.physics.surroundings import ContactLog
+from holdfast.simulation.batch import CONVERGENCE_TOLERANCE
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Runs
-from holdfast.simulation.system import System
+from holdfast.simulation.system import FailedArmSystem
 
 Array = NDArray[np.float64]
 
-REST = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
-STILL_FOR = 0.1  # 1/Ke: for so long, without a break
+REST_SPEED = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
+REST_DURATION = 0.1  # 1/Ke: for so long, without a break
 TIME_LIMIT = 200.0  # 1/Ke
-NEAR = 0.1  # of the motion's extent: a return that misses by more is none
+RETURN_TOLERANCE = 0.1  # of the motion's extent: a return that misses by more is none
 DRIFT_FRACTION = 1e-3  # of the motion's extent: what the last period may differ from the one before it by
-LEAST_EXTENT = 1e-3  # rad (and m): a smaller motion is not taken for a repeated one
+MIN_EXTENT = 1e-3  # rad (and m): a smaller motion is not taken for a repeated one
 
 
-@checked
-@quiet()
-@says("simulating the physics")
+@check_arguments
+@silence_mujoco()
+@reports_progress("simulating the physics")
 def simulate_physics(
     law: Law,
     q0: ArrayLike,
@@ -53,7 +53,7 @@ def simulate_physics(
     cell: CellLike | None = None,
     stop_at_contact: bool = False,
 ) -> PhysicalRun:
-    """One run of the closed loop on MuJoCo, beside the kinematic one (needs ``holdfast[physics]``).
+    """Simulate one run of the closed loop on MuJoCo, next to the kinematic one (needs ``holdfast[physics]``).
 
     :func:`holdfast.simulation.simulate` lets healthy joints do what they are told. Here they have bodies and motors: at every
     control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor works),
@@ -94,42 +94,42 @@ def simulate_physics(
         ArmError: Inertial data are missing or impossible, or a joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
-    limit = TIME_LIMIT / law.gain if time_limit is None else float(time_limit)
-    if not (np.isfinite(limit) and limit > 0):
-        raise InputError(f"time_limit is {limit:g}; it must be a finite number above 0")
-    chosen, arm = Servos() if servos is None else servos, law.arm
+    run_limit = TIME_LIMIT / law.gain if time_limit is None else float(time_limit)
+    if not (np.isfinite(run_limit) and run_limit > 0):
+        raise InputError(f"time_limit is {run_limit:g}; it must be a finite number above 0")
+    chosen_servos, arm = Servos() if servos is None else servos, law.arm
     start = arm.check_configurations(q0).reshape(-1, arm.n)[0]
-    looked = chosen_clearance(arm, clearance or False, cell, looks=False)
-    around = None if looked is None or looked.cell is None else looked
-    plant = Plant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen, around)
-    touches = Touches(around)
-    touches.require_clear(plant.model)
-    stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start=start)
-    runs = simulate(law, q0, target, locked=locked, time=time, clearance=looked, stop_at_contact=stop_at_contact)
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
+    plant = ServoPlant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen_servos, cell_clearance)
+    contact_log = ContactLog(cell_clearance)
+    contact_log.require_collision_free(plant.model)
+    stiffness, damping = chosen_servos.gains(arm, plant.mujoco, plant.model, start=start)
+    runs = simulate(law, q0, target, locked=locked, time=time, clearance=checked_clearance, stop_at_contact=stop_at_contact)
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
-    notes, end = _drive(plant, law, runs, stiffness, damping, limit, touches)
-    outcome, reason = end or _verdict(notes.q, chosen.rate, law.gain, ~arm.prismatic)
+    samples, ending = _drive_loop(plant, law, runs, stiffness, damping, run_limit, contact_log)
+    outcome, reason = ending or _classify_ending(samples.q, chosen_servos.rate, law.gain, ~arm.prismatic)
     return PhysicalRun(
         law=law,
-        servos=chosen,
+        servos=chosen_servos,
         stiffness=stiffness,
         damping=damping,
         kinematic=runs,
         outcome=outcome,
         reason=reason,
-        time=np.arange(len(notes.q)) / chosen.rate,
-        q=notes.q,
-        reference=notes.reference,
-        torque=notes.torque,
-        x=arm.forward_kinematics(notes.q)[:, :3, 3],
-        error=notes.error,
-        contacts=touches.contacts(),
+        time=np.arange(len(samples.q)) / chosen_servos.rate,
+        q=samples.q,
+        reference=samples.reference,
+        torque=samples.torque,
+        x=arm.forward_kinematics(samples.q)[:, :3, 3],
+        error=samples.error,
+        contacts=contact_log.list_contacts(),
     )
 
 
 @dataclass(frozen=True)
-class _Notes:
+class _LoopSamples:
     """Values at each of T control cycles, as in :class:`holdfast.PhysicalRun`."""
 
     q: Array
@@ -138,74 +138,82 @@ class _Notes:
     error: Array
 
 
-def _drive(
-    plant: Plant, law: Law, runs: Runs, stiffness: Array, damping: Array, limit: float, touches: Touches
-) -> tuple[_Notes, tuple[Ending, Why] | None]:
-    """The physical run beside a kinematic one, and how it ended if it did before the time limit."""
+def _drive_loop(
+    plant: ServoPlant, law: Law, runs: Runs, stiffness: Array, damping: Array, time_limit: float, contact_log: ContactLog
+) -> tuple[_LoopSamples, tuple[Ending, Why] | None]:
+    """Simulate the physical run next to a kinematic one, and return its ending if it ended before the time limit."""
     n, period = law.arm.n, 1 / plant.servos.rate
-    asked, row = _command(law).single(), np.concatenate([plant.start, *_goal(law, runs)])
-    lead, feed = leads(law.arm, stiffness), damping / stiffness
+    command, inputs = _command_kernel(law).single_row(), np.concatenate([plant.start, *_target_pose(law, runs)])
+    max_leads, rate_feed = reference_leads(law.arm, stiffness), damping / stiffness
     reference, lock_time = plant.start.copy(), runs.lock_time
     healthy, next_lock = np.ones(n, dtype=bool), float(lock_time.min())
-    plant.tune(stiffness, damping)
-    patience, still = int(np.ceil(STILL_FOR / law.gain / period)), 0
+    plant.set_gains(stiffness, damping)
+    rest_cycles, cycles_at_rest = int(np.ceil(REST_DURATION / law.gain / period)), 0
     cycles: list[Array] = []
-    end: tuple[Ending, Why] | None = None
-    for k in each("control cycles", range(int(np.ceil(limit / period - 1e-9)) + 1), most=True, every=100):
-        if k * period >= next_lock - EARLY:
-            healthy = lock_time > k * period + EARLY
-            plant = plant.locked(healthy)
-            plant.tune(stiffness, damping)
+    ending: tuple[Ending, Why] | None = None
+    for cycle in track("control cycles", range(int(np.ceil(time_limit / period - 1e-9)) + 1), most=True, every=100):
+        if cycle * period >= next_lock - LOCK_TIME_TOLERANCE_S:
+            healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
+            plant = plant.lock_joints(healthy)
+            plant.set_gains(stiffness, damping)
             next_lock = float(lock_time[healthy].min(initial=np.inf))
-        row[:n] = q = plant.q
-        out = asked(row)
-        rates, square, scaled = out[:n], out[n + 1], out[n + 2]
-        if not np.isfinite(square + rates.sum()):
-            end = ("undecided", "singular" if np.isfinite(q).all() else "unstable")
+        inputs[:n] = q = plant.q
+        outputs = command(inputs)
+        rates, squared_error, scaled_error = outputs[:n], outputs[n + 1], outputs[n + 2]
+        if not np.isfinite(squared_error + rates.sum()):
+            ending = ("undecided", "singular" if np.isfinite(q).all() else "unstable")
             break
-        reference = np.minimum(np.maximum(reference + period * rates, q - lead), q + lead)
-        obeyed = rates[healthy]
-        speed = float(np.sqrt(obeyed @ obeyed)) / out[n]
-        plant.follow(reference + feed * rates)
-        cycles.append(np.concatenate((q, reference, plant.torque, (square,))))
-        held = plant.data.ncon > 0
-        if held:
-            touches.note(plant.model, plant.data, (k + 1) * period)
+        reference = np.minimum(np.maximum(reference + period * rates, q - max_leads), q + max_leads)
+        healthy_rates = rates[healthy]
+        speed = float(np.sqrt(healthy_rates @ healthy_rates)) / outputs[n]
+        plant.step_towards(reference + rate_feed * rates)
+        cycles.append(np.concatenate((q, reference, plant.torque, (squared_error,))))
+        is_in_contact = plant.data.ncon > 0
+        if is_in_contact:
+            contact_log.record_contacts(plant.model, plant.data, (cycle + 1) * period)
         velocity = plant.data.qvel
-        moving = float(velocity @ velocity)
-        if not moving < BURST**2:
-            end = ("undecided", "unstable")
+        squared_speed = float(velocity @ velocity)
+        if not squared_speed < MAX_PHYSICAL_SPEED**2:
+            ending = ("undecided", "unstable")
             break
         # An arm that lies against an object is told to move as long as it lies there.
-        still = still + 1 if max(0.0 if held else speed, np.sqrt(moving)) < REST * law.gain else 0
-        if still > patience:
-            end = ("converged", "none") if scaled < ARRIVES**2 else ("stuck", "contact" if held else "none")
+        cycles_at_rest = (
+            cycles_at_rest + 1 if max(0.0 if is_in_contact else speed, np.sqrt(squared_speed)) < REST_SPEED * law.gain else 0
+        )
+        if cycles_at_rest > rest_cycles:
+            ending = (
+                ("converged", "none")
+                if scaled_error < CONVERGENCE_TOLERANCE**2
+                else ("stuck", "contact" if is_in_contact else "none")
+            )
             break
     table = np.array(cycles).reshape(-1, 3 * n + 1)
-    q, references, torque = (table[:, i * n : (i + 1) * n].copy() for i in range(3))
-    return _Notes(q, references, torque, np.sqrt(table[:, -1])), end
+    q, references, torque = (table[:, block * n : (block + 1) * n].copy() for block in range(3))
+    return _LoopSamples(q, references, torque, np.sqrt(table[:, -1])), ending
 
 
-@recalled
-def _command(law: Law) -> Kernel:
-    """``(q, p, R) -> rates`` (n,) as commanded, how far they are slowed, and squared errors, in m and in the arm's own unit."""
-    system = System(law)
-    e, _ = system.error(system.q)
-    v, share = system.command(e)
-    rates = law.rates(system.q, v) * law.gain
-    known = ca.vertcat(rates, share, ca.sumsqr(e), ca.sumsqr(system.scaled_error(system.q)[0]))
-    return Kernel("command in physics", [system.q, system.target, system.rotation], [known])
+@cached_kernel
+def _command_kernel(law: Law) -> Kernel:
+    """Return the kernel ``(q, p, R) -> rates`` (n,), their speed fraction, and squared errors, in m and in the
+    arm's own unit.
+    """
+    system = FailedArmSystem(law)
+    error, _ = system.compute_error(system.q)
+    velocity, speed_fraction = system.compute_command(error)
+    rates = law.rates(system.q, velocity) * law.gain
+    outputs = ca.vertcat(rates, speed_fraction, ca.sumsqr(error), ca.sumsqr(system.compute_scaled_error(system.q)[0]))
+    return Kernel("command in physics", [system.q, system.target, system.rotation], [outputs])
 
 
-def _goal(law: Law, runs: Runs) -> tuple[Array, Array]:
-    """Position (3,) and rotation (9,), row by row, of the target."""
+def _target_pose(law: Law, runs: Runs) -> tuple[Array, Array]:
+    """Return the position (3,) and rotation (9,), row by row, of the target."""
     if runs.target.ndim == 2:
         return runs.target[:3, 3], runs.target[:3, :3].ravel()
     return runs.target @ law.task.rows[:, :3], np.eye(3).ravel()
 
 
-def _verdict(q: Array, rate: float, gain: float, turning: NDArray[np.bool_]) -> tuple[Ending, Why]:
-    """Return how a run ended that was under way at the time limit: it repeats its motion, or it is undecided.
+def _classify_ending(q: Array, rate: float, gain: float, is_revolute: NDArray[np.bool_]) -> tuple[Ending, Why]:
+    """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
 
     It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
 
@@ -213,31 +221,33 @@ def _verdict(q: Array, rate: float, gain: float, turning: NDArray[np.bool_]) -> 
         q: (T, n) configurations at the control cycles.
         rate: Control cycles per second.
         gain: Ke, 1/s.
-        turning: (n,) joints of which the values count modulo whole turns.
+        is_revolute: (n,) joints of which the values count modulo whole turns.
     """
     undecided: tuple[Ending, Why] = ("undecided", "time_limit")
-    away = _wrapped(q[-1] - q, turning)
-    distance = np.linalg.norm(away, axis=1)[::-1]  # backwards in time, from 0
+    displacement = _wrap_angles(q[-1] - q, is_revolute)
+    distance = np.linalg.norm(displacement, axis=1)[::-1]  # backwards in time, from 0
     extent = float(distance.max())
-    far = int(np.argmax(distance > NEAR * extent))
-    if extent < LEAST_EXTENT or not far:
+    first_far = int(np.argmax(distance > RETURN_TOLERANCE * extent))
+    if extent < MIN_EXTENT or not first_far:
         return undecided
-    near = np.flatnonzero((distance[1:-1] <= distance[:-2]) & (distance[1:-1] < distance[2:])) + 1
-    for period in near[(near > far) & (distance[near] < NEAR * extent)].tolist():
+    minima = np.flatnonzero((distance[1:-1] <= distance[:-2]) & (distance[1:-1] < distance[2:])) + 1
+    for period in minima[(minima > first_far) & (distance[minima] < RETURN_TOLERANCE * extent)].tolist():
         if 2 * period + 2 > len(q):
             break
         # The return falls between two cycles: there the motion is a parabola.
-        around = away[[-period - 2, -period - 1, -period]]
-        speed = (around[2] - around[0]) / 2
-        shift = -float(around[1] @ speed) / max(float(speed @ speed), np.finfo(np.float64).tiny)
-        last = np.arange(len(q) - period, len(q))
-        before = q[last - period - 1], q[last - period], q[np.minimum(last - period + 1, len(q) - 1)]
-        earlier = before[1] + shift * (before[2] - before[0]) / 2 + shift**2 * (before[2] - 2 * before[1] + before[0]) / 2
-        missed = float(np.linalg.norm(_wrapped(q[last] - earlier, turning), axis=1).max())
-        if missed < DRIFT_FRACTION * extent * min(period / rate * gain, 1.0):
+        neighbours = displacement[[-period - 2, -period - 1, -period]]
+        speed = (neighbours[2] - neighbours[0]) / 2
+        shift = -float(neighbours[1] @ speed) / max(float(speed @ speed), np.finfo(np.float64).tiny)
+        last_period = np.arange(len(q) - period, len(q))
+        previous = q[last_period - period - 1], q[last_period - period], q[np.minimum(last_period - period + 1, len(q) - 1)]
+        earlier = (
+            previous[1] + shift * (previous[2] - previous[0]) / 2 + shift**2 * (previous[2] - 2 * previous[1] + previous[0]) / 2
+        )
+        return_error = float(np.linalg.norm(_wrap_angles(q[last_period] - earlier, is_revolute), axis=1).max())
+        if return_error < DRIFT_FRACTION * extent * min(period / rate * gain, 1.0):
             return "moving", "none"
     return undecided
 
 
-def _wrapped(q: Array, turning: NDArray[np.bool_]) -> Array:
-    return np.where(turning, np.arctan2(np.sin(q), np.cos(q)), q)
+def _wrap_angles(q: Array, is_revolute: NDArray[np.bool_]) -> Array:
+    return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

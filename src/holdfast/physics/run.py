@@ -1,4 +1,4 @@
-"""A run of the closed loop with bodies and motors, and how far it is from the kinematic one."""
+"""A run of the closed loop with bodies and motors, and its distance from the kinematic run."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.clearance.contacts import Contact
-from holdfast.physics.servos import Servos, lag, time_at_effort
+from holdfast.physics.servos import Servos, max_tracking_error, saturated_fraction
 from holdfast.result import Result
 from holdfast.simulation.runs import Path, Runs
 
@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 Ending = Literal["converged", "stuck", "moving", "undecided"]
 Why = Literal["none", "singular", "time_limit", "unstable", "contact"]
 
-SAMPLES = 4000  # of the kinematic path, at equal times
-PIECES = 800  # of each path where their distance is measured, of equal length
+KINEMATIC_SAMPLES = 4000  # of the kinematic path, at equal times
+PATH_SEGMENTS = 800  # of each path where their distance is measured, of equal length
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,12 +63,12 @@ class PhysicalRun(Result):
 
     @property
     def agrees(self) -> bool:
-        """The kinematic run ended in the same way."""
+        """True if the kinematic run ended in the same way."""
         return self.outcome == str(self.kinematic.outcome)
 
     @property
     def ending(self) -> str:
-        """How it ended, and why it is undecided."""
+        """Outcome of the run, and the reason for which it is undecided."""
         if self.reason == "time_limit":
             return f"still moving at the limit of {self.time[-1]:.6g} s"
         return self.outcome if self.reason == "none" else f"{self.outcome} ({self.reason})"
@@ -76,76 +76,80 @@ class PhysicalRun(Result):
     @cached_property
     def errors_apart(self) -> tuple[Array, Array]:
         """Position errors (T,), m, and angle errors (T,), rad, from the target."""
-        return self.kinematic._motion.errors(self.kinematic, 0, self.q)
+        return self.kinematic._simulator.compute_errors(self.kinematic, 0, self.q)
 
     @cached_property
     def kinematic_path(self) -> Path:
         """The kinematic run over the time of this one, or until it was at rest."""
-        return self.kinematic.path(0, SAMPLES, until=max(float(self.time[-1]), 1e-3))
+        return self.kinematic.path(0, KINEMATIC_SAMPLES, until=max(float(self.time[-1]), 1e-3))
 
     @property
     def terminal_distance(self) -> float:
-        """Between the tool points of both runs when this one ended, m."""
+        """Distance between the tool points of both runs when this one ended, m."""
         return float(np.linalg.norm(self.x[-1] - self.kinematic_path.x[-1]))
 
     @property
     def terminal_turn(self) -> float:
         """Angle between the tools of both runs when this one ended, rad."""
-        ours, theirs = self.law.arm.forward_kinematics(np.stack([self.q[-1], self.kinematic_path.q[-1]]))[:, :3, :3]
+        physical_rotation, kinematic_rotation = self.law.arm.forward_kinematics(
+            np.stack([self.q[-1], self.kinematic_path.q[-1]])
+        )[:, :3, :3]
         # Not the arccosine of the trace, which loses half of the digits of small angles.
-        return float(2 * np.arcsin(min(np.linalg.norm(ours - theirs) / np.sqrt(8), 1.0)))
+        return float(2 * np.arcsin(min(np.linalg.norm(physical_rotation - kinematic_rotation) / np.sqrt(8), 1.0)))
 
     @cached_property
     def path_distance(self) -> float:
         """Largest distance of a point of either tool path from the other path, as curves, whenever they are there, m."""
-        ours, theirs = _even(self.x), _even(self.kinematic_path.x)
-        return max(_farthest(ours, theirs), _farthest(theirs, ours))
+        physical_points, kinematic_points = _resample_evenly(self.x), _resample_evenly(self.kinematic_path.x)
+        return max(_max_distance(physical_points, kinematic_points), _max_distance(kinematic_points, physical_points))
 
     @property
     def tracking_error(self) -> Array:
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
-        return lag(self.q, self.reference, self.locked)
+        return max_tracking_error(self.q, self.reference, self.locked)
 
     @property
     def saturated(self) -> Array:
-        """(n,) share of the time for which the motor of each joint was at its effort while the joint was healthy."""
-        return time_at_effort(self.law.arm, self.torque, self.locked)
+        """(n,) fraction of the time for which the motor of each joint was torque-saturated while the joint was healthy."""
+        return saturated_fraction(self.law.arm, self.torque, self.locked)
 
     @cached_property
     def locked(self) -> NDArray[np.bool_]:
-        """(T, n) True where a joint is locked."""
+        """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.kinematic.lock_time - 1e-9)
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the outcome of the run in a few sentences."""
         lines = [
             f"{self.servos.describe()}, on MuJoCo: {self.ending}; kinematic: {self.kinematic.outcome}",
             f"tool paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
         ]
         if self.contacts is not None:
-            first = self.contacts[0].sentence() if self.contacts else "the arm touches nothing"
-            lines.append(f"{first} (with masses and servos)")
-        full = [name for name, share in zip(self.law.arm.joint_names, self.saturated, strict=True) if share > 0]
-        if full:
-            lines.append(f"motors at their effort for a while: {', '.join(full)}")
+            contact_text = self.contacts[0].sentence() if self.contacts else "the arm touches nothing"
+            lines.append(f"{contact_text} (with masses and servos)")
+        saturated_joints = [
+            joint_name for joint_name, fraction in zip(self.law.arm.joint_names, self.saturated, strict=True) if fraction > 0
+        ]
+        if saturated_joints:
+            lines.append(f"motors at their effort for a while: {', '.join(saturated_joints)}")
         return lines
 
 
-def _even(points: Array) -> Array:
-    """A path (T, 3) as points (P, 3) at equal lengths along it."""
+def _resample_evenly(points: Array) -> Array:
+    """Resample a path (T, 3) to points (P, 3) at equal lengths along it."""
     length = np.r_[0.0, np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()]
     if length[-1] == 0:
         return points[:1]
-    at = np.linspace(0, length[-1], PIECES + 1)
-    return np.stack([np.interp(at, length, column) for column in points.T], axis=1)
+    sample_lengths = np.linspace(0, length[-1], PATH_SEGMENTS + 1)
+    return np.stack([np.interp(sample_lengths, length, column) for column in points.T], axis=1)
 
 
-def _farthest(points: Array, path: Array) -> float:
-    """Largest distance of points (P, 3) from a path of straight pieces (S, 3)."""
+def _max_distance(points: Array, path: Array) -> float:
+    """Return the largest distance of points (P, 3) from a path of straight segments (S, 3)."""
     if len(path) == 1:
         return float(np.linalg.norm(points - path[0], axis=1).max())
-    start, along = path[:-1], np.diff(path, axis=0)
-    square = np.maximum((along**2).sum(axis=1), np.finfo(np.float64).tiny)
-    away = points[:, None] - start
-    share = np.clip((away * along).sum(axis=2) / square, 0, 1)
-    return float(np.linalg.norm(away - share[:, :, None] * along, axis=2).min(axis=1).max())
+    start, segments = path[:-1], np.diff(path, axis=0)
+    squared_lengths = np.maximum((segments**2).sum(axis=1), np.finfo(np.float64).tiny)
+    offsets = points[:, None] - start
+    fraction = np.clip((offsets * segments).sum(axis=2) / squared_lengths, 0, 1)
+    return float(np.linalg.norm(offsets - fraction[:, :, None] * segments, axis=2).min(axis=1).max())

@@ -1,4 +1,4 @@
-"""Joint servos for an arm in MuJoCo: what turns commanded joint rates into torques."""
+"""Joint servos for an arm in MuJoCo, which turn commanded joint rates into torques."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked_class
+from holdfast.arguments import check_constructor
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-CONFIGURATIONS = 64  # at which the inertia that a servo is tuned to is looked for
-FULL = 0.999  # of the effort: a motor at its limit
-LEAD = 1.0  # rad or m: how far a reference may run ahead of a joint without torque limit
+INERTIA_SAMPLES = 64  # at which the inertia that a servo is tuned to is looked for
+SATURATION_FRACTION = 0.999  # of the effort: a motor at its limit
+DEFAULT_LEAD = 1.0  # rad or m: how far a reference may run ahead of a joint without torque limit
 
 
-@checked_class
+@check_constructor
 @dataclass(frozen=True)
 class Servos:
-    """How each joint follows its command.
+    """Joint servos: the gains and rates with which each joint follows its command.
 
     The commanded rate is integrated into a reference r at every control cycle, and the motor's torque is
 
@@ -59,10 +59,10 @@ class Servos:
     step: float = 1e-3
 
     def __post_init__(self) -> None:
-        for what in ("bandwidth", "ratio", "rate", "step"):
-            value = getattr(self, what)
+        for name in ("bandwidth", "ratio", "rate", "step"):
+            value = getattr(self, name)
             if not 1e-9 < value < 1e9:
-                raise InputError(f"{what} of the servos is {value:g}; it must be above 1e-9 and below 1e9")
+                raise InputError(f"{name} of the servos is {value:g}; it must be above 1e-9 and below 1e9")
         if not (np.isfinite(self.compensation) and self.compensation >= 0):
             raise InputError(f"compensation of the servos is {self.compensation:g}; it must be a finite number of 0 or more")
 
@@ -75,22 +75,22 @@ class Servos:
         return int(np.ceil(1 / (self.rate * self.step) - 1e-9))
 
     def gains(self, arm: Arm, mujoco: ModuleType, model: Any, *, start: Array) -> tuple[Array, Array]:
-        """K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
+        """Return K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
         if self.stiffness is not None:
-            return self._given("stiffness", arm), self._given("damping", arm)
-        inertia, natural = _largest_inertia(arm, mujoco, model, start), 2 * np.pi * self.bandwidth
+            return self._read_gains("stiffness", arm), self._read_gains("damping", arm)
+        inertia, natural_frequency = _largest_inertia(arm, mujoco, model, start), 2 * np.pi * self.bandwidth
         friction = np.array([joint.friction for joint in arm.joints])
-        return natural**2 * inertia + natural * friction, 2 * self.ratio * natural * inertia
+        return natural_frequency**2 * inertia + natural_frequency * friction, 2 * self.ratio * natural_frequency * inertia
 
-    def _given(self, what: str, arm: Arm) -> Array:
-        numbers = np.asarray(getattr(self, what), dtype=np.float64)
-        least = 0.0 if what == "damping" else np.finfo(np.float64).tiny
-        if numbers.shape != (arm.n,) or not np.isfinite(numbers).all() or (numbers < least).any():
-            wanted = "of 0 or more" if what == "damping" else "above 0"
+    def _read_gains(self, name: str, arm: Arm) -> Array:
+        gain_values = np.asarray(getattr(self, name), dtype=np.float64)
+        lower_bound = 0.0 if name == "damping" else np.finfo(np.float64).tiny
+        if gain_values.shape != (arm.n,) or not np.isfinite(gain_values).all() or (gain_values < lower_bound).any():
+            condition = "of 0 or more" if name == "damping" else "above 0"
             raise InputError(
-                f"{what} of the servos must be {arm.n} finite numbers {wanted}, one for each joint of '{arm.name}'"
+                f"{name} of the servos must be {arm.n} finite numbers {condition}, one for each joint of '{arm.name}'"
             )
-        return numbers
+        return gain_values
 
     def describe(self) -> str:
         """One phrase for people."""
@@ -99,35 +99,38 @@ class Servos:
         return f"joint servos of {gains}, control at {self.rate:g} Hz{gravity}"
 
 
-def leads(arm: Arm, stiffness: Array) -> Array:
-    """(n,) how far a reference may be from its joint: what asks for the whole effort."""
+def reference_leads(arm: Arm, stiffness: Array) -> Array:
+    """Return (n,) the largest distance of a reference from its joint, which requests the full effort."""
     effort = np.array([joint.effort for joint in arm.joints])
-    return np.where(np.isfinite(effort), effort / stiffness, LEAD)
+    return np.where(np.isfinite(effort), effort / stiffness, DEFAULT_LEAD)
 
 
-def lag(q: Array, reference: Array, locked: Flags) -> Array:
-    """(n,) largest distance of each joint (T, n) from its reference while it was not locked (T, n), rad or m."""
+def max_tracking_error(q: Array, reference: Array, locked: Flags) -> Array:
+    """Return (n,) the largest distance of each joint (T, n) from its reference while it was not locked (T, n), rad or m."""
     return np.asarray(np.where(locked, 0.0, np.abs(q - reference)).max(axis=0, initial=0.0))
 
 
-def time_at_effort(arm: Arm, torque: Array, locked: Flags) -> Array:
-    """(n,) share of the time (T, n) for which the motor of each joint was at its effort while it was not locked."""
+def saturated_fraction(arm: Arm, torque: Array, locked: Flags) -> Array:
+    """Return (n,) the fraction of the time (T, n) for which the motor of each joint was torque-saturated while not locked."""
     effort = np.array([joint.effort for joint in arm.joints])
     healthy = ~locked
-    full = healthy & (np.abs(torque) >= FULL * effort)
-    return np.asarray(full.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
+    is_saturated = healthy & (np.abs(torque) >= SATURATION_FRACTION * effort)
+    return np.asarray(is_saturated.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
 
 
 def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> Array:
-    """(n,) the largest of each joint's diagonal entry of the inertia matrix."""
-    free = np.where(arm.prismatic, 1.0, np.pi)
-    low, high = np.where(np.isfinite(arm.lower), arm.lower, -free), np.where(np.isfinite(arm.upper), arm.upper, free)
-    places = np.random.default_rng(0).uniform(low, high, (CONFIGURATIONS, arm.n))
-    data, found, product = mujoco.MjData(model), np.zeros(arm.n), np.zeros(arm.n)
-    for q in (start, *places):
+    """Return (n,) the largest diagonal entry of the inertia matrix of each joint."""
+    default_ranges = np.where(arm.prismatic, 1.0, np.pi)
+    lower, upper = (
+        np.where(np.isfinite(arm.lower), arm.lower, -default_ranges),
+        np.where(np.isfinite(arm.upper), arm.upper, default_ranges),
+    )
+    configurations = np.random.default_rng(0).uniform(lower, upper, (INERTIA_SAMPLES, arm.n))
+    data, inertias, product = mujoco.MjData(model), np.zeros(arm.n), np.zeros(arm.n)
+    for q in (start, *configurations):
         data.qpos[:] = q - start
         mujoco.mj_forward(model, data)
-        for k, unit in enumerate(np.eye(arm.n)):
-            mujoco.mj_mulM(model, data, product, unit)
-            found[k] = max(found[k], product[k])
-    return found
+        for joint, unit_vector in enumerate(np.eye(arm.n)):
+            mujoco.mj_mulM(model, data, product, unit_vector)
+            inertias[joint] = max(inertias[joint], product[joint])
+    return inertias

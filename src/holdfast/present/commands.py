@@ -1,4 +1,4 @@
-"""The command and the region file that make a run again."""
+"""Command line and region file that reproduce a run."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from holdfast import arms
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import zyx_angles
 from holdfast.arm.task import Task, as_task, plane_normal
-from holdfast.arms.tool import attachment, attachment_text
+from holdfast.arms.tool import format_tool_pose, tool_pose_from_numbers
 from holdfast.assessment.assessment import Assessment
 from holdfast.failures import FailureSets, failure_sets
-from holdfast.grammar import ROWS, TASKS
+from holdfast.grammar import TASK_ROW_NAMES, TASK_SIZES
 from holdfast.regions.region import Region
 from holdfast.regions.weights import Density, swap_angles
-from holdfast.registry import INDICES
+from holdfast.registry import INDEX_REGISTRY
 from holdfast.report.page import Block, Code, Text
 
 Array = NDArray[np.float64]
@@ -29,55 +29,60 @@ Array = NDArray[np.float64]
 _POSES_FILE = "poses.csv"
 _CAPSULES_FILE = "capsules.yaml"
 _CELL_FILE = "cell.yaml"
-_MOST_POSES = 50  # of a list in a report; a results folder holds any number
+_MAX_LISTED_POSES = 50  # of a list in a report; a results folder holds any number
 
 
-def command_line(a: Assessment) -> tuple[str | None, str]:
-    """The command that makes the run again from ``region.yaml``, or None, and a remark."""
-    index, task = a.index, a.index.task
-    if not a.region.storable:
+def build_command_line(assessment: Assessment) -> tuple[str | None, str]:
+    """Return the command that reproduces the run from ``region.yaml``, or None, and a remark."""
+    index, task = assessment.index, assessment.index.task
+    if not assessment.region.storable:
         return None, "The region has a function of your own, so no command line makes this run again; keep the script."
-    if not INDICES.storable(index):
+    if not INDEX_REGISTRY.is_storable(index):
         return None, "The index is a function of your own, so no command line makes this run again; keep the script."
-    asked = task_option(a.arm, task)
-    if asked is None:
+    task_text = format_task_option(assessment.arm, task)
+    if task_text is None:
         return None, "The task is of your own making, so no command line makes this run again; keep the script."
-    spec, words, remark = arms.command_words(a.arm)
+    spec, option_words, remark = arms.command_words(assessment.arm)
     tool = {}
-    known_arm = arms.load(a.arm.name) if a.arm.name in arms.names() else None
-    if known_arm is not None and remark and replace(a.arm, tool=known_arm.tool).fingerprint == known_arm.fingerprint:
-        spec, remark, text = a.arm.name, "", attachment_text(a.arm)
-        words.clear()
+    known_arm = arms.load(assessment.arm.name) if assessment.arm.name in arms.names() else None
+    if known_arm is not None and remark and replace(assessment.arm, tool=known_arm.tool).fingerprint == known_arm.fingerprint:
+        spec, remark, text = assessment.arm.name, "", format_tool_pose(assessment.arm)
+        option_words.clear()
         tool = {"tool": f"tool={text}"}
-        if known_arm.with_tool(attachment(text.split(","))).fingerprint != a.arm.fingerprint:
+        if known_arm.with_tool(tool_pose_from_numbers(text.split(","))).fingerprint != assessment.arm.fingerprint:
             remark = "the tool to 12 digits"
-    options = {**tool, "region": "region.yaml", "index": index.label, "task": asked}
+    options = {**tool, "region": "region.yaml", "index": index.label, "task": task_text}
     if task.length != 1.0:
         options["length"] = repr(task.length)
-    if index.failures != failure_sets(a.arm, "single"):
-        options["failures"] = failures_option(a.arm, index.failures)
-    options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
-    if a.region.kind != "joints":
-        options["restarts"] = str(a.restarts)
-    apart = _clearance_options(a)
-    locks = [f"--lock {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
-    words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
-    flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
-    return on_lines(f"holdfast assess {shlex.quote(spec)}", [*words, *flags, *apart, *locks]), remark
+    if index.failures != failure_sets(assessment.arm, "single"):
+        options["failures"] = format_failures_option(assessment.arm, index.failures)
+    options |= {"poses": str(assessment.poses), "seed": str(assessment.seed), "sampling": assessment.sampling}
+    if assessment.region.kind != "joints":
+        options["restarts"] = str(assessment.restarts)
+    clearance_options = _clearance_options(assessment)
+    locks = [
+        f"--lock {shlex.quote(f'{assessment.arm.joint_names[joint]}={angle!r}')}" for joint, angle in assessment.plan.lock_at
+    ]
+    option_words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
+    switches = [
+        *(["--optimise"] if assessment.plan.optimise else []),
+        *(["--after-lock"] if assessment.plan.after_lock else []),
+    ]
+    return wrap_command(f"holdfast assess {shlex.quote(spec)}", [*option_words, *switches, *clearance_options, *locks]), remark
 
 
-def pose_command(arm: Arm, pose: Array) -> str:
+def build_pose_command(arm: Arm, pose: Array) -> str:
     """Return the command that finds the best configuration of a pose (4, 4), with the pose as roll, pitch, yaw in degrees."""
-    spec, words, _ = arms.command_words(arm)
-    numbers = [*pose[:3, 3].tolist(), *np.rad2deg(zyx_angles(pose[:3, :3])[::-1]).tolist()]
-    text = ",".join(f"{round(x, 9) + 0.0:.10g}" for x in numbers)
-    return " ".join([f"holdfast optimise {shlex.quote(spec)}", *words, f'--pose="{text}"'])
+    spec, option_words, _ = arms.command_words(arm)
+    values = [*pose[:3, 3].tolist(), *np.rad2deg(zyx_angles(pose[:3, :3])[::-1]).tolist()]
+    text = ",".join(f"{round(value, 9) + 0.0:.10g}" for value in values)
+    return " ".join([f"holdfast optimise {shlex.quote(spec)}", *option_words, f'--pose="{text}"'])
 
 
-def on_lines(command: str, words: Iterable[str]) -> str:
-    """A command with its options, on lines that a page holds, as a shell takes them."""
+def wrap_command(command: str, options: Iterable[str]) -> str:
+    """Wrap a command with its options to the width of a page, in shell syntax."""
     lines = [command]
-    for word in words:
+    for word in options:
         if len(lines[-1]) + len(word) > 90:
             lines[-1] += " \\"
             lines.append("    " + word)
@@ -86,77 +91,91 @@ def on_lines(command: str, words: Iterable[str]) -> str:
     return "\n".join(lines)
 
 
-def _clearance_options(a: Assessment) -> list[str]:
-    """What says how clear of itself the arm stays, where that is not what a run does anyway."""
-    clearance, arm = a.plan.clearance, a.arm
+def _clearance_options(assessment: Assessment) -> list[str]:
+    """Return the options for the clearance of the arm from itself and its cell, where they differ from the defaults."""
+    clearance, arm = assessment.plan.clearance, assessment.arm
     planar = plane_normal(arm) is not None
-    looks = a.plan.optimise and not planar  # unless told otherwise
+    default_on = assessment.plan.optimise and not planar  # unless told otherwise
     if clearance is None:
-        return ["--no-clearance"] if looks else []
-    around = [] if clearance.cell is None else [f"--cell {_CELL_FILE}"]
-    usual = _usual_shape(a)
-    if not clearance.itself and not (usual and planar):
-        around.append("--no-clearance")
-    looks = looks or (clearance.cell is not None and clearance.itself != planar) or not clearance.itself
+        return ["--no-clearance"] if default_on else []
+    cell_options = [] if clearance.cell is None else [f"--cell {_CELL_FILE}"]
+    is_default_shape = _has_default_shape(assessment)
+    if not clearance.itself and not (is_default_shape and planar):
+        cell_options.append("--no-clearance")
+    default_on = default_on or (clearance.cell is not None and clearance.itself != planar) or not clearance.itself
     radius = clearance.capsules.radius_along(arm)
-    if usual:
-        words = [] if looks else ["--clearance"]
+    if is_default_shape:
+        shape_options = [] if default_on else ["--clearance"]
     else:
-        words = [f"--capsules {_CAPSULES_FILE}"] if radius is None else [f"--radius {radius!r}"]
-    kept = a.plan.optimise or clearance.cell is not None
-    return [*around, *words, *([f"--margin {a.plan.margin!r}"] if a.plan.margin and kept else [])]
+        shape_options = [f"--capsules {_CAPSULES_FILE}"] if radius is None else [f"--radius {radius!r}"]
+    has_margin = assessment.plan.optimise or clearance.cell is not None
+    return [
+        *cell_options,
+        *shape_options,
+        *([f"--margin {assessment.plan.margin!r}"] if assessment.plan.margin and has_margin else []),
+    ]
 
 
-def _usual_shape(a: Assessment) -> bool:
-    """Whether the shape of the arm is the one that is taken where none is given."""
-    clearance = a.plan.clearance
+def _has_default_shape(assessment: Assessment) -> bool:
+    """Return whether the shape of the arm is the default one."""
+    clearance = assessment.plan.clearance
     if clearance is None or clearance.capsules.covers:
         return True
-    known = arms.load(a.arm.name) if a.arm.name in arms.names() else None
-    from holdfast.clearance.cover import shape_of  # takes long to import
+    library_arm = arms.load(assessment.arm.name) if assessment.arm.name in arms.names() else None
+    from holdfast.clearance.cover import choose_capsules  # takes long to import
 
-    covered = known is not None and known.fingerprint == a.arm.fingerprint and shape_of(known).covers
-    return clearance.capsules.assumed(a.arm) and not covered
+    has_default_cover = (
+        library_arm is not None
+        and library_arm.fingerprint == assessment.arm.fingerprint
+        and choose_capsules(library_arm).covers
+    )
+    return clearance.capsules.assumed(assessment.arm) and not has_default_cover
 
 
-def capsule_files(a: Assessment) -> list[Block]:
-    """The capsule file and the cell file that the command needs, if any, to copy."""
-    clearance = a.plan.clearance
+def list_capsule_files(assessment: Assessment) -> list[Block]:
+    """Return the capsule file and the cell file that the command needs, if any, as blocks to copy."""
+    clearance = assessment.plan.clearance
     if clearance is None:
         return []
     files = {}
-    if clearance.capsules.radius_along(a.arm) is None and not _usual_shape(a):
-        files[_CAPSULES_FILE] = clearance.capsules.to_dict(a.arm)
+    if clearance.capsules.radius_along(assessment.arm) is None and not _has_default_shape(assessment):
+        files[_CAPSULES_FILE] = clearance.capsules.to_dict(assessment.arm)
     if clearance.cell is not None:
         files[_CELL_FILE] = clearance.cell.to_dict()
-    made = [
+    texts = [
         (name, yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100))
         for name, data in files.items()
     ]
-    return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(name)) for name, text in made]
+    return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(name)) for name, text in texts]
 
 
-def task_option(arm: Arm, task: Task) -> str | None:
-    """What ``--task`` says for a task, if it can."""
-    if task.name in TASKS:
+def format_task_option(arm: Arm, task: Task) -> str | None:
+    """Return the value of ``--task`` for a task; None if the option cannot express it."""
+    if task.name in TASK_SIZES:
         standard = as_task(arm, task.name, task.length)
         return task.name if standard.frame == task.frame and np.array_equal(standard.rows, task.rows) else None
-    picked = task.rows.argmax(axis=1)
-    return f"{task.frame}:{','.join(ROWS[k] for k in picked)}" if np.array_equal(np.eye(6)[picked], task.rows) else None
+    components = task.rows.argmax(axis=1)
+    return (
+        f"{task.frame}:{','.join(TASK_ROW_NAMES[component] for component in components)}"
+        if np.array_equal(np.eye(6)[components], task.rows)
+        else None
+    )
 
 
-def failures_option(arm: Arm, failures: FailureSets) -> str:
-    """What ``--failures`` says: how many joints fail together, or the sets."""
-    size = len(failures[0])
-    if size < arm.n and failures == failure_sets(arm, size):
-        return str(size)
-    plain = not any(c in name for name in arm.joint_names for c in "+;")
-    text = "; ".join("+".join(arm.joint_names[k] if plain else str(k + 1) for k in f) for f in failures)
+def format_failures_option(arm: Arm, failures: FailureSets) -> str:
+    """Return the value of ``--failures``: the number of joints that fail together, or the sets."""
+    set_size = len(failures[0])
+    if set_size < arm.n and failures == failure_sets(arm, set_size):
+        return str(set_size)
+    names_are_plain = not any(separator in name for name in arm.joint_names for separator in "+;")
+    text = "; ".join(
+        "+".join(arm.joint_names[joint] if names_are_plain else str(joint + 1) for joint in failure) for failure in failures
+    )
     return text + ";" if text.isdigit() else text  # a lone number would be how many
 
 
-def region_file(region: Region) -> str:
-    """The region as the YAML text that :meth:`Region.load` reads, with every digit."""
+def format_region_file(region: Region) -> str:
+    """Return the region as the YAML text that :meth:`Region.load` reads, with every digit."""
     center, size = list(region.center), list(region.size)
     data: dict[str, object] = {"format": 2, "name": region.name, "angles": "rad"}
     if region.listed is not None:
@@ -171,18 +190,18 @@ def region_file(region: Region) -> str:
         if isinstance(region.weight, Density):
             box["density"] = swap_angles(region.weight.to_dict())
     else:
-        low = [c - s / 2 for c, s in zip(center, size, strict=True)]
-        data["joints"] = {"lower": low, "upper": [c + s / 2 for c, s in zip(center, size, strict=True)]}
+        lower = [middle - extent / 2 for middle, extent in zip(center, size, strict=True)]
+        data["joints"] = {"lower": lower, "upper": [middle + extent / 2 for middle, extent in zip(center, size, strict=True)]}
     text: str = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
     return text.rstrip()
 
 
-def region_files(region: Region) -> list[Block]:
-    """The files that the command needs, to copy."""
-    blocks: list[Block] = [Code(region_file(region), Markup("with <code>region.yaml</code>:"))]
-    if region.listed is not None and len(region.listed) <= _MOST_POSES:
-        blocks.append(Code(region.listed.table(), Markup("and <code>{}</code>:").format(_POSES_FILE)))
+def list_region_files(region: Region) -> list[Block]:
+    """Return the files that the command needs, as blocks to copy."""
+    blocks: list[Block] = [Code(format_region_file(region), Markup("with <code>region.yaml</code>:"))]
+    if region.listed is not None and len(region.listed) <= _MAX_LISTED_POSES:
+        blocks.append(Code(region.listed.to_csv(), Markup("and <code>{}</code>:").format(_POSES_FILE)))
     elif region.listed is not None:
-        where = Markup("and <code>{}</code>, the list of poses; the results folder holds it in <code>run.json</code>.")
-        blocks.append(Text(where.format(_POSES_FILE)))
+        remark = Markup("and <code>{}</code>, the list of poses; the results folder holds it in <code>run.json</code>.")
+        blocks.append(Text(remark.format(_POSES_FILE)))
     return blocks

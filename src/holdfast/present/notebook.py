@@ -1,4 +1,4 @@
-"""How a notebook shows a thing: the answer, a table of its key numbers, the main figure, and what to ask next.
+"""Notebook view of a result: the answer, a table of its key numbers, the main figure, and suggested next calls.
 
 Colours are those of the notebook, light or dark; only a figure brings its own white ground.
 """
@@ -12,89 +12,91 @@ from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.printing import Rows
-from holdfast.result import Shown
-from holdfast.words import together
+from holdfast.present.printing import TextTable
+from holdfast.result import Presentable
+from holdfast.words import join_units
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_SENTENCES, _ROWS, _LETTERS = 3, 12, 80  # at most; of a line of code
-_SHARPER = 1.5  # dots for each of the screen's
-_INCH = 96  # px
+_MAX_SENTENCES, _MAX_TABLE_ROWS, _MAX_LINE_LETTERS = 3, 12, 80  # at most; of a line of code
+_PIXEL_DENSITY = 1.5  # dots for each of the screen's
+_PIXELS_PER_INCH = 96  # px
 
 
-def card(thing: Shown) -> str:
-    """It as HTML without scripts and styles of its own, for the end of a cell."""
-    name = _called(thing)
-    first, *others = thing._presented("sentences")
-    parts = [f"<p><strong>{escape(first)}</strong></p>"]
-    parts += [f"<p>{escape(line)}</p>" for line in others[: _SENTENCES - 1]]
-    parts.append(_table(thing._presented("key_table")))
-    parts.append(thing._presented("picture", first))
-    if steps := thing._presented("next_steps", name):
-        code = escape("\n".join(map(_lines, steps)), quote=False)
+def build_card(result: Presentable) -> str:
+    """Return the notebook view of a result as HTML without scripts and style sheets, for the end of a cell."""
+    name = _variable_name(result)
+    headline, *remarks = result._present("sentences")
+    parts = [f"<p><strong>{escape(headline)}</strong></p>"]
+    parts += [f"<p>{escape(remark)}</p>" for remark in remarks[: _MAX_SENTENCES - 1]]
+    parts.append(_format_table(result._present("key_table")))
+    parts.append(result._present("picture", headline))
+    if next_calls := result._present("next_steps", name):
+        code = escape("\n".join(map(_format_step, next_calls)), quote=False)
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
-    return f'<div class="holdfast" style="max-width:60em">{together("".join(parts), html=True)}</div>'
+    return f'<div class="holdfast" style="max-width:60em">{join_units("".join(parts), html=True)}</div>'
 
 
-def _called(thing: Shown) -> str:
-    """The variable that holds it, so that what is suggested runs as it is; else ``_``, the last output of a notebook."""
-    return next((name for name, value in variables() if value is thing), "_")
+def _variable_name(result: Presentable) -> str:
+    """Return the notebook variable that holds the result, so that suggested code runs as it is; else ``_``, the last output."""
+    return next((name for name, value in list_variables() if value is result), "_")
 
 
-def variables() -> list[tuple[str, Any]]:
-    """Those of the notebook, with what they hold."""
+def list_variables() -> list[tuple[str, Any]]:
+    """List the public variables of the notebook with their values."""
     return [(name, value) for name, value in list(vars(sys.modules["__main__"]).items()) if not name.startswith("_")]
 
 
-def _lines(step: str) -> str:
-    """Code with what it is for, which comes before it where a line would be too long."""
-    code, _, about = step.partition("  # ")
-    return step if len(step) <= _LETTERS or not about else f"# {about}\n{code}"
+def _format_step(step: str) -> str:
+    """Format a suggested call; its comment goes before the code where the line would be too long."""
+    code, _, comment = step.partition("  # ")
+    return step if len(step) <= _MAX_LINE_LETTERS or not comment else f"# {comment}\n{code}"
 
 
-def _table(table: Rows) -> str:
+def _format_table(table: TextTable) -> str:
     if not table.rows:
         return ""
-    head = "".join(f'<th style="text-align:left">{_cell(x)}</th>' for x in table.head) if any(table.head) else ""
-    rows = ["".join(f'<td style="text-align:left">{_cell(x)}</td>' for x in row) for row in table.rows[:_ROWS]]
+    header = "".join(f'<th style="text-align:left">{_escape_cell(text)}</th>' for text in table.head) if any(table.head) else ""
+    rows = [
+        "".join(f'<td style="text-align:left">{_escape_cell(text)}</td>' for text in row)
+        for row in table.rows[:_MAX_TABLE_ROWS]
+    ]
     body = "".join(f"<tr>{row}</tr>" for row in rows)
-    title = f'<caption style="text-align:left">{_cell(table.title)}</caption>' if table.title else ""
-    rest = len(table.rows) - _ROWS
-    more = f"<p>and {rest:,} more</p>" if rest > 0 else ""
-    return (
-        f'<table style="margin-left:0">{title}{head and f"<thead><tr>{head}</tr></thead>"}<tbody>{body}</tbody></table>{more}'
-    )
+    title = f'<caption style="text-align:left">{_escape_cell(table.title)}</caption>' if table.title else ""
+    omitted_rows = len(table.rows) - _MAX_TABLE_ROWS
+    omission_note = f"<p>and {omitted_rows:,} more</p>" if omitted_rows > 0 else ""
+    head = header and f"<thead><tr>{header}</tr></thead>"
+    return f'<table style="margin-left:0">{title}{head}<tbody>{body}</tbody></table>{omission_note}'
 
 
-def _cell(text: str) -> str:
+def _escape_cell(text: str) -> str:
     return escape(text).replace("\n", "<br>")
 
 
-def image(figure: Figure, about: str) -> str:
-    """The figure as an ``<img>`` as wide as its cell at most; ``about`` is for people who cannot see it."""
-    data, size = png(figure)
-    look = f"width:{size['width']:.0f}px;max-width:100%;background:white;padding:.4em;box-sizing:border-box"
-    return f'<img style="{look}" alt="{escape(about)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
+def embed_figure(figure: Figure, about: str) -> str:
+    """Return the figure as an ``<img>`` at most as wide as its cell; ``about`` is the text alternative."""
+    data, size = render_png(figure)
+    style_text = f"width:{size['width']:.0f}px;max-width:100%;background:white;padding:.4em;box-sizing:border-box"
+    return f'<img style="{style_text}" alt="{escape(about)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
 
 
-def png(figure: Figure) -> tuple[bytes, dict[str, Any]]:
-    """The figure as PNG with its size in pixels of the screen, as IPython asks for it."""
+def render_png(figure: Figure) -> tuple[bytes, dict[str, Any]]:
+    """Render the figure as PNG with its size in screen pixels, as IPython requires."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     from holdfast.report.figures import style
 
-    data, before = io.BytesIO(), figure.dpi
+    data, original_dpi = io.BytesIO(), figure.dpi
     with style():
-        figure.dpi = _SHARPER * _INCH
+        figure.dpi = _PIXEL_DENSITY * _PIXELS_PER_INCH
         FigureCanvasAgg(figure).print_png(data)
-        figure.dpi = before
+        figure.dpi = original_dpi
     width, height = figure.get_size_inches()
-    return data.getvalue(), {"width": float(_INCH * width), "height": float(_INCH * height)}
+    return data.getvalue(), {"width": float(_PIXELS_PER_INCH * width), "height": float(_PIXELS_PER_INCH * height)}
 
 
-def shown_alone(figure: Figure) -> Figure:
-    """The figure, which a cell that ends with it shows once: with ``%matplotlib inline`` as that does, else by itself."""
-    vars(figure)["_repr_png_"] = partial(png, figure)
+def show_once(figure: Figure) -> Figure:
+    """Return the figure so that a cell that ends with it shows it once, with ``%matplotlib inline`` or without."""
+    vars(figure)["_repr_png_"] = partial(render_png, figure)
     return figure

@@ -1,4 +1,4 @@
-"""What every command prints with: tables and lines for people, JSON for machines."""
+"""Output of all commands: tables and lines for people, JSON for machines."""
 
 from __future__ import annotations
 
@@ -15,76 +15,79 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-class Rows(NamedTuple):
-    """A table as the console and the page show it: texts, and what is above them."""
+class TextTable(NamedTuple):
+    """Table of texts with column headers and a title, for the console and the page."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
     title: str = ""
 
 
-def plain(value: Any) -> Any:
-    """JSON types of NumPy ones; infinity and NaN become null, which JSON has, complex numbers their two parts."""
+def to_json_types(value: Any) -> Any:
+    """Convert NumPy types to JSON types; infinity and NaN become null, complex numbers become their two parts."""
     if isinstance(value, dict):
-        return {str(k): plain(v) for k, v in value.items()}
+        return {str(key): to_json_types(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [plain(v) for v in value]
+        return [to_json_types(item) for item in value]
     if isinstance(value, np.ndarray):
-        return plain(value.tolist())
+        return to_json_types(value.tolist())
     if isinstance(value, np.generic):
-        return plain(value.item())
+        return to_json_types(value.item())
     if isinstance(value, complex):
-        return {"real": plain(value.real), "imaginary": plain(value.imag)}
+        return {"real": to_json_types(value.real), "imaginary": to_json_types(value.imag)}
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
 
 
 def print_json(data: Any) -> None:
-    """One JSON document on stdout, of types that JSON has: :func:`plain` makes them."""
+    """Print one JSON document on stdout; the data have JSON types only (:func:`plain` converts them)."""
     typer.echo(json.dumps(data, indent=2, allow_nan=False))
 
 
-def number(value: float | np.floating[Any], digits: int = 4) -> str:
-    """A value for a table; rounding noise about 0 is 0."""
+def format_significant(value: float | np.floating[Any], digits: int = 4) -> str:
+    """Format a value for a table with significant digits; rounding noise about 0 prints as 0."""
     value = float(value)
     if not math.isfinite(value):
         return "infinite" if math.isinf(value) else "none"
     return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
 
 
-def alike(values: Iterable[float], units: str | Sequence[str] = "", digits: int = 4) -> list[str]:
-    """A column of values: those of one unit with one precision, unless they are of sizes that have none."""
-    x = np.array([float(v) for v in values])
-    unit = np.array([units] * x.size if isinstance(units, str) else units)
-    found = [number(v, digits) for v in x]
-    for one in dict.fromkeys(unit.tolist()):
-        sizes = np.abs(x[mine := (unit == one)])
-        sizes = sizes[np.isfinite(sizes) & (sizes > 1e-12)]
-        if not sizes.size or sizes.max() > 1e5 * sizes.min() or sizes.min() < 1e-6:
+def format_column(values: Iterable[float], units: str | Sequence[str] = "", digits: int = 4) -> list[str]:
+    """Format a column of values: values of one unit share one precision, unless their magnitudes differ too much."""
+    numbers = np.array([float(value) for value in values])
+    units_by_row = np.array([units] * numbers.size if isinstance(units, str) else units)
+    texts = [format_significant(value, digits) for value in numbers]
+    for unit_name in dict.fromkeys(units_by_row.tolist()):
+        magnitudes = np.abs(numbers[has_unit := (units_by_row == unit_name)])
+        magnitudes = magnitudes[np.isfinite(magnitudes) & (magnitudes > 1e-12)]
+        if not magnitudes.size or magnitudes.max() > 1e5 * magnitudes.min() or magnitudes.min() < 1e-6:
             continue
-        decimals = max(digits - 1 - math.floor(math.log10(sizes.max())), 1 - math.floor(math.log10(sizes.min())), 0)
-        for k in np.flatnonzero(mine & np.isfinite(x)):
-            found[k] = f"{x[k] + 0.0:.{decimals}f}" if abs(x[k]) > 1e-12 else f"{0:.{decimals}f}"
-    return [f"{text} {u}" if u and u != "1" else text for text, u in zip(found, unit, strict=True)]
+        decimals = max(digits - 1 - math.floor(math.log10(magnitudes.max())), 1 - math.floor(math.log10(magnitudes.min())), 0)
+        for row in np.flatnonzero(has_unit & np.isfinite(numbers)):
+            texts[row] = f"{numbers[row] + 0.0:.{decimals}f}" if abs(numbers[row]) > 1e-12 else f"{0:.{decimals}f}"
+    return [
+        f"{text} {unit_text}" if unit_text and unit_text != "1" else text
+        for text, unit_text in zip(texts, units_by_row, strict=True)
+    ]
 
 
-def print_rows(out: Console, table: Rows) -> None:
-    """The rows below their title."""
+def print_table(out: Console, table: TextTable) -> None:
+    """Print the title and the rows of a table."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
     if table.title:
         out.print(escape(f"{table.title}:"), soft_wrap=True)
-    shown = Grid(*map(escape, table.head))
+    grid = BandedTable(*map(escape, table.head))
     for row in table.rows:
-        shown.add_row(*map(escape, row))
-    out.print(shown)
+        grid.add_row(*map(escape, row))
+    out.print(grid)
 
 
-def print_written(out: Console, files: Iterable[Path | None]) -> None:
-    """Say which files were written."""
+def print_written_files(out: Console, files: Iterable[Path | None]) -> None:
+    """Print the names of the files that were written."""
     from rich.markup import escape
 
     for file in files:
@@ -92,21 +95,21 @@ def print_written(out: Console, files: Iterable[Path | None]) -> None:
             out.print(f"written: {escape(str(file))}", soft_wrap=True)
 
 
-def print_each(
-    of: Any, configurations: Sequence[Any], as_json: bool, data: Callable[..., Any], show: Callable[..., None]
+def print_evaluations(
+    measure: Any, configurations: Sequence[Any], as_json: bool, data: Callable[..., Any], show: Callable[..., None]
 ) -> None:
-    """What ``of`` is worth at each configuration: one JSON document, a list where there are several, or tables for people."""
+    """Print the values of a measure at each configuration: one JSON document (a list where there are several) or tables."""
     if as_json:
-        found = [plain(data(of, q)) for q in configurations]
-        print_json(found if len(found) > 1 else found[0])
+        documents = [to_json_types(data(measure, q)) for q in configurations]
+        print_json(documents if len(documents) > 1 else documents[0])
         return
-    out = console()
+    out = make_console()
     for q in configurations:
-        show(of, q, out)
+        show(measure, q, out)
 
 
-def console(stderr: bool = False) -> Console:
-    """Where tables for people go; wide when no terminal says how wide it is."""
-    from holdfast.present.terminal import Screen
+def make_console(stderr: bool = False) -> Console:
+    """Return the console for tables; it is wide when the width of the terminal is unknown."""
+    from holdfast.present.terminal import WrappingConsole
 
-    return Screen(stderr)
+    return WrappingConsole(stderr)

@@ -1,4 +1,4 @@
-"""How a result is shown where its own presenter does not say: sentences, figures, a page of both, a folder of everything."""
+"""Default presentation of results: sentences, figures, a page with both, and a folder with everything."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.errors import InputError
-from holdfast.files.output import made
-from holdfast.notice import says
-from holdfast.present import presenter
-from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
-from holdfast.present.story import Story, how
-from holdfast.result import Result, Shown
-from holdfast.words import capitalised
+from holdfast.files.output import make_folder
+from holdfast.notice import reports_progress
+from holdfast.present import find_presenter
+from holdfast.present.printing import TextTable, make_console, print_json, print_table, print_written_files, to_json_types
+from holdfast.present.story import PageContent, build_method_blocks
+from holdfast.result import Presentable, Result
+from holdfast.words import capitalise_first
 
-_NARROW = 5  # columns
-_HARD = "\N{NO-BREAK SPACE}"
+_MAX_NARROW_COLUMNS = 5  # columns
+_HARD_SPACE = "\N{NO-BREAK SPACE}"
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -30,212 +30,226 @@ if TYPE_CHECKING:
     Drawings = dict[str, Callable[[], Figure]]
 
 
-def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any) -> None:
-    """What a command prints: JSON for machines, with the files if they are listed; or what people read, and the files.
+def print_result(
+    result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any
+) -> None:
+    """Print a result: JSON for machines, with the files if they are listed; or text for people, and the files.
 
     The options are what was asked about the result: its ``to_dict`` and ``show`` take them.
     """
     if as_json:
         print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))
         return
-    out = console()
-    result._presented("show", out, **options)
-    print_written(out, files)
+    out = make_console()
+    result._present("show", out, **options)
+    print_written_files(out, files)
 
 
-def printed_each(results: Sequence[Result], as_json: bool) -> None:
-    """The same of several: one JSON document, a list where there are several."""
+def print_results(results: Sequence[Result], as_json: bool) -> None:
+    """Print several results: one JSON document (a list where there are several), or text."""
     if as_json:
         data = [result.to_dict() for result in results]
         print_json(data if len(data) > 1 else data[0])
         return
     for result in results:
-        printed(result, False)
+        print_result(result, False)
 
 
-def said() -> str:
-    """The command that runs, for its report."""
+def current_command() -> str:
+    """Return the current command line for the report."""
     return f"holdfast {shlex.join(sys.argv[1:])}"
 
 
-def drawn(result: Result, plot: Path | None, out: Path | None = None) -> list[Path]:
-    """The result's first figure as PNG, and the folder of its report, each if it is asked for."""
+def write_outputs(result: Result, plot: Path | None, out: Path | None = None) -> list[Path]:
+    """Write the first figure of the result as PNG, and the folder of its report, each if requested."""
     files = []
     if plot is not None:
         from holdfast.report.figures import save_png
 
         files.append(save_png(next(iter(result.figures().values())), plot))
-    return files if out is None else [*files, *result.save(out, command=said())]
+    return files if out is None else [*files, *result.save(out, command=current_command())]
 
 
 def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
-    """Its numbers in types that JSON has."""
-    data: dict[str, Any] = plain(result._presented("to_dict", *args, **options))
+    """Return the numbers of the result in JSON types."""
+    data: dict[str, Any] = to_json_types(result._present("to_dict", *args, **options))
     return data
 
 
 def show(result: Result, out: Console) -> None:
-    """The sentences and the tables."""
-    for line in result.describe():
-        out.print(line, markup=False, soft_wrap=True)
-    for table in result._presented("tables"):
-        print_rows(out, table)
+    """Print the sentences and the tables."""
+    for sentence in result.describe():
+        out.print(sentence, markup=False, soft_wrap=True)
+    for table in result._present("tables"):
+        print_table(out, table)
 
 
-def tables(result: Result) -> list[Rows]:
-    """None."""
+def tables(result: Result) -> list[TextTable]:
+    """Return no tables."""
     del result
     return []
 
 
 def figures(result: Result, **options: Any) -> dict[str, Figure]:
-    """All that it can draw."""
-    return {name: draw() for name, draw in result._presented("drawings", **options).items()}
+    """Draw all figures of the result."""
+    return {name: draw_figure() for name, draw_figure in result._present("drawings", **options).items()}
 
 
 def drawings(result: Result, **options: Any) -> Drawings:
-    """Its figures by name, drawn when they are asked for; one that nobody wants takes no time.
+    """Return functions that draw the figures of the result, by name; a figure that is not requested takes no time.
 
     Of a class that has none of its own they are what it draws at once, if anything.
     """
-    names = [each.__name__ for each in type(result).__mro__]
-    at_once = presenter(names, "figures")
-    drawn = {} if at_once is figures else at_once(result, **options)
-    return {name: partial(_itself, figure) for name, figure in drawn.items()}
+    names = [base.__name__ for base in type(result).__mro__]
+    draw_all = find_presenter(names, "figures")
+    figures_by_name = {} if draw_all is figures else draw_all(result, **options)
+    return {name: partial(_return_figure, figure) for name, figure in figures_by_name.items()}
 
 
-def _itself(figure: Figure) -> Figure:
+def _return_figure(figure: Figure) -> Figure:
     return figure
 
 
-def story(result: Result) -> Story:
-    """What it says of itself."""
-    first, *others = map(capitalised, result.describe())
+def story(result: Result) -> PageContent:
+    """Compose the report from the sentences of the result."""
+    headline, *remarks = map(capitalise_first, result.describe())
     title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
-    return Story(title, first, lines=others)
+    return PageContent(title, headline, lines=remarks)
 
 
-@says("drawing the report")
+@reports_progress("drawing the report")
 def write(
-    result: Result, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None, said: Story | None = None
+    result: Result, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None, content: PageContent | None = None
 ) -> Path:
-    """The answer, the figures and the tables, how it was computed, and the same run again.
+    """Write the report: the answer, the figures and the tables, the method, and the command that reproduces the run.
 
     The figures are drawn anew if they are not given; what is said is what the result's own presenter says.
     """
     from holdfast.report import page
 
-    said = said or result._presented("story")
-    pictures: dict[str, list[page.Block]] = {}
+    content = content or result._present("story")
+    figure_blocks: dict[str, list[page.Block]] = {}
     for name, figure in (result.figures() if drawn is None else drawn).items():
-        told = said.figures.get(name, ("What was found", ""))
-        if told is None:
+        captions = content.figures.get(name, ("What was found", ""))
+        if captions is None:
             continue
-        title, caption = told
-        about = f"{said.title}: {title.lower()}"
-        pictures.setdefault(title, []).append(page.Picture(_svg(figure, name, about), caption))
-    tables = result._presented("tables") if said.tables is None else said.tables
+        title, caption = captions
+        description = f"{content.title}: {title.lower()}"
+        figure_blocks.setdefault(title, []).append(page.Picture(_render_svg(figure, name, description), caption))
+    tables = result._present("tables") if content.tables is None else content.tables
     return page.write(
         page.Page(
-            said.title,
-            said.answer,
+            content.title,
+            content.answer,
             [
-                page.Section("", [page.Text(line) for line in said.lines]),
-                *[page.Section(title, blocks) for title, blocks in [*said.views, *pictures.items()]],
-                page.Section("In numbers", [as_table(rows) for rows in tables]),
+                page.Section("", [page.Text(sentence) for sentence in content.lines]),
+                *[page.Section(title, blocks) for title, blocks in [*content.views, *figure_blocks.items()]],
+                page.Section("In numbers", [build_table_block(text_table) for text_table in tables]),
             ],
-            subtitle=said.about,
-            facts=said.facts,
-            method=how(said.arm, *said.method),
+            subtitle=content.about,
+            facts=content.facts,
+            method=build_method_blocks(content.arm, *content.method),
             again=command,
         ),
         path,
     )
 
 
-def as_table(table: Rows) -> Any:
-    """Rows as a block of a page; columns of words begin at the left."""
+def build_table_block(table: TextTable) -> Any:
+    """Convert a table to a block of a page; columns of words are left-aligned."""
     from holdfast.report.page import Table
 
-    rows = [[_beside(cell) for cell in row] for row in table.rows]
-    wide = bool(rows) and len(rows[0]) > _NARROW
-    worded = {k for row in table.rows for k, cell in enumerate(row) if cell[:1].isalpha() and cell not in ("none", "infinite")}
-    return Table(rows, table.head, frozenset(range(1, len(table.head))) - worded, caption=table.title, wide=wide)
+    rows = [[_flatten_cell(cell) for cell in row] for row in table.rows]
+    is_wide = bool(rows) and len(rows[0]) > _MAX_NARROW_COLUMNS
+    word_columns = {
+        column
+        for row in table.rows
+        for column, cell in enumerate(row)
+        if cell[:1].isalpha() and cell not in ("none", "infinite")
+    }
+    return Table(rows, table.head, frozenset(range(1, len(table.head))) - word_columns, caption=table.title, wide=is_wide)
 
 
-def _beside(cell: str) -> str:
-    """With what is below a value beside it, or as a whole on the next line."""
-    value, _, below = cell.partition("\n")
-    return f"{value} ({_HARD.join(below.split())})" if below else value
+def _flatten_cell(cell: str) -> str:
+    """Return a two-line cell as one line: the second line (an interval) follows in parentheses."""
+    value, _, second_line = cell.partition("\n")
+    return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value
 
 
-def _svg(figure: Figure, name: str, about: str) -> Markup:
+def _render_svg(figure: Figure, name: str, description: str) -> Markup:
     from holdfast.report.figures import svg
 
-    return svg(figure, name, about)
+    return svg(figure, name, description)
 
 
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:
-    """The figures as pictures, and the page."""
+    """Write the figures as PNG files, and the page."""
     from holdfast.report.figures import save_png
 
-    folder, drawn = made(folder), result.figures()
-    pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
-    page = folder / "report.html"
-    common = presenter([each.__name__ for each in type(result).__mro__], "write") is write
-    return [*pictures, write(result, page, command, drawn) if common else result.report(page, command=command)]
+    folder, figures_by_name = make_folder(folder), result.figures()
+    pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in figures_by_name.items()]
+    report_file = folder / "report.html"
+    uses_default_page = find_presenter([base.__name__ for base in type(result).__mro__], "write") is write
+    return [
+        *pictures,
+        write(result, report_file, command, figures_by_name)
+        if uses_default_page
+        else result.report(report_file, command=command),
+    ]
 
 
 def plot(result: Result, name: str = "", **options: Any) -> Figure:
-    """One of its figures, the first if none is named, which a notebook shows whether or not pyplot was imported."""
-    from holdfast.present.notebook import shown_alone
+    """Draw one figure of the result, the first if none is named; a notebook shows it with or without pyplot."""
+    from holdfast.present.notebook import show_once
 
-    found = result._presented("drawings", **options) if name or options else result._presented("main_figure")
-    if not found:
-        steps = " or ".join(step.partition("  #")[0] for step in result._presented("next_steps", "result"))
-        raise InputError(f"{type(result).__name__} has no figure; ask {steps} instead")
-    if name and name not in found:
-        raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(found)}")
-    return shown_alone(found[name or next(iter(found))]())
+    draw_functions = result._present("drawings", **options) if name or options else result._present("main_figure")
+    if not draw_functions:
+        suggestions = " or ".join(step.partition("  #")[0] for step in result._present("next_steps", "result"))
+        raise InputError(f"{type(result).__name__} has no figure; ask {suggestions} instead")
+    if name and name not in draw_functions:
+        raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(draw_functions)}")
+    return show_once(draw_functions[name or next(iter(draw_functions))]())
 
 
 def main_figure(result: Result) -> Drawings:
-    """The first of its figures with its name; nothing where it has none. What is quicker alone says so."""
-    return dict(list(result._presented("drawings").items())[:1])
+    """Return the first figure with its name; nothing where there is none. A presenter with a faster figure overrides this
+    function.
+    """
+    return dict(list(result._present("drawings").items())[:1])
 
 
 def sentences(thing: Any) -> list[str]:
-    """What it says of itself: of a result several, of anything else one."""
-    said = thing.describe()
-    return [said] if isinstance(said, str) else list(said)
+    """Return the description of the result as a list of sentences."""
+    description = thing.describe()
+    return [description] if isinstance(description, str) else list(description)
 
 
-def key_table(result: Result) -> Rows:
-    """The first of its tables; of what has none the single numbers of its ``to_dict``."""
-    for table in result._presented("tables"):
+def key_table(result: Result) -> TextTable:
+    """Return the first table, or the scalar entries of ``to_dict`` if there is none."""
+    for table in result._present("tables"):
         return table  # type: ignore[no-any-return]
     rows = [
         [key.replace("_", " "), str(value)] for key, value in result.to_dict().items() if isinstance(value, (str, int, float))
     ]
-    return Rows(["", ""], rows)
+    return TextTable(["", ""], rows)
 
 
 def next_steps(result: Result, name: str) -> list[str]:
-    """All that it says."""
+    """Suggest the description of the result."""
     del result
     return [f"{name}.describe()"]
 
 
-def picture(thing: Shown, about: str) -> str:
-    """The main figure of a result as HTML, if it has one."""
-    from holdfast.present.notebook import image
+def picture(thing: Presentable, about: str) -> str:
+    """Return the main figure of a result as HTML, if it has one."""
+    from holdfast.present.notebook import embed_figure
 
-    drawn = thing._presented("main_figure") if isinstance(thing, Result) else {}
-    return "".join(image(draw(), f"{name}: {about}") for name, draw in drawn.items())
+    draw_functions = thing._present("main_figure") if isinstance(thing, Result) else {}
+    return "".join(embed_figure(draw_figure(), f"{name}: {about}") for name, draw_figure in draw_functions.items())
 
 
-def in_notebook(thing: Shown) -> str:
-    """The answer, a table of key numbers, the main figure, and what to ask next."""
-    from holdfast.present.notebook import card
+def in_notebook(thing: Presentable) -> str:
+    """Return the answer, a table of key numbers, the main figure, and suggested next calls."""
+    from holdfast.present.notebook import build_card
 
-    return card(thing)
+    return build_card(thing)

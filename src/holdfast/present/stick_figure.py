@@ -1,4 +1,4 @@
-"""How an arm is seen."""
+"""Views of an arm for figures."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
-from holdfast.report.views import SIDE, View, onto_plane, sides
+from holdfast.report.views import SIDE_VIEW, View, choose_side_and_top_views, view_onto_plane
 
 
-def views_of(arm: Arm, points: NDArray[np.float64]) -> list[View]:
-    """Side and top view of points (..., 3) of an arm; of one that moves in a plane, that plane."""
+def choose_views(arm: Arm, points: NDArray[np.float64]) -> list[View]:
+    """Return side and top view of points (..., 3) of an arm; for an arm that moves in a plane the view of that plane."""
     normal = plane_normal(arm)
-    return sides(points) or [SIDE] if normal is None else [onto_plane(normal, -arm.gravity)]
+    return choose_side_and_top_views(points) or [SIDE_VIEW] if normal is None else [view_onto_plane(normal, -arm.gravity)]

@@ -1,4 +1,4 @@
-"""What a page says of a result: the answer, its numbers, what each figure shows, and how it was computed."""
+"""Content of the page of a result: the answer, its numbers, captions of the figures, and the method."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-    from holdfast.present.printing import Rows
+    from holdfast.present.printing import TextTable
 
 
 @dataclass(frozen=True)
-class Story:
-    """What the page of a result says.
+class PageContent:
+    """Content of the page of a result.
 
     Attributes:
         title: What was asked.
@@ -36,25 +36,28 @@ class Story:
     lines: Sequence[str] = ()
     views: Sequence[tuple[str, Sequence[Any]]] = ()
     figures: Mapping[str, tuple[str, str] | None] = field(default_factory=dict)
-    tables: Sequence[Rows] | None = None
+    tables: Sequence[TextTable] | None = None
     method: Sequence[tuple[str, str]] = ()
     arm: Arm | None = None
 
 
-def how(arm: Arm | None, *rows: tuple[Any, Any], called: str = "arm") -> list[Any]:
-    """How it was computed: what is given, and what is said of every result, as blocks of a page."""
+def build_method_blocks(arm: Arm | None, *rows: tuple[Any, Any], arm_word: str = "arm") -> list[Any]:
+    """Build the method section of a page: the given rows, the provenance of the arm, and the package versions."""
     from markupsafe import Markup
 
     from holdfast.provenance import versions
     from holdfast.report.page import Table
 
-    told = list(rows)
+    table_rows = list(rows)
     if arm is not None:
-        code = Markup("<code>{}</code>").format(arm.fingerprint)
-        told += [(f"{called[0].upper()}{called[1:]}", arm.provenance), (f"Fingerprint of the {called}", code)]
-    return [Table([*told, ("Versions", named(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
+        fingerprint = Markup("<code>{}</code>").format(arm.fingerprint)
+        table_rows += [
+            (f"{arm_word[0].upper()}{arm_word[1:]}", arm.provenance),
+            (f"Fingerprint of the {arm_word}", fingerprint),
+        ]
+    return [Table([*table_rows, ("Versions", format_versions(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
 
 
-def named(versions: Mapping[str, Any]) -> str:
-    """Versions of packages in a line."""
+def format_versions(versions: Mapping[str, Any]) -> str:
+    """Format the versions of packages as one line."""
     return ", ".join(f"{name} {version}" for name, version in versions.items())

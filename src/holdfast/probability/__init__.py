@@ -1,4 +1,4 @@
-"""Probabilities with their intervals."""
+"""Probabilities and their confidence intervals."""
 
 from holdfast._lazy import offer
 

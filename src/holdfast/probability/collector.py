@@ -1,4 +1,4 @@
-"""The distribution of values that come chunk by chunk, in memory that does not grow with them."""
+"""Collect the distribution of values chunk by chunk in constant memory."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.probability.distribution import Distribution
-from holdfast.probability.intervals import Sums
+from holdfast.probability.intervals import WeightSums
 
 Array = NDArray[np.float64]
 
-BINS = 1 << 16
+BIN_COUNT = 1 << 16
 
 
-class Collector:
-    """Gathers values chunk by chunk; beyond ``most`` of them keeps fine bins instead, in constant memory."""
+class DistributionCollector:
+    """Collect values chunk by chunk; beyond ``most`` of them the collector uses fine bins and constant memory."""
 
     def __init__(
         self, better: Literal["larger", "smaller"], bound: float | None, most: int = 4_000_000, heaviest: float = 0.0
@@ -27,7 +27,7 @@ class Collector:
         self._edges: Array | None = None
         self._counts: NDArray[Any] | None = None
         self._weights: list[Array] = []
-        self._sums: tuple[Sums, Sums, Sums] | None = None  # of finite values, of reached poses, of the others
+        self._sums: tuple[WeightSums, WeightSums, WeightSums] | None = None  # of finite values, of reached poses, of the others
         self._unreached = self._singular = self._infinite = self._reached = 0
         self._total, self._low, self._high = 0.0, np.inf, -np.inf
 
@@ -46,16 +46,16 @@ class Collector:
         self._unreached += unreached
         self._singular += singular
         self._reached += len(values)
-        some = np.isfinite(values)
-        finite = values[some]
+        is_finite = np.isfinite(values)
+        finite = values[is_finite]
         self._infinite += len(values) - len(finite)
         if weights is not None and unreached_weights is not None:
             if self._sums is None:
-                self._sums = Sums(), Sums(), Sums(largest=self._heaviest)
-            for sums, w in zip(self._sums, (weights[some], weights, unreached_weights), strict=True):
+                self._sums = WeightSums(), WeightSums(), WeightSums(largest=self._heaviest)
+            for sums, w in zip(self._sums, (weights[is_finite], weights, unreached_weights), strict=True):
                 sums.add(w)
-            self._total += float(finite @ weights[some])
-            finite = values[some & (weights > 0)]
+            self._total += float(finite @ weights[is_finite])
+            finite = values[is_finite & (weights > 0)]
         elif finite.size:
             self._total += float(finite.sum())
         if finite.size:
@@ -68,37 +68,37 @@ class Collector:
             if self._kept > self._most:
                 self._start_bins()
         else:
-            self._count(values, weights)
+            self._count_in_bins(values, weights)
 
     def _start_bins(self) -> None:
-        seen = np.concatenate(self._parts)
-        finite = seen[np.isfinite(seen)]
+        collected = np.concatenate(self._parts)
+        finite = collected[np.isfinite(collected)]
         if self._bound is not None:
-            edges = np.linspace(0.0, self._bound, BINS)
+            edges = np.linspace(0.0, self._bound, BIN_COUNT)
         else:
             # Half the edges evenly spaced, half at quantiles: a heavy tail must not blur the rest.
             low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
             top = high + max(abs(high), high - low, 1e-300)
-            even = np.linspace(0.0 if low >= 0 else 2 * low, top, BINS // 2)
-            dense = np.quantile(finite, np.linspace(0, 1, BINS // 2)) if finite.size else np.zeros(0)
-            edges = np.unique(np.r_[even, dense, np.finfo(np.float64).max])
+            even_edges = np.linspace(0.0 if low >= 0 else 2 * low, top, BIN_COUNT // 2)
+            dense_edges = np.quantile(finite, np.linspace(0, 1, BIN_COUNT // 2)) if finite.size else np.zeros(0)
+            edges = np.unique(np.r_[even_edges, dense_edges, np.finfo(np.float64).max])
         self._edges = np.r_[edges, np.inf]
         weights = np.concatenate(self._weights) if self._weights else None
         bins = len(self._edges) - 1
         self._counts = np.zeros(bins, dtype=np.int64) if weights is None else np.zeros(bins)
         self._parts, self._weights = [], []
-        self._count(seen, weights)
+        self._count_in_bins(collected, weights)
 
-    def _count(self, values: Array, weights: Array | None) -> None:
+    def _count_in_bins(self, values: Array, weights: Array | None) -> None:
         assert self._edges is not None
         assert self._counts is not None
         last = len(self._counts) - 1
         if self._bound is not None:  # even bins need no search
-            place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
-            place[values >= self._bound] = last  # where many values sit: the product may round to just below
+            bin_index = np.minimum(values * ((BIN_COUNT - 1) / self._bound), last).astype(np.int64)
+            bin_index[values >= self._bound] = last  # where many values sit: the product may round to just below
         else:
-            place = np.searchsorted(self._edges, values, side="right") - 1
-        self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)
+            bin_index = np.searchsorted(self._edges, values, side="right") - 1
+        self._counts += np.bincount(bin_index.clip(0, last), weights, minlength=last + 1)
 
     def finish(self) -> Distribution:
         """The distribution of everything added."""
@@ -106,9 +106,11 @@ class Collector:
             values = np.concatenate(self._parts) if self._parts else np.zeros(0)
             if self._sums is not None:
                 weights = np.concatenate(self._weights)
-                return Distribution._weighted(values, weights, self._better, self._unreached, self._singular, self._sums[2])
+                return Distribution._from_weighted(
+                    values, weights, self._better, self._unreached, self._singular, self._sums[2]
+                )
             return Distribution.of(values, self._better, self._unreached, singular=self._singular)
-        finite, found, lost = self._sums or (None, None, None)
+        finite, finite_sums, lost_sums = self._sums or (None, None, None)
         return Distribution(
             better=self._better,
             edges=self._edges,
@@ -121,6 +123,6 @@ class Collector:
             highest=self._high,
             _reached=self._reached,
             _finite=finite,
-            _found=found,
-            _lost=lost,
+            _found=finite_sums,
+            _lost=lost_sums,
         )

@@ -1,4 +1,4 @@
-"""The distribution of an index over a region: probabilities with error bars."""
+"""Distribution of an index over a region, with confidence intervals."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
-from holdfast.probability.intervals import Interval, Sums, check_confidence
+from holdfast.probability.intervals import Interval, WeightSums, check_confidence
 
 __all__ = ["Distribution", "Interval"]
 
 Array = NDArray[np.float64]
 
-_NARROWEST = 1e-300  # a density over less is no number any more
+_SMALLEST_BIN_WIDTH = 1e-300  # a density over less is no number any more
 
 
 @dataclass(kw_only=True)
@@ -50,9 +50,9 @@ class Distribution:
     highest: float = -np.inf
     weights: Array | None = None
     _reached: int = field(default=0, repr=False)
-    _finite: Sums | None = field(default=None, repr=False)
-    _found: Sums | None = field(default=None, repr=False)
-    _lost: Sums | None = field(default=None, repr=False)
+    _finite: WeightSums | None = field(default=None, repr=False)
+    _found: WeightSums | None = field(default=None, repr=False)
+    _lost: WeightSums | None = field(default=None, repr=False)
 
     @classmethod
     def of(
@@ -78,10 +78,10 @@ class Distribution:
             heaviest: The largest weight that a sample can have, if known: see :meth:`effective`.
         """
         if weights is not None:
-            lost = Sums(largest=heaviest)
+            lost = WeightSums(largest=heaviest)
             lost.add(np.asarray(unreached_weights, dtype=np.float64))
             v, w = np.asarray(values, dtype=np.float64), np.asarray(weights, dtype=np.float64)
-            return cls._weighted(v, w, better, unreached, singular, lost)
+            return cls._from_weighted(v, w, better, unreached, singular, lost)
         sorted_values = np.sort(np.asarray(values, dtype=np.float64))
         finite = sorted_values[np.isfinite(sorted_values)]
         return cls(
@@ -97,12 +97,18 @@ class Distribution:
         )
 
     @classmethod
-    def _weighted(
-        cls, values: Array, weights: Array, better: Literal["larger", "smaller"], unreached: int, singular: int, lost: Sums
+    def _from_weighted(
+        cls,
+        values: Array,
+        weights: Array,
+        better: Literal["larger", "smaller"],
+        unreached: int,
+        singular: int,
+        lost: WeightSums,
     ) -> Distribution:
         order = np.argsort(values, kind="stable")
         v, w = values[order], weights[order]
-        finite, found = Sums(), Sums()
+        finite, found = WeightSums(), WeightSums()
         some = np.isfinite(v)
         finite.add(w[some])
         found.add(w)
@@ -147,10 +153,10 @@ class Distribution:
     @property
     def unreached_share(self) -> float:
         """Share of the samples without a configuration, by weight."""
-        return self._lost_weight / self._size(False)
+        return self._lost_weight / self._total_size(False)
 
     def effective(self, reachable_only: bool = False) -> float:
-        """Effective sample size, ``sum w / max w``: so many equal samples say no more than these; all of them if equal.
+        """Return the effective sample size ``sum w / max w``: the number of equally weighted samples with the same information.
 
         ``max w`` is the largest weight that a sample can have where that is known (densities of a region), else the largest of
         these: weights that are rare and heavier than any of these make error bars too narrow.
@@ -158,24 +164,24 @@ class Distribution:
         Source: Martino, Elvira, Louzada 2017; ``(sum w)^2 / sum w^2`` of Kish is larger, and
         its intervals need not cover (:doc:`/intervals`).
         """
-        size = self._size(reachable_only)
+        size = self._total_size(reachable_only)
         if self._found is None or self._lost is None:
             return float(size)
-        return Sums(size, max(self._found.largest, self._lost.largest)).effective
+        return WeightSums(size, max(self._found.largest, self._lost.largest)).effective
 
     def total_weight(self, reachable_only: bool = False) -> float:
         """Sum of the weights of the samples; their number if all count alike."""
-        return self._size(reachable_only)
+        return self._total_size(reachable_only)
 
     @cached_property
-    def _cumulative(self) -> Array:
+    def _cumulative_weight(self) -> Array:
         """Weight of the first k values, or of the first k bins."""
         parts = self.counts if self.values is None else self.weights
         assert parts is not None
         return np.asarray(np.r_[0, np.cumsum(parts)])
 
     @property
-    def _ends(self) -> Array:
+    def _bin_ends(self) -> Array:
         """Upper ends of the bins, none of them beyond the highest value: the last bin has no end of its own."""
         assert self.edges is not None
         return np.minimum(self.edges[1:], self.highest)
@@ -188,7 +194,7 @@ class Distribution:
     def _lost_weight(self) -> float:
         return self.unreached if self._lost is None else self._lost.weight
 
-    def _size(self, reachable_only: bool) -> float:
+    def _total_size(self, reachable_only: bool) -> float:
         """Total weight: the number of samples if all count alike."""
         size: float = self.reached if reachable_only else self.samples
         if not self.samples:
@@ -198,21 +204,21 @@ class Distribution:
                 "this distribution has no samples; no pose was reached: use reachable_only=False or another region"
             )
         if self.weighted:
-            size = float(self._cumulative[-1])  # not the sum of chunks: F must end at 1
+            size = float(self._cumulative_weight[-1])  # not the sum of chunks: F must end at 1
             size = size if reachable_only else size + self._lost_weight
             if not size > 0:
                 raise InputError("the weights of these samples are all 0; give at least one a weight above 0")
         return size
 
-    def _below(self, h: Array, reachable_only: bool) -> Array:
+    def _weight_below(self, h: Array, reachable_only: bool) -> Array:
         """Weight of the samples whose value is less than h: their number if all count alike."""
         if self.values is not None:
             place = np.searchsorted(self.values, h, side="left")
-            count = place.astype(np.float64) if self.weights is None else self._cumulative[place]
+            count = place.astype(np.float64) if self.weights is None else self._cumulative_weight[place]
         else:
             assert self.edges is not None
-            count = np.interp(h, self.edges, self._cumulative[: len(self.edges)])
-            count = np.where(h > self.highest, min(self._finite_weight, self._cumulative[-1]), count)
+            count = np.interp(h, self.edges, self._cumulative_weight[: len(self.edges)])
+            count = np.where(h > self.highest, min(self._finite_weight, self._cumulative_weight[-1]), count)
         if not reachable_only and self.better == "larger":
             count = count + np.where(h > 0, self._lost_weight, 0)
         return np.asarray(count)
@@ -223,7 +229,7 @@ class Distribution:
         Source: Abdi et al. 2012, section IV; strict ``<``, so that the probability of at least 0 is 1.
         """
         h_ = np.asarray(h, dtype=np.float64)
-        return np.asarray(self._below(h_, reachable_only) / self._size(reachable_only))
+        return np.asarray(self._weight_below(h_, reachable_only) / self._total_size(reachable_only))
 
     def probability(self, at_least: float | None = None, at_most: float | None = None, reachable_only: bool = False) -> float:
         """Share of samples with a value of at least (or at most) a threshold: the paper's global index ``1 - F(h)``.
@@ -251,13 +257,13 @@ class Distribution:
         check_confidence(confidence)
         if any(h is not None and np.isnan(h) for h in (at_least, at_most)):
             raise InputError("a threshold is NaN; give a number")
-        size = self._size(reachable_only)
+        size = self._total_size(reachable_only)
         if at_least is not None:
-            hits = size - float(self._below(np.asarray(at_least), reachable_only))
+            hits = size - float(self._weight_below(np.asarray(at_least), reachable_only))
         else:
             assert at_most is not None
             up = np.nextafter(float(at_most), np.inf)
-            hits = size if np.isposinf(at_most) else float(self._below(np.asarray(up), reachable_only))
+            hits = size if np.isposinf(at_most) else float(self._weight_below(np.asarray(up), reachable_only))
         if self.weighted:
             return Interval.of_share(float(np.clip(hits / size, 0, 1)), self.effective(reachable_only), confidence)
         return Interval.of(hits, int(size), confidence)
@@ -278,7 +284,7 @@ class Distribution:
         p_ = np.asarray(p, dtype=np.float64)
         if not ((p_ >= 0) & (p_ <= 1)).all():
             raise InputError("a quantile is asked for a share outside 0 to 1")
-        size = self._size(reachable_only)
+        size = self._total_size(reachable_only)
         if self.weighted:
             return self._weighted_quantile(p_, size, 0.0 if reachable_only else self._lost_weight)
         lost = 0 if reachable_only else self.unreached
@@ -290,8 +296,8 @@ class Distribution:
             inner = np.clip(rank - offset, 0, max(self.reached - 1, 0)).astype(np.int64)
             found = self.values[inner] if self.reached else np.full(p_.shape, np.nan)
         else:
-            place = np.searchsorted(self._cumulative[1:], np.maximum(rank - offset, 0), side="right")
-            found = self._ends[place.clip(max=len(self._ends) - 1)]
+            place = np.searchsorted(self._cumulative_weight[1:], np.maximum(rank - offset, 0), side="right")
+            found = self._bin_ends[place.clip(max=len(self._bin_ends) - 1)]
             found = np.where(rank - offset < self.reached - self.infinite, found, np.inf)
         outside = rank < offset if worst_first else rank >= self.reached
         return np.where(outside, 0.0 if worst_first else np.inf, found)
@@ -301,9 +307,9 @@ class Distribution:
             p * (1 - 1e-12), np.finfo(np.float64).tiny
         )  # sums of weights are rounded; a share of 0 asks for more
         offset = lost if self.better == "larger" else 0.0
-        place = np.searchsorted((offset + self._cumulative[1:]) / size, least, side="left")
-        beyond = place == len(self._cumulative) - 1
-        held = self._ends if self.values is None else self.values
+        place = np.searchsorted((offset + self._cumulative_weight[1:]) / size, least, side="left")
+        beyond = place == len(self._cumulative_weight) - 1
+        held = self._bin_ends if self.values is None else self.values
         found = held[np.minimum(place, len(held) - 1)] if held.size else np.full(p.shape, np.nan)
         if self.values is None:
             found = np.where(least * size - offset <= self._finite_weight * (1 + 1e-12), found, np.inf)
@@ -316,10 +322,10 @@ class Distribution:
 
         Source: Abdi et al. 2012, section IV: counts / (N width).
         """
-        size = self._size(True)
+        size = self._total_size(True)
         low, high = self.lowest, self.highest
         middle = low if np.isfinite(low) else 0.0
-        if not high - low > max(1e-12 * abs(middle), _NARROWEST):
+        if not high - low > max(1e-12 * abs(middle), _SMALLEST_BIN_WIDTH):
             half = max(0.5, 0.5e-3 * abs(middle))
             low, high = middle - half, middle + half
         edges = np.linspace(low, high, bins + 1)
@@ -328,7 +334,7 @@ class Distribution:
             weights = None if self.weights is None else self.weights[some]
             counts = np.histogram(self.values[some], edges, weights=weights)[0].astype(np.float64)
         else:
-            below = self._below(edges, True)
+            below = self._weight_below(edges, True)
             below[-1] = self._finite_weight
             counts = np.maximum(np.diff(below), 0.0)
         return edges, counts / (size * np.diff(edges))

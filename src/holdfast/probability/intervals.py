@@ -1,4 +1,4 @@
-"""Probabilities and their differences with confidence intervals, and the sums of weights that say how sure they are.
+"""Probabilities and their differences with confidence intervals, and the sums of weights that determine their precision.
 
 How often each kind of interval covers the truth was measured: benchmarks/interval_coverage.py, and the page on intervals.
 """
@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.probability.beta import quantile
+from holdfast.probability.beta import beta_quantile
 
 Array = NDArray[np.float64]
 
 
-ORDERS = 16  # in which a gambler meets the same values; his mean capital hardly depends on the order they came in
-_SHARE = 0.75  # of the capital is the most that a single bet may lose
+BETTING_ORDERS = 16  # in which a gambler meets the same values; his mean capital hardly depends on the order they came in
+_MAX_BET_FRACTION = 0.75  # of the capital is the most that a single bet may lose
 
 
 @dataclass(frozen=True, kw_only=True)
 class Interval:
-    """A probability, or a mean of values between 0 and 1, with its confidence interval."""
+    """Probability, or mean of values between 0 and 1, with its confidence interval."""
 
     value: float
     low: float
@@ -38,14 +38,14 @@ class Interval:
         Source: Clopper and Pearson 1934.
         """
         rest = (1 - confidence) / 2
-        low = quantile(hits, size - hits + 1, rest) if hits > 0 else 0.0
-        high = quantile(hits + 1, size - hits, 1 - rest) if hits < size else 1.0
+        low = beta_quantile(hits, size - hits + 1, rest) if hits > 0 else 0.0
+        high = beta_quantile(hits + 1, size - hits, 1 - rest) if hits < size else 1.0
         return cls(value=float(hits / size), low=low, high=high, confidence=confidence)
 
     @classmethod
     def of_share(cls, share: float, effective: float, confidence: float = 0.95) -> Interval:
         """A share of weighted samples with the interval of ``effective`` equal ones; see ``Sums.effective``."""
-        low, high = _ends(cls.of(share * effective, effective, confidence))
+        low, high = _interval_ends(cls.of(share * effective, effective, confidence))
         return cls(value=share, low=low, high=high, confidence=confidence)
 
     @classmethod
@@ -70,7 +70,7 @@ class Interval:
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """A mean difference between two things that were tried on the same cases, with its confidence interval.
+    """Mean difference between two methods tried on the same cases, with its confidence interval.
 
     Attributes:
         value: The second's mean minus the first's.
@@ -106,8 +106,8 @@ class Difference:
         excess = max(excess - size / 2, 0.0) if excess > 0 else excess
         correlation = float(excess / spread) if spread > 0 else 0.0
         value = two.value - one.value
-        low = value - _side(two.value - two.low, one.high - one.value, correlation)
-        high = value + _side(two.high - two.value, one.value - one.low, correlation)
+        low = value - _side_width(two.value - two.low, one.high - one.value, correlation)
+        high = value + _side_width(two.high - two.value, one.value - one.low, correlation)
         p = float(stats.binomtest(round(won), round(won + lost)).pvalue) if won + lost else 1.0
         if p > 1 - confidence:
             low, high = min(low, 0.0), max(high, 0.0)
@@ -122,7 +122,7 @@ class Difference:
         """
         halves = (1 + differences) / 2
         mean = Interval.of_fractions(halves, confidence)
-        capital = max(float(np.exp(_Gambler(x, confidence).log_capital(0.5))) for x in (halves, 1 - halves))
+        capital = max(float(np.exp(_BettingCapital(x, confidence).log_capital(0.5))) for x in (halves, 1 - halves))
         low, high = 2 * mean.low - 1, 2 * mean.high - 1
         return cls(value=float(np.mean(differences)), low=low, high=high, confidence=confidence, p_value=min(2 / capital, 1.0))
 
@@ -149,37 +149,39 @@ class Difference:
         )
 
 
-def _side(a: float, b: float, correlation: float) -> float:
+def _side_width(a: float, b: float, correlation: float) -> float:
     return float(np.sqrt(max(a * a - 2 * correlation * a * b + b * b, 0.0)))
 
 
-def _ends(interval: Interval) -> tuple[float, float]:
+def _interval_ends(interval: Interval) -> tuple[float, float]:
     return interval.low, interval.high
 
 
-class _Gambler:
-    """Who bets, value after value, that the mean of values (N,) is above some m; his stakes know only the values before."""
+class _BettingCapital:
+    """Capital of bets that the mean of values (N,) is above m; each stake depends only on earlier values."""
 
     def __init__(self, values: Array, confidence: float) -> None:
         size, shuffle = len(values), np.random.default_rng(0)
-        self._values = np.stack([values, *(shuffle.permutation(values) for _ in range(ORDERS - 1))])
+        self._values = np.stack([values, *(shuffle.permutation(values) for _ in range(BETTING_ORDERS - 1))])
         count = np.arange(2, size + 2)
         means = (0.5 + self._values.cumsum(axis=1)) / count
         squares = (0.25 + ((self._values - means) ** 2).cumsum(axis=1)) / count
-        known = np.concatenate([np.full((ORDERS, 1), 0.25), squares[:, :-1]], axis=1)
+        known = np.concatenate([np.full((BETTING_ORDERS, 1), 0.25), squares[:, :-1]], axis=1)
         self._stakes = np.sqrt(2 * np.log(2 / (1 - confidence)) / (size * known))
 
     def log_capital(self, m: float) -> float:
-        """Of the capital at the end, the mean over the orders; it falls with m. On average at most 1 if m is the mean."""
-        stakes = np.minimum(self._stakes, _SHARE / m)
-        return float(np.logaddexp.reduce(np.log1p(stakes * (self._values - m)).sum(axis=1)) - np.log(ORDERS))
+        """Return the mean over the orders of the logarithm of the final capital, which falls with m; on average at most 1 if m
+        is the mean.
+        """
+        stakes = np.minimum(self._stakes, _MAX_BET_FRACTION / m)
+        return float(np.logaddexp.reduce(np.log1p(stakes * (self._values - m)).sum(axis=1)) - np.log(BETTING_ORDERS))
 
 
 def _betting_limit(values: Array, confidence: float) -> float:
-    """The least mean that the gambler could not refuse."""
+    """Return the smallest mean that the bets cannot reject."""
     from scipy.optimize import brentq
 
-    gambler, enough = _Gambler(values, confidence), float(np.log(2 / (1 - confidence)))
+    gambler, enough = _BettingCapital(values, confidence), float(np.log(2 / (1 - confidence)))
     if gambler.log_capital(1e-12) <= enough:
         return 0.0
     if gambler.log_capital(1.0) >= enough:
@@ -188,20 +190,20 @@ def _betting_limit(values: Array, confidence: float) -> float:
 
 
 @dataclass
-class Sums:
-    """Of the weights w of some samples: ``sum w``, and the largest that was seen or, if that is known, that is possible."""
+class WeightSums:
+    """Sums of the weights w of samples: ``sum w`` and the largest weight that occurred or, if known, that is possible."""
 
     weight: float = 0.0
     largest: float = 0.0
 
     def add(self, weights: Array) -> None:
-        """Count more samples."""
+        """Add the weights of more samples."""
         self.weight += float(weights.sum())
         self.largest = max(self.largest, float(weights.max(initial=0.0)))
 
     @property
     def effective(self) -> float:
-        """Effective sample size, ``sum w / max w``: so many equal samples say no more than these.
+        """Effective sample size ``sum w / max w``: the number of equally weighted samples with the same information.
 
         A sample kept with the probability ``w / max w`` is one of equal weight, so about as many are left. Intervals and bands
         of so many equal samples are wide enough (a weighted share scatters by at most ``p (1 - p)`` over this), those of
@@ -213,6 +215,6 @@ class Sums:
 
 
 def check_confidence(confidence: float) -> None:
-    """Raise :class:`InputError` unless it lies between 0 and 1."""
+    """Raise :class:`InputError` unless the confidence lies between 0 and 1."""
     if not 0 < confidence < 1:
         raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-_BITS = 30
-_TABLE = (  # of each dimension: the primitive polynomial over GF(2), bit by bit, and the first direction numbers
+_SOBOL_BITS = 30
+_DIRECTION_TABLE = (  # of each dimension: the primitive polynomial over GF(2), bit by bit, and the first direction numbers
     (1, (1,)),
     (3, (1,)),
     (7, (1, 3)),
@@ -26,31 +26,33 @@ _TABLE = (  # of each dimension: the primitive polynomial over GF(2), bit by bit
 )
 
 
-def sobol(count: int, dimensions: int) -> NDArray[np.float64]:
-    """The first points (count, dimensions), between 0 and 1.
+def sobol_points(count: int, dimensions: int) -> NDArray[np.float64]:
+    """Return the first points (count, dimensions), between 0 and 1.
 
     Source: Joe and Kuo 2008 for the direction numbers; Antonov and Saleev 1979 for the order of the points.
     """
-    if dimensions > len(_TABLE):
+    if dimensions > len(_DIRECTION_TABLE):
         from scipy.stats import qmc
 
         return np.asarray(qmc.Sobol(dimensions, scramble=False).random(count))
     number = np.arange(count)
     gray = number ^ (number >> 1)
     points = np.zeros((count, dimensions), dtype=np.int64)
-    directions = np.array([_directions(*entry) for entry in _TABLE[:dimensions]], dtype=np.int64).reshape(dimensions, _BITS)
+    directions = np.array([_directions(*entry) for entry in _DIRECTION_TABLE[:dimensions]], dtype=np.int64).reshape(
+        dimensions, _SOBOL_BITS
+    )
     for k in range(int(count).bit_length()):
         points ^= (gray >> k & 1)[:, None] * directions[:, k]
-    return points / (1 << _BITS)
+    return points / (1 << _SOBOL_BITS)
 
 
 def _directions(polynomial: int, first: tuple[int, ...]) -> list[int]:
     degree = polynomial.bit_length() - 1
     m = list(first)
-    while len(m) < _BITS:
+    while len(m) < _SOBOL_BITS:
         new = m[-degree] if degree else 1
         for k in range(1, degree + 1):
             if polynomial >> (degree - k) & 1:
                 new ^= m[-k] << k
         m.append(new)
-    return [value << (_BITS - 1 - k) for k, value in enumerate(m)]
+    return [value << (_SOBOL_BITS - 1 - k) for k, value in enumerate(m)]

@@ -1,4 +1,4 @@
-"""What can be reached after a lock: bounds of self-motion, the tolerant workspace."""
+"""Workspaces after a lock: bounds of self-motion, the failure-tolerant workspace, and working ranges."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Where a joint turns back on the self-motion manifold of a target: equations (8) and (9)."""
+"""Critical points of a joint on the self-motion manifold of a target: equations (8) and (9)."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
-from holdfast.notice import each
+from holdfast.kernels.recall import cached_kernel
+from holdfast.notice import track
 from holdfast.solvers.inverse_kinematics import scaled_error, solver
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-10  # off the target, rad and in units of the arm's own length, and of the rank condition
-_STEPS = 80
-_CHUNK = 4096  # rows of which the matrices are held at once
+CRITICAL_POINT_TOLERANCE = 1e-10  # off the target, rad and in units of the arm's own length, and of the rank condition
+_MAX_NEWTON_STEPS = 80
+_CHUNK_ROWS = 4096  # rows of which the matrices are held at once
 
 
 class CriticalPoints:
@@ -39,87 +39,87 @@ class CriticalPoints:
         self.engine = solver(arm, task)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _kernel(self) -> Kernel:
         arm, task = self.arm, self.task
         q = kinematics.joint_symbols(arm)
-        p, r, u = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("u", task.m)
-        e, j = scaled_error(arm, task, q, p, r)
-        across = j.T @ u
-        residual = ca.vertcat(e, across, ca.sumsqr(u) - 1)
+        position, rotation, multipliers = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("u", task.m)
+        error, jacobian = scaled_error(arm, task, q, position, rotation)
+        gradient = jacobian.T @ multipliers
+        residual = ca.vertcat(error, gradient, ca.sumsqr(multipliers) - 1)
         # On the target the derivative of the error is -J, and that is where the steps go.
-        slope = ca.vertcat(
-            ca.horzcat(-j, ca.SX(task.m, task.m)),
-            ca.horzcat(ca.jacobian(across, q), j.T),
-            ca.horzcat(ca.SX(1, arm.n), 2 * u.T),
+        derivative = ca.vertcat(
+            ca.horzcat(-jacobian, ca.SX(task.m, task.m)),
+            ca.horzcat(ca.jacobian(gradient, q), jacobian.T),
+            ca.horzcat(ca.SX(1, arm.n), 2 * multipliers.T),
         )
-        flat = ca.densify(ca.vertcat(residual, ca.vec(slope.T)))
-        return Kernel("critical points", [q, u, p, r], [flat])
+        outputs = ca.densify(ca.vertcat(residual, ca.vec(derivative.T)))
+        return Kernel("critical points", [q, multipliers, position, rotation], [outputs])
 
-    def seeds(self, pose: Array, count: int, generator: np.random.Generator) -> Array:
-        """Configurations (S, n) of the pose, S of ``count`` random starts."""
-        starts = self.engine.starts(count, generator)
-        q, ok = self.engine.attempt(starts, np.broadcast_to(pose, (count, 4, 4)), TOLERANCE)
-        return q[ok]
+    def find_seeds(self, pose: Array, count: int, generator: np.random.Generator) -> Array:
+        """Find configurations (S, n) of the pose from ``count`` random starts, S of which converge."""
+        starts = self.engine.sample_starts(count, generator)
+        q, converged = self.engine.attempt(starts, np.broadcast_to(pose, (count, 4, 4)), CRITICAL_POINT_TOLERANCE)
+        return q[converged]
 
     def solve(
-        self, pose: Array, q: Array, joint: NDArray[np.int64], held: NDArray[np.bool_]
+        self, pose: Array, q: Array, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
     ) -> tuple[Array, NDArray[np.bool_]]:
-        """From starts q (B, n): critical points of ``joint`` (B,) with the joints ``held`` (B, n) where they are.
+        """Find critical points of ``joint`` (B,) from starts q (B, n), with the joints ``fixed`` (B, n) at their values.
 
         Returns:
             Where each start led, and whether that is a critical point within the limits.
         """
-        chunks = [slice(s, s + _CHUNK) for s in range(0, len(q), _CHUNK)]
-        parts = [self._solve(pose, q[c], joint[c], held[c]) for c in chunks]
+        chunks = [slice(start, start + _CHUNK_ROWS) for start in range(0, len(q), _CHUNK_ROWS)]
+        parts = [self._solve_chunk(pose, q[chunk], joint[chunk], fixed[chunk]) for chunk in chunks]
         if not parts:
             return q, np.zeros(0, dtype=bool)
-        return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
+        return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
 
-    def _solve(
-        self, pose: Array, q: Array, joint: NDArray[np.int64], held: NDArray[np.bool_]
+    def _solve_chunk(
+        self, pose: Array, q: Array, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
     ) -> tuple[Array, NDArray[np.bool_]]:
         n, m, count = self.arm.n, self.m, len(q)
-        bound = ~held  # whose columns must be at right angles to u
-        bound[np.arange(count), joint] = False
-        j = -self._evaluate(pose, q, np.zeros((count, m)))[1][:, :m, :n]
-        reduced = np.where(np.isfinite(j), j, 0.0) * bound[:, None, :]
-        x = np.concatenate([q, np.linalg.svd(reduced)[0][:, :, -1]], axis=1)
-        keep = np.concatenate([~held, np.ones((count, m), dtype=bool)], axis=1)
+        is_constrained = ~fixed  # whose columns must be at right angles to u
+        is_constrained[np.arange(count), joint] = False
+        jacobian = -self._evaluate(pose, q, np.zeros((count, m)))[1][:, :m, :n]
+        reduced = np.where(np.isfinite(jacobian), jacobian, 0.0) * is_constrained[:, None, :]
+        unknowns = np.concatenate([q, np.linalg.svd(reduced)[0][:, :, -1]], axis=1)
+        is_free = np.concatenate([~fixed, np.ones((count, m), dtype=bool)], axis=1)
         done = np.zeros(count, dtype=bool)
-        left = np.arange(count)
-        for _ in each("steps of Newton's method", range(_STEPS), most=True):
-            residual, slope = self._evaluate(pose, x[left, :n], x[left, n:])
-            residual[:, m : m + n] *= bound[left]
-            small = np.abs(residual).max(axis=1) <= TOLERANCE
-            done[left[small]] = True
+        active = np.arange(count)
+        for _ in track("steps of Newton's method", range(_MAX_NEWTON_STEPS), most=True):
+            residual, derivative = self._evaluate(pose, unknowns[active, :n], unknowns[active, n:])
+            residual[:, m : m + n] *= is_constrained[active]
+            has_converged = np.abs(residual).max(axis=1) <= CRITICAL_POINT_TOLERANCE
+            done[active[has_converged]] = True
             # A start that runs into a place where the equations say nothing (NaN) is dropped.
-            on = ~small & np.isfinite(residual).all(axis=1) & np.isfinite(slope).all(axis=(1, 2))
-            left, residual, slope = left[on], residual[on], slope[on]
-            if not left.size:
+            continues = ~has_converged & np.isfinite(residual).all(axis=1) & np.isfinite(derivative).all(axis=(1, 2))
+            active, residual, derivative = active[continues], residual[continues], derivative[continues]
+            if not active.size:
                 break
-            slope[:, m : m + n] *= bound[left][:, :, None]
-            slope *= keep[left][:, None, :]
+            derivative[:, m : m + n] *= is_constrained[active][:, :, None]
+            derivative *= is_free[active][:, None, :]
             damping = 1e-3 * np.minimum((residual**2).sum(axis=1), 1.0) + 1e-13
-            normal = slope.transpose(0, 2, 1) @ slope + damping[:, None, None] * np.eye(n + m)
-            step = np.linalg.solve(normal, (slope.transpose(0, 2, 1) @ residual[:, :, None]))[:, :, 0]
-            size = np.linalg.norm(step, axis=1, keepdims=True)
-            x[left] -= step * np.minimum(1.0, 0.5 / np.maximum(size, 1e-300))
-        found = x[:, :n]
-        inside = ((found >= self.arm.lower - 1e-9) & (found <= self.arm.upper + 1e-9)).all(axis=1)
-        return found, done & inside
+            normal = derivative.transpose(0, 2, 1) @ derivative + damping[:, None, None] * np.eye(n + m)
+            step = np.linalg.solve(normal, (derivative.transpose(0, 2, 1) @ residual[:, :, None]))[:, :, 0]
+            step_norm = np.linalg.norm(step, axis=1, keepdims=True)
+            unknowns[active] -= step * np.minimum(1.0, 0.5 / np.maximum(step_norm, 1e-300))
+        points = unknowns[:, :n]
+        inside = ((points >= self.arm.lower - 1e-9) & (points <= self.arm.upper + 1e-9)).all(axis=1)
+        return points, done & inside
 
     def _evaluate(self, pose: Array, q: Array, u: Array) -> tuple[Array, Array]:
-        out = self._kernel.rows(q, u, pose[:3, 3], pose[:3, :3])
+        outputs = self._kernel.rows(q, u, pose[:3, 3], pose[:3, :3])
         size = self.m + self.arm.n + 1
-        return out[:, :size].copy(), out[:, size:].reshape(len(q), size, self.arm.n + self.m)
+        return outputs[:, :size].copy(), outputs[:, size:].reshape(len(q), size, self.arm.n + self.m)
 
 
 @lru_cache(maxsize=16)
-def _critical(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> CriticalPoints:
+def _cached_critical_points(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> CriticalPoints:
     return CriticalPoints(arm, Task("task", np.array(rows), frame))
 
 
 def critical_points(arm: Arm, task: Task) -> CriticalPoints:
-    """The solver of an arm and task, compiled once."""
-    return _critical(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
+    """Return the solver of an arm and task, compiled once."""
+    return _cached_critical_points(arm, tuple(map(tuple, task.rows.tolist())), task.frame)

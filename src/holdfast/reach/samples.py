@@ -11,25 +11,25 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
-from holdfast.notice import each
+from holdfast.notice import track
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-TOLERANCE = 1e-6
-_RESTARTS = 40  # for the healthy arm
-_RESTARTS_LOCKED = 20
-_SOLUTIONS = 48  # configurations per point that the search knows
-_ASCENTS = 16
-_ROUNDS = 20
-_BOX_DRAWS = 20_000
+TARGET_TOLERANCE = 1e-6
+_HEALTHY_RESTARTS = 40  # for the healthy arm
+_LOCKED_RESTARTS = 20
+_SOLUTIONS_PER_POINT = 48  # configurations per point that the search knows
+_ASCENT_COUNT = 16
+_MAX_ASCENT_ROUNDS = 20
+_BOX_SAMPLES = 20_000
 
 
 @dataclass(frozen=True, eq=False)
-class Space:
-    """Where points are drawn: a box about what the arm reaches.
+class SamplingBox:
+    """Box around the workspace of an arm, from which points are sampled.
 
     Attributes:
         directions: (d, 3) orthonormal, world; the plane of a planar task, else all three.
@@ -43,8 +43,8 @@ class Space:
     rotation: Array
 
     @classmethod
-    def of(cls, arm: Arm, task: Task, rotation: Array) -> Space:
-        """The box of the tool points of many random configurations, 2 % wider; always the same ones."""
+    def from_arm(cls, arm: Arm, task: Task, rotation: Array) -> SamplingBox:
+        """Return the box of the tool points of many random configurations, 2 % wider; the random seed is fixed."""
         linear = task.rows[:, :3]
         rank = int(np.linalg.matrix_rank(linear, tol=1e-9)) if len(linear) else 0
         if rank == 3:
@@ -53,18 +53,21 @@ class Space:
             directions = linear[:2]
         else:
             raise TaskError(f"task '{task.name}' does not hold a point of space or of a plane; use position, planar or pose")
-        low, high = finite_limits(arm)
-        tool = arm.forward_kinematics(np.random.default_rng(0).uniform(low, high, (_BOX_DRAWS, arm.n)))[:, :3, 3] @ directions.T
-        least, most = tool.min(axis=0), tool.max(axis=0)
-        return cls(directions, least - 0.02 * (most - least), most + 0.02 * (most - least), rotation)
+        lower, upper = finite_limits(arm)
+        tool_points = (
+            arm.forward_kinematics(np.random.default_rng(0).uniform(lower, upper, (_BOX_SAMPLES, arm.n)))[:, :3, 3]
+            @ directions.T
+        )
+        minimum, maximum = tool_points.min(axis=0), tool_points.max(axis=0)
+        return cls(directions, minimum - 0.02 * (maximum - minimum), maximum + 0.02 * (maximum - minimum), rotation)
 
     @property
     def size(self) -> float:
-        """m^2 or m^3."""
+        """Size of the box, m^2 or m^3."""
         return float(np.prod(self.high - self.low))
 
-    def draw(self, count: int, seed: int) -> Array:
-        """Poses (N, 4, 4) at points of a low-discrepancy sequence."""
+    def sample_poses(self, count: int, seed: int) -> Array:
+        """Return poses (N, 4, 4) at points of a low-discrepancy sequence."""
         from scipy.stats import qmc
 
         sequence = qmc.Halton(self.low.size, seed=np.random.default_rng(seed))
@@ -74,38 +77,43 @@ class Space:
         return poses
 
 
-def limited(arm: Arm, limits: Array) -> Arm:
-    """The arm with artificial limits (n, 2); those of a whole turn or more of a joint without limits do not count."""
-    low, high = limits.T
-    free = joint_space.turning(arm) & (high - low >= 2 * np.pi - 1e-9)
-    return arm.with_limits(np.where(free, arm.lower, low), np.where(free, arm.upper, high))
+def with_artificial_limits(arm: Arm, limits: Array) -> Arm:
+    """Return the arm with artificial limits (n, 2); limits of a full turn or more are ignored for a joint without limits."""
+    lower, upper = limits.T
+    is_unlimited = joint_space.is_unlimited(arm) & (upper - lower >= 2 * np.pi - 1e-9)
+    return arm.with_limits(np.where(is_unlimited, arm.lower, lower), np.where(is_unlimited, arm.upper, upper))
 
 
-def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:
-    """(N,) poses of which a configuration was found."""
+def check_reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:
+    """Return (N,) True for poses of which a configuration was found."""
     if not len(poses):
         return np.zeros(0, dtype=bool)
-    return solver(arm, task).solve(poses, np.random.SeedSequence(seed), _RESTARTS, TOLERANCE).success
+    return solver(arm, task).solve(poses, np.random.SeedSequence(seed), _HEALTHY_RESTARTS, TARGET_TOLERANCE).success
 
 
-def survival(arm: Arm, task: Task, poses: Array, angles: list[Array], seed: int) -> list[Bools]:
-    """For each joint (N, K): whether each pose was reached with the joint locked at each of its angles (K,)."""
-    engine, made = solver(arm, task), []
-    for k, values in enumerate(each("joints locked", angles)):
+def check_survival(arm: Arm, task: Task, poses: Array, angles: list[Array], seed: int) -> list[Bools]:
+    """Return for each joint whether each pose was reached (N, K) with the joint locked at each of its angles (K,)."""
+    engine, tables = solver(arm, task), []
+    for joint, values in enumerate(track("joints locked", angles)):
         rows, columns = np.repeat(np.arange(len(poses)), values.size), np.tile(values, len(poses))
         if not rows.size:
-            made.append(np.zeros((len(poses), values.size), dtype=bool))
+            tables.append(np.zeros((len(poses), values.size), dtype=bool))
             continue
-        found = engine.reaches_locked(
-            poses[rows], np.full(rows.size, k), columns, np.random.SeedSequence([seed, k]), _RESTARTS_LOCKED, TOLERANCE
+        is_reached = engine.reaches_locked(
+            poses[rows],
+            np.full(rows.size, joint),
+            columns,
+            np.random.SeedSequence([seed, joint]),
+            _LOCKED_RESTARTS,
+            TARGET_TOLERANCE,
         )
-        made.append(found.reshape(len(poses), values.size))
-    return made
+        tables.append(is_reached.reshape(len(poses), values.size))
+    return tables
 
 
 @dataclass
-class Choices:
-    """The artificial limits of one joint that are tried: between values of a grid.
+class LimitChoices:
+    """The candidate artificial limits of one joint, between values of a grid.
 
     Attributes:
         limits: (I, 2) rad or m.
@@ -118,89 +126,108 @@ class Choices:
     holds: Bools
 
     @classmethod
-    def of(cls, grid: Array, circle: bool, table: Bools, q: Array) -> Choices:
-        """For a grid (K,) of joint values, the reached ones (H, K), and configurations q (H, S); NaN is within none."""
-        size, step = grid.size, grid[1] - grid[0]
-        if circle:
-            table, pairs = np.tile(table, 2), [(a, a + w) for a in range(size) for w in range(size)]
-            pairs.append((0, size))
+    def from_table(cls, grid: Array, is_periodic: bool, table: Bools, q: Array) -> LimitChoices:
+        """Return the choices of a grid (K,) of joint values, its table of reached values (H, K), and configurations q (H, S);
+        NaN is in none.
+        """
+        count, step = grid.size, grid[1] - grid[0]
+        if is_periodic:
+            table, pairs = (
+                np.tile(table, 2),
+                [(first_index, first_index + span) for first_index in range(count) for span in range(count)],
+            )
+            pairs.append((0, count))
         else:
-            pairs = [(a, b) for a in range(size) for b in range(a, size)]
+            pairs = [(first_index, last_index) for first_index in range(count) for last_index in range(first_index, count)]
         first, last = np.array(pairs).T
-        lost = np.concatenate([np.zeros((len(table), 1), dtype=np.int64), np.cumsum(~table, axis=1)], axis=1)
-        survives = (lost[:, np.minimum(last + 1, lost.shape[1] - 1)] == lost[:, first]).T
-        cell = (q - grid[0]) / step
-        away = np.mod(cell[None] - first[:, None, None], size) if circle else cell[None] - first[:, None, None]
-        holds = (away >= 0) & (away <= (last - first)[:, None, None])
+        lost_counts = np.concatenate([np.zeros((len(table), 1), dtype=np.int64), np.cumsum(~table, axis=1)], axis=1)
+        survives = (lost_counts[:, np.minimum(last + 1, lost_counts.shape[1] - 1)] == lost_counts[:, first]).T
+        grid_position = (q - grid[0]) / step
+        offsets = (
+            np.mod(grid_position[None] - first[:, None, None], count)
+            if is_periodic
+            else grid_position[None] - first[:, None, None]
+        )
+        holds = (offsets >= 0) & (offsets <= (last - first)[:, None, None])
         return cls(np.stack([grid[0] + step * first, grid[0] + step * last], axis=1), survives, holds)
 
 
-def best_limits(arm: Arm, task: Task, space: Space, points: int, count: int, seed: int) -> Array:
-    """Artificial limits (n, 2) that hold most of a sample of points, by coordinate ascent from many starts.
+def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, count: int, seed: int) -> Array:
+    """Find artificial limits (n, 2) that contain the most sampled points, by coordinate ascent from many starts.
 
     Each joint's limits are chosen in turn among all pairs of values of a grid of ``count``, the others held, as long as points
     are gained. Nothing proves that the best ones are found.
     """
     generator = np.random.default_rng(np.random.SeedSequence([seed, 1]))
-    poses = space.draw(points, seed)
-    poses = poses[reached(arm, task, poses, seed)]
-    low, high = _grid_range(arm)
+    poses = space.sample_poses(points, seed)
+    poses = poses[check_reached(arm, task, poses, seed)]
+    lower, upper = _limit_search_range(arm)
     if not len(poses):
-        return np.stack([low, high], axis=1)
-    circle = joint_space.turning(arm)
-    grids = [np.linspace(a, b, count + c)[:count] for a, b, c in zip(low, high, circle, strict=True)]
-    table = survival(arm, task, poses, grids, seed)
-    q = configurations(arm, task, poses, generator)
-    choices = [Choices.of(g, bool(c), t, q[:, :, k]) for k, (g, c, t) in enumerate(zip(grids, circle, table, strict=True))]
-    found = most_held(choices, q, generator)
-    return np.stack([low, high], axis=1) if found is None else found
+        return np.stack([lower, upper], axis=1)
+    is_periodic = joint_space.is_unlimited(arm)
+    grids = [
+        np.linspace(grid_start, grid_end, count + periodic)[:count]
+        for grid_start, grid_end, periodic in zip(lower, upper, is_periodic, strict=True)
+    ]
+    survival_tables = check_survival(arm, task, poses, grids, seed)
+    q = find_configurations(arm, task, poses, generator)
+    choices = [
+        LimitChoices.from_table(grid, bool(periodic), joint_table, q[:, :, joint])
+        for joint, (grid, periodic, joint_table) in enumerate(zip(grids, is_periodic, survival_tables, strict=True))
+    ]
+    limits = choose_limits(choices, q, generator)
+    return np.stack([lower, upper], axis=1) if limits is None else limits
 
 
-def most_held(choices: list[Choices], q: Array, generator: np.random.Generator) -> Array | None:
-    """Limits (n, 2) that hold most points, of which q (H, S, n) are known, by coordinate ascent; None if none is known."""
-    best, most = list[int](), -1
+def choose_limits(choices: list[LimitChoices], q: Array, generator: np.random.Generator) -> Array | None:
+    """Choose limits (n, 2) that contain most points, of which q (H, S, n) are known, by coordinate ascent; None without q."""
+    best, best_count = list[int](), -1
     known = np.argwhere(~np.isnan(q[:, :, 0]))
-    for row, column in known[generator.integers(0, len(known), _ASCENTS)] if len(known) else known:
-        chosen, gained = _ascend(choices, row, column, generator)
-        if gained > most:
-            best, most = chosen, gained
-    return np.array([c.limits[k] for c, k in zip(choices, best, strict=True)]) if best else None
+    for point, solution in known[generator.integers(0, len(known), _ASCENT_COUNT)] if len(known) else known:
+        chosen, point_count = _ascend_coordinates(choices, point, solution, generator)
+        if point_count > best_count:
+            best, best_count = chosen, point_count
+    return np.array([choice.limits[index] for choice, index in zip(choices, best, strict=True)]) if best else None
 
 
-def _grid_range(arm: Arm) -> tuple[Array, Array]:
-    """Between which values limits are looked for: a revolute joint needs no more than one turn."""
-    low, high = finite_limits(arm)
-    wide = ~arm.prismatic & (high - low > 2 * np.pi)
-    middle = (low + high) / 2
-    return np.where(wide, middle - np.pi, low), np.where(wide, middle + np.pi, high)
+def _limit_search_range(arm: Arm) -> tuple[Array, Array]:
+    """Return the range in which limits are searched; a revolute joint needs at most one turn."""
+    lower, upper = finite_limits(arm)
+    exceeds_turn = ~arm.prismatic & (upper - lower > 2 * np.pi)
+    middle = (lower + upper) / 2
+    return np.where(exceeds_turn, middle - np.pi, lower), np.where(exceeds_turn, middle + np.pi, upper)
 
 
-def configurations(arm: Arm, task: Task, poses: Array, generator: np.random.Generator) -> Array:
-    """(H, S, n) configurations of each pose, NaN where a start did not converge."""
+def find_configurations(arm: Arm, task: Task, poses: Array, generator: np.random.Generator) -> Array:
+    """Find configurations (H, S, n) of each pose, NaN where a start did not converge."""
     engine = solver(arm, task)
-    rows = np.repeat(np.arange(len(poses)), _SOLUTIONS)
-    q, ok = engine.attempt(engine.starts(rows.size, generator), poses[rows], TOLERANCE)
-    return np.where(ok[:, None], q, np.nan).reshape(len(poses), _SOLUTIONS, arm.n)
+    rows = np.repeat(np.arange(len(poses)), _SOLUTIONS_PER_POINT)
+    q, converged = engine.attempt(engine.sample_starts(rows.size, generator), poses[rows], TARGET_TOLERANCE)
+    return np.where(converged[:, None], q, np.nan).reshape(len(poses), _SOLUTIONS_PER_POINT, arm.n)
 
 
-def _ascend(choices: list[Choices], row: int, column: int, generator: np.random.Generator) -> tuple[list[int], int]:
-    """From narrow limits about one configuration: the choice of each joint, and how many points it holds."""
+def _ascend_coordinates(
+    choices: list[LimitChoices], point: int, solution: int, generator: np.random.Generator
+) -> tuple[list[int], int]:
+    """Ascend from narrow limits around one configuration; return the choice of each joint and the number of
+    contained points.
+    """
     chosen = []
-    for c in choices:
-        width = np.where(c.holds[:, row, column], np.diff(c.limits)[:, 0], np.inf)
-        chosen.append(int(np.argmin(width)) if np.isfinite(width).any() else int(np.argmax(np.diff(c.limits)[:, 0])))
-    gained = -1
-    for _ in range(_ROUNDS):
-        before = gained
-        for k in generator.permutation(len(choices)):
-            others = [m for m in range(len(choices)) if m != k]
-            survives = np.all([choices[m].survives[chosen[m]] for m in others], axis=0)
-            holds = np.all([choices[m].holds[chosen[m]] for m in others], axis=0)
-            here = np.flatnonzero(survives & holds.any(axis=1))
-            c = choices[k]
-            score = (c.survives[:, here] & (c.holds[:, here] & holds[here]).any(axis=2)).sum(axis=1)
-            gained = int(score.max())
-            chosen[k] = int(generator.choice(np.flatnonzero(score == gained)))
-        if gained == before:
+    for choice in choices:
+        width = np.where(choice.holds[:, point, solution], np.diff(choice.limits)[:, 0], np.inf)
+        chosen.append(int(np.argmin(width)) if np.isfinite(width).any() else int(np.argmax(np.diff(choice.limits)[:, 0])))
+    point_count = -1
+    for _ in range(_MAX_ASCENT_ROUNDS):
+        previous_count = point_count
+        for joint in generator.permutation(len(choices)):
+            others = [other for other in range(len(choices)) if other != joint]
+            survives = np.all([choices[other].survives[chosen[other]] for other in others], axis=0)
+            holds = np.all([choices[other].holds[chosen[other]] for other in others], axis=0)
+            survivors = np.flatnonzero(survives & holds.any(axis=1))
+            choice = choices[joint]
+            score = (choice.survives[:, survivors] & (choice.holds[:, survivors] & holds[survivors]).any(axis=2)).sum(axis=1)
+            point_count = int(score.max())
+            chosen[joint] = int(generator.choice(np.flatnonzero(score == point_count)))
+        if point_count == previous_count:
             break
-    return chosen, gained
+    return chosen, point_count

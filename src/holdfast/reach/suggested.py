@@ -1,4 +1,4 @@
-"""A box of which a sample suggests that all of it is inside: what a certificate may be asked to prove."""
+"""A box that a sample suggests to lie inside a region, as the claim of a certificate."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_SEEDS, _ROUNDS = 8, 3
-_KEPT = 0.9  # of each edge: between points nobody looked
+_SEED_POINTS, _STRETCH_ROUNDS = 8, 3
+_KEPT_FRACTION = 0.9  # of each edge: between points nobody looked
 
 
-def box_inside(points: Array, inside: NDArray[np.bool_]) -> Array | None:
-    """A large box of points inside with none outside.
+def find_inner_box(points: Array, inside: NDArray[np.bool_]) -> Array | None:
+    """Find a large box with sampled points inside the region and none outside.
 
     Args:
         points: (N, d) m.
@@ -25,37 +25,37 @@ def box_inside(points: Array, inside: NDArray[np.bool_]) -> Array | None:
     """
     from scipy.spatial import KDTree
 
-    good, bad = points[inside], points[~inside]
-    if len(good) < 2:
+    inner_points, outer_points = points[inside], points[~inside]
+    if len(inner_points) < 2:
         return None
-    away = KDTree(bad).query(good, p=np.inf)[0] if len(bad) else np.zeros(len(good))
-    room = float(np.median(np.asarray(KDTree(points).query(points, k=2, p=np.inf)[0])[:, 1])) / 2
-    best, most = None, 0.0
-    for seed in np.argsort(-away)[:_SEEDS]:
-        box = np.column_stack([good[seed], good[seed]])
-        for _ in range(_ROUNDS):
+    distances = KDTree(outer_points).query(inner_points, p=np.inf)[0] if len(outer_points) else np.zeros(len(inner_points))
+    spacing = float(np.median(np.asarray(KDTree(points).query(points, k=2, p=np.inf)[0])[:, 1])) / 2
+    best, best_size = None, 0.0
+    for start in np.argsort(-distances)[:_SEED_POINTS]:
+        box = np.column_stack([inner_points[start], inner_points[start]])
+        for _ in range(_STRETCH_ROUNDS):
             for axis in range(points.shape[1]):
-                _stretch(box, axis, good, bad, room)
+                _stretch_axis(box, axis, inner_points, outer_points, spacing)
         size = float(np.prod(box[:, 1] - box[:, 0]))
-        if size > most:
-            best, most = box, size
+        if size > best_size:
+            best, best_size = box, size
     if best is None:
         return None
-    middle, half = best.mean(axis=1), _KEPT / 2 * (best[:, 1] - best[:, 0])
-    return np.column_stack([middle - half, middle + half])
+    middle, half_size = best.mean(axis=1), _KEPT_FRACTION / 2 * (best[:, 1] - best[:, 0])
+    return np.column_stack([middle - half_size, middle + half_size])
 
 
-def _stretch(box: Array, axis: int, good: Array, bad: Array, room: float) -> None:
-    """In place: along an axis as far as there are points inside before one outside, which counts with so much around it."""
+def _stretch_axis(box: Array, axis: int, inner_points: Array, outer_points: Array, spacing: float) -> None:
+    """Stretch the box in place along an axis over inner points, up to the spacing before the next outer point."""
     others = np.arange(len(box)) != axis
-    low, high = box[others].T
+    lower, upper = box[others].T
 
-    def beside(points: Array, wide: float) -> Array:
-        near = ((points[:, others] >= low - wide) & (points[:, others] <= high + wide)).all(axis=1)
-        return np.asarray(points[near, axis])
+    def coordinates_near(points: Array, width: float) -> Array:
+        is_near = ((points[:, others] >= lower - width) & (points[:, others] <= upper + width)).all(axis=1)
+        return np.asarray(points[is_near, axis])
 
-    stops, ends = beside(bad, room), beside(good, 2 * room)
-    least = stops[stops < box[axis, 0]].max(initial=-np.inf) + room
-    most = stops[stops > box[axis, 1]].min(initial=np.inf) - room
-    ends = ends[(ends > least) & (ends < most)]
+    stops, ends = coordinates_near(outer_points, spacing), coordinates_near(inner_points, 2 * spacing)
+    minimum = stops[stops < box[axis, 0]].max(initial=-np.inf) + spacing
+    maximum = stops[stops > box[axis, 1]].min(initial=np.inf) - spacing
+    ends = ends[(ends > minimum) & (ends < maximum)]
     box[axis] = min(ends.min(initial=box[axis, 0]), box[axis, 0]), max(ends.max(initial=box[axis, 1]), box[axis, 1])

@@ -1,4 +1,4 @@
-"""The points within reach before and after any joint locks, with artificial joint limits that enlarge this region."""
+"""The points that the arm reaches before and after any joint locks, with artificial joint limits that enlarge the region."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
-from holdfast.notice import Count, each, says
+from holdfast.notice import ProgressCount, reports_progress, track
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.reach import closed_form as tolerant_planar
 from holdfast.reach import samples as tolerant_sampled
 from holdfast.reach.closed_form import ThreeLinks
-from holdfast.reach.suggested import box_inside
+from holdfast.reach.suggested import find_inner_box
 from holdfast.result import Result
 
 if TYPE_CHECKING:
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
 
-POINTS, ANGLES = 1000, 24
-_GRID = 161  # points along each edge of the map of the exact region
-_RADII = 1600
+DEFAULT_POINTS, DEFAULT_ANGLES = 1000, 24
+_GRID_POINTS = 161  # points along each edge of the map of the exact region
+_AREA_RADII = 1600
 _SEARCH_RADII, _POLISH_RADII = 32, 160
-_SEARCH_POINTS = 250  # at most, of which the limits are chosen
-_GENERATIONS = 60  # of a search for limits at most
+_MAX_SEARCH_POINTS = 250  # at most, of which the limits are chosen
+_MAX_GENERATIONS = 60  # of a search for limits at most
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -79,22 +79,22 @@ class TolerantWorkspace(Result):
 
     @property
     def unit(self) -> str:
-        """``m^2`` or ``m^3``."""
+        """Unit of the size, ``m^2`` or ``m^3``."""
         return "m^2" if np.linalg.matrix_rank(self.task.rows[:, :3], tol=1e-9) == 2 else "m^3"
 
     @property
     def share(self) -> float:
-        """Of what the healthy arm reaches; NaN if that is nothing."""
+        """Fraction of the healthy arm's workspace; NaN if that is empty."""
         return self.size / self.healthy_size if self.healthy_size > 0 else float("nan")
 
     @property
     def lost_to(self) -> Array:
-        """(n,) of the points within the artificial limits, the share that some lock of each joint loses; NaN if none is."""
-        size = int(self.within.sum())
-        return 1 - self.survives.sum(axis=0) / size if size else np.full(self.arm.n, np.nan)
+        """Fraction (n,) of the points within the artificial limits that some lock of each joint loses; NaN without points."""
+        count = int(self.within.sum())
+        return 1 - self.survives.sum(axis=0) / count if count else np.full(self.arm.n, np.nan)
 
     def claim(self) -> TolerantClaim:
-        """The claim that a box of points inside is failure-tolerant: :func:`holdfast.certify` proves it for every point.
+        """Return the claim that a box of points inside is failure-tolerant: :func:`holdfast.certify` proves it for every point.
 
         The box is a large one without a point outside; the artificial limits are its working ranges.
 
@@ -106,44 +106,48 @@ class TolerantWorkspace(Result):
         rows = self.task.rows
         if rows.shape[0] not in (2, 3) or not np.array_equal(rows, np.eye(6)[: len(rows)]):
             raise InputError(f"certificates of boxes are for tasks position and planar, not {self.task.name}")
-        box = box_inside(self.points[:, : len(rows)], self.inside)
+        box = find_inner_box(self.points[:, : len(rows)], self.inside)
         if box is None:
             raise InputError("too few points are inside to suggest a box; sample more")
-        ranges: dict[str | int, tuple[float, float]] = {k: (float(a), float(b)) for k, (a, b) in enumerate(self.limits)}
+        ranges: dict[str | int, tuple[float, float]] = {
+            joint: (float(lower), float(upper)) for joint, (lower, upper) in enumerate(self.limits)
+        }
         return tolerant_claim(self.arm, box.mean(axis=1), box[:, 1] - box[:, 0], working_ranges=ranges)
 
     def describe(self) -> list[str]:
-        """A few sentences for people: how large the region is, and what the locks of each joint lose."""
-        low, high = self.size_interval
-        how = (
+        """Describe the size of the region and the points that the locks of each joint lose, in sentences."""
+        lower, upper = self.size_interval
+        method = (
             "in closed form for each radius"
             if self.exact
             else f"{len(self.points)} points, {self.angles} locked values per joint, {self.confidence:.0%} interval "
-            f"{low:.3g} to {high:.3g}"
+            f"{lower:.3g} to {upper:.3g}"
         )
-        size = f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({how})"
+        size = f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({method})"
         lines = [f"{self.arm.title}, task {self.task.name}: {size}"]
-        for joint, (least, most), lost in zip(self.arm.joints, self.limits, self.lost_to, strict=True):
-            factor, shown = joint.shown
-            ranged = f"{factor * least:.2f} to {factor * most:.2f} {shown}"
-            lines.append(f"{joint.name} within {ranged}: its locks lose {lost:.1%} of the points within the artificial limits")
+        for joint, (lower_limit, upper_limit), lost_fraction in zip(self.arm.joints, self.limits, self.lost_to, strict=True):
+            factor, unit = joint.shown
+            ranged = f"{factor * lower_limit:.2f} to {factor * upper_limit:.2f} {unit}"
+            lines.append(
+                f"{joint.name} within {ranged}: its locks lose {lost_fraction:.1%} of the points within the artificial limits"
+            )
         return lines
 
     def to_xarray(self) -> xr.Dataset:
-        """What is reached at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``."""
+        """Return the results at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``."""
         import xarray as xr
 
         count = round(np.sqrt(len(self.points)))
-        shape, at = ((count, count), ["v", "u"]) if self.exact else ((len(self.points),), ["point"])
-        reached = {name: (at, getattr(self, name).reshape(shape)) for name in ("healthy", "within", "inside")}
-        found = xr.Dataset(
+        shape, dimensions = ((count, count), ["v", "u"]) if self.exact else ((len(self.points),), ["point"])
+        reached = {name: (dimensions, getattr(self, name).reshape(shape)) for name in ("healthy", "within", "inside")}
+        dataset = xr.Dataset(
             {
                 **reached,
-                "survives": ([*at, "joint"], self.survives.reshape(*shape, -1)),
+                "survives": ([*dimensions, "joint"], self.survives.reshape(*shape, -1)),
                 "limits": (["joint", "end"], self.limits),
             },
             {
-                "position": ([*at, "axis"], self.points.reshape(*shape, 3), {"units": "m"}),
+                "position": ([*dimensions, "axis"], self.points.reshape(*shape, 3), {"units": "m"}),
                 "joint": list(self.arm.joint_names),
                 "end": ["lower", "upper"],
                 "axis": list("xyz"),
@@ -152,12 +156,12 @@ class TolerantWorkspace(Result):
         )
         if self.exact:
             plane = (self.points @ self.task.rows[:, :3].T).reshape(count, count, 2)
-            found = found.assign_coords(u=("u", plane[0, :, 0], {"units": "m"}), v=("v", plane[:, 0, 1], {"units": "m"}))
-        return found
+            dataset = dataset.assign_coords(u=("u", plane[0, :, 0], {"units": "m"}), v=("v", plane[:, 0, 1], {"units": "m"}))
+        return dataset
 
 
-@checked
-@says("measuring the failure-tolerant workspace")
+@check_arguments
+@reports_progress("measuring the failure-tolerant workspace")
 def tolerant_workspace(
     arm: Arm,
     task: str | Task | Sequence[str] = "position",
@@ -165,12 +169,12 @@ def tolerant_workspace(
     *,
     optimise: bool = False,
     rotation: ArrayLike | None = None,
-    points: int = POINTS,
-    angles: int = ANGLES,
+    points: int = DEFAULT_POINTS,
+    angles: int = DEFAULT_ANGLES,
     seed: int = 0,
     confidence: float = 0.95,
 ) -> TolerantWorkspace:
-    """The points that the arm is guaranteed to reach before and after any single joint locks.
+    """Compute the points that the arm is guaranteed to reach before and after any single joint locks.
 
     Artificial joint limits hold until a joint locks. A point is in the region if the healthy arm reaches it within them and,
     for each joint and every value within its artificial limits, the arm with the joint locked there reaches it, the other
@@ -203,64 +207,73 @@ def tolerant_workspace(
 
     Source: Lewis and Maciejewski 1997; Hoover et al. 2015; Bader and Maciejewski 2020 for optimal limits of planar arms.
     """
-    rows = as_task(arm, task)
-    if arm.n <= rows.m:
+    resolved_task = as_task(arm, task)
+    if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows: without redundancy no region survives "
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
+            f"redundancy no region survives "
             "a lock; choose a task with fewer rows"
         )
     check_confidence(confidence)
     if points < 1 or angles < 2:
         raise InputError(f"points is {points} and angles {angles}; give at least 1 point and 2 angles")
-    turn = np.eye(3) if rotation is None else np.asarray(rotation, dtype=np.float64)
-    if turn.shape != (3, 3) or not np.allclose(turn @ turn.T, np.eye(3), atol=1e-6) or np.linalg.det(turn) < 0:
+    orientation = np.eye(3) if rotation is None else np.asarray(rotation, dtype=np.float64)
+    if (
+        orientation.shape != (3, 3)
+        or not np.allclose(orientation @ orientation.T, np.eye(3), atol=1e-6)
+        or np.linalg.det(orientation) < 0
+    ):
         raise InputError("rotation must be a (3, 3) rotation matrix: orthonormal, with determinant +1")
     if optimise and limits is not None:
         raise InputError("give limits, or optimise=True to look for them, not both")
-    three = ThreeLinks.of(arm, rows)
-    if three is not None:
-        found = _best_exact(arm, three, seed) if optimise else _read_limits(arm, limits)
-        return _exact(arm, rows, three, found, optimise)
-    space = tolerant_sampled.Space.of(arm, rows, turn)
+    planar_arm = ThreeLinks.from_task(arm, resolved_task)
+    if planar_arm is not None:
+        chosen_limits = _find_best_limits(arm, planar_arm, seed) if optimise else _read_limits(arm, limits)
+        return _exact_workspace(arm, resolved_task, planar_arm, chosen_limits, optimise)
+    sampling_box = tolerant_sampled.SamplingBox.from_arm(arm, resolved_task, orientation)
     if optimise:
-        found = tolerant_sampled.best_limits(arm, rows, space, min(points, _SEARCH_POINTS), angles, seed)
+        chosen_limits = tolerant_sampled.find_best_limits(
+            arm, resolved_task, sampling_box, min(points, _MAX_SEARCH_POINTS), angles, seed
+        )
     else:
-        found = _read_limits(arm, limits)
+        chosen_limits = _read_limits(arm, limits)
     # Limits are judged by other points than those they were chosen for.
-    return _sampled(arm, rows, space, found, optimise, points, angles, seed + 1 if optimise else seed, confidence)
+    return _sampled_workspace(
+        arm, resolved_task, sampling_box, chosen_limits, optimise, points, angles, seed + 1 if optimise else seed, confidence
+    )
 
 
 def _read_limits(arm: Arm, limits: Limits | None) -> Array:
-    made = np.stack(finite_limits(arm), axis=1)
+    ranges = np.stack(finite_limits(arm), axis=1)
     if limits is None:
-        return made
+        return ranges
     if isinstance(limits, Mapping):
         for name, pair in limits.items():
-            made[arm.joint_index(name)] = pair
+            ranges[arm.joint_index(name)] = pair
     else:
-        given = np.asarray(limits, dtype=np.float64)
-        if given.shape != (arm.n, 2):
-            raise InputError(f"limits have shape {given.shape}; they must be ({arm.n}, 2), lower and upper of each joint")
-        made = given.copy()
-    for k, (low, high) in enumerate(made):
-        joint = arm.joints[k]
-        if not (np.isfinite([low, high]).all() and low <= high):
-            raise InputError(f"limits of joint '{joint.name}' are {low:g} to {high:g}; give finite ones, the lower first")
-        if low < joint.lower - 1e-9 or high > joint.upper + 1e-9:
+        array = np.asarray(limits, dtype=np.float64)
+        if array.shape != (arm.n, 2):
+            raise InputError(f"limits have shape {array.shape}; they must be ({arm.n}, 2), lower and upper of each joint")
+        ranges = array.copy()
+    for index, (lower, upper) in enumerate(ranges):
+        joint = arm.joints[index]
+        if not (np.isfinite([lower, upper]).all() and lower <= upper):
+            raise InputError(f"limits of joint '{joint.name}' are {lower:g} to {upper:g}; give finite ones, the lower first")
+        if lower < joint.lower - 1e-9 or upper > joint.upper + 1e-9:
             raise InputError(
-                f"limits of joint '{joint.name}' are {low:g} to {high:g}, beyond the arm's own, {joint.lower:g} to "
+                f"limits of joint '{joint.name}' are {lower:g} to {upper:g}, beyond the arm's own, {joint.lower:g} to "
                 f"{joint.upper:g} {joint.unit}"
             )
-    return made
+    return ranges
 
 
 # ---- any arm -----------------------------------------------------------------------------------------------------
 
 
-def _sampled(
+def _sampled_workspace(
     arm: Arm,
     task: Task,
-    space: tolerant_sampled.Space,
+    sampling_box: tolerant_sampled.SamplingBox,
     limits: Array,
     optimised: bool,
     points: int,
@@ -268,23 +281,25 @@ def _sampled(
     seed: int,
     confidence: float,
 ) -> TolerantWorkspace:
-    poses = space.draw(points, seed)
-    healthy = tolerant_sampled.reached(arm, task, poses, seed)
+    poses = sampling_box.sample_poses(points, seed)
+    healthy = tolerant_sampled.check_reached(arm, task, poses, seed)
     within = healthy.copy()
-    within[healthy] = tolerant_sampled.reached(tolerant_sampled.limited(arm, limits), task, poses[healthy], seed)
-    values = [np.linspace(low, high, angles) for low, high in limits]
+    within[healthy] = tolerant_sampled.check_reached(
+        tolerant_sampled.with_artificial_limits(arm, limits), task, poses[healthy], seed
+    )
+    values = [np.linspace(lower, upper, angles) for lower, upper in limits]
     survives = np.zeros((points, arm.n), dtype=bool)
-    table = tolerant_sampled.survival(arm, task, poses[within], values, seed)
-    survives[within] = np.stack([t.all(axis=1) for t in table], axis=1)
+    survival_tables = tolerant_sampled.check_survival(arm, task, poses[within], values, seed)
+    survives[within] = np.stack([table.all(axis=1) for table in survival_tables], axis=1)
     inside = np.asarray(survives.all(axis=1))
-    share = Interval.of(int(inside.sum()), points, confidence)
+    fraction = Interval.of(int(inside.sum()), points, confidence)
     return TolerantWorkspace(
         arm=arm,
         task=task,
         limits=limits,
-        size=space.size * share.value,
-        size_interval=(space.size * share.low, space.size * share.high),
-        healthy_size=space.size * float(healthy.mean()),
+        size=sampling_box.size * fraction.value,
+        size_interval=(sampling_box.size * fraction.low, sampling_box.size * fraction.high),
+        healthy_size=sampling_box.size * float(healthy.mean()),
         points=poses[:, :3, 3],
         healthy=healthy,
         within=within,
@@ -300,31 +315,33 @@ def _sampled(
 # ---- three links in a plane --------------------------------------------------------------------------------------
 
 
-def _exact(arm: Arm, task: Task, three: ThreeLinks, limits: Array, optimised: bool) -> TolerantWorkspace:
-    links = three.link_limits(limits)
-    links[:, 1] = np.minimum(links[:, 1], links[:, 0] + tolerant_planar.FULL)
-    value, coarse = (float(tolerant_planar.area(three, links[None], radii)[0]) for radii in (_RADII, _RADII // 2))
-    error = abs(value - coarse)
-    most, least = _reach(three)
-    across = np.linspace(-most, most, _GRID)
-    flat = np.stack(np.meshgrid(across, across), axis=-1).reshape(-1, 2)
-    radius = np.hypot(*flat.T)
-    healthy = (radius <= most) & (radius >= least)
-    parts = tolerant_planar.parts(three, links, flat + three.centre)
+def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Array, optimised: bool) -> TolerantWorkspace:
+    links = planar_arm.link_limits(limits)
+    links[:, 1] = np.minimum(links[:, 1], links[:, 0] + tolerant_planar.FULL_TURN_RAD)
+    area, coarse = (
+        float(tolerant_planar.workspace_area(planar_arm, links[None], radii)[0]) for radii in (_AREA_RADII, _AREA_RADII // 2)
+    )
+    error = abs(area - coarse)
+    outer_radius, inner_radius = _reach_radii(planar_arm)
+    coordinates = np.linspace(-outer_radius, outer_radius, _GRID_POINTS)
+    plane_points = np.stack(np.meshgrid(coordinates, coordinates), axis=-1).reshape(-1, 2)
+    radius = np.hypot(*plane_points.T)
+    healthy = (radius <= outer_radius) & (radius >= inner_radius)
+    flags = tolerant_planar.classify_points(planar_arm, links, plane_points + planar_arm.center)
     normal = np.cross(*task.rows[:, :3])
-    lift = normal * float(normal @ arm.forward_kinematics(np.zeros(arm.n))[:3, 3])
+    plane_offset = normal * float(normal @ arm.forward_kinematics(np.zeros(arm.n))[:3, 3])
     return TolerantWorkspace(
         arm=arm,
         task=task,
         limits=limits,
-        size=value,
-        size_interval=(max(value - error, 0.0), value + error),
-        healthy_size=float(np.pi * (most**2 - least**2)),
-        points=(flat + three.centre) @ task.rows[:, :3] + lift,
+        size=area,
+        size_interval=(max(area - error, 0.0), area + error),
+        healthy_size=float(np.pi * (outer_radius**2 - inner_radius**2)),
+        points=(plane_points + planar_arm.center) @ task.rows[:, :3] + plane_offset,
         healthy=healthy,
-        within=parts[0],
-        survives=np.stack(parts[1:], axis=1) & parts[0][:, None],
-        inside=np.asarray(np.stack(parts).all(axis=0)),
+        within=flags[0],
+        survives=np.stack(flags[1:], axis=1) & flags[0][:, None],
+        inside=np.asarray(np.stack(flags).all(axis=0)),
         exact=True,
         angles=0,
         optimised=optimised,
@@ -332,49 +349,49 @@ def _exact(arm: Arm, task: Task, three: ThreeLinks, limits: Array, optimised: bo
     )
 
 
-def _reach(three: ThreeLinks) -> tuple[float, float]:
-    total = float(three.lengths.sum())
-    return total, max(0.0, 2 * float(three.lengths.max()) - total)
+def _reach_radii(planar_arm: ThreeLinks) -> tuple[float, float]:
+    total = float(planar_arm.lengths.sum())
+    return total, max(0.0, 2 * float(planar_arm.lengths.max()) - total)
 
 
-def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
-    """Limits (3, 2) of the largest region; joint 1 about 0, because the region turns with it."""
+def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> Array:
+    """Find limits (3, 2) of the largest region; joint 1 is centered at 0, because the region rotates with it."""
     from scipy import optimize
 
     search: Any = optimize.differential_evolution  # its stubs know no vectorized cost
     polish: Any = optimize.minimize
 
-    own = np.stack([arm.lower, arm.upper], axis=1)
+    arm_limits = np.stack([arm.lower, arm.upper], axis=1)
 
-    def limits(x: Array) -> Array:
-        """(P, 3, 2) from the halves of the ranges of the joints and the middles of the last two (P, 5)."""
-        half, middle = np.abs(x[:, [0, 2, 4]]), np.stack([np.zeros(len(x)), x[:, 1], x[:, 3]], axis=1)
-        return np.stack([middle - half, middle + half], axis=2)
+    def decode_limits(x: Array) -> Array:
+        """Return limits (P, 3, 2) from half the ranges of the joints and the middles of the last two (P, 5)."""
+        half_range, middle = np.abs(x[:, [0, 2, 4]]), np.stack([np.zeros(len(x)), x[:, 1], x[:, 3]], axis=1)
+        return np.stack([middle - half_range, middle + half_range], axis=2)
 
-    def cost(x: Array, radii: int) -> Array:
-        joints = limits(x)
-        beyond = ((joints[..., 0] < own[:, 0]) | (joints[..., 1] > own[:, 1])).any(axis=1)
-        links = np.array([three.link_limits(j) for j in joints])
-        return np.where(beyond, 0.0, -tolerant_planar.area(three, links, radii))
+    def negative_area(x: Array, radii: int) -> Array:
+        joints = decode_limits(x)
+        beyond = ((joints[..., 0] < arm_limits[:, 0]) | (joints[..., 1] > arm_limits[:, 1])).any(axis=1)
+        links = np.array([planar_arm.link_limits(joint_limits) for joint_limits in joints])
+        return np.where(beyond, 0.0, -tolerant_planar.workspace_area(planar_arm, links, radii))
 
-    with Count("generations", _GENERATIONS, most=True) as tell:
-        found = search(
-            lambda x: cost(x.T, _SEARCH_RADII),
+    with ProgressCount("generations", _MAX_GENERATIONS, most=True) as advance:
+        best = search(
+            lambda x: negative_area(x.T, _SEARCH_RADII),
             # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
             [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
             vectorized=True,
             updating="deferred",
             popsize=12,
-            maxiter=_GENERATIONS,
-            callback=lambda x, convergence: tell(1),
+            maxiter=_MAX_GENERATIONS,
+            callback=lambda x, convergence: advance(1),
             rng=np.random.default_rng(seed),
             polish=False,
         ).x
-    for _ in each("simplex searches", range(3)):  # a simplex that has shrunk onto a ridge starts again
-        found = polish(
-            lambda x: float(cost(x[None], _POLISH_RADII)[0]),
-            found,
+    for _ in track("simplex searches", range(3)):  # a simplex that has shrunk onto a ridge starts again
+        best = polish(
+            lambda x: float(negative_area(x[None], _POLISH_RADII)[0]),
+            best,
             method="Nelder-Mead",
-            options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": found + np.vstack([np.zeros(5), 0.05 * np.eye(5)])},
+            options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": best + np.vstack([np.zeros(5), 0.05 * np.eye(5)])},
         ).x
-    return np.asarray(np.clip(limits(found[None])[0], own[:, :1], own[:, 1:]))
+    return np.asarray(np.clip(decode_limits(best[None])[0], arm_limits[:, :1], arm_limits[:, 1:]))

@@ -1,4 +1,4 @@
-"""From a fault to an action: the arm fails, a monitor names the joint, the controller reacts and the task goes on."""
+"""Fault-tolerant control loop: a joint fails, the monitor names it, the controller responds, and the task continues."""
 
 from holdfast._lazy import offer
 

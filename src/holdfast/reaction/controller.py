@@ -1,4 +1,4 @@
-"""What a controller does when a monitor names a joint: brake it, leave it out of the law, slow down, or plan anew.
+"""Controller response to a named joint: brake it, exclude it from the control law, slow down, or plan a new motion.
 
 Source: derived here; braking turns a free-swinging joint into a locked one, English and Maciejewski 2001.
 """
@@ -13,60 +13,67 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.diagnosis.kinds import Verdict
+from holdfast.diagnosis.kinds import FaultVerdict
 from holdfast.failures import Degraded
-from holdfast.reaction.detour import better_posture
-from holdfast.reaction.masked import NEARER, PATIENCE, MaskedLaw
-from holdfast.reaction.plan import ACCELERATION, Planned, planned
+from holdfast.reaction.detour import choose_posture
+from holdfast.reaction.masked import MIN_PROGRESS, PROGRESS_TIMEOUT_S, MaskedLaw
+from holdfast.reaction.plan import ACCELERATION_LIMIT, RouteFollower, plan_route
 from holdfast.reaction.run import Action, React, What
 
 Array = NDArray[np.float64]
 
-AT_ONCE = 0.020  # s after the alarm: a joint that does not move, or runs away, is braked before its kind is known
-STILL, RUNS, FASTER = 0.02, 0.2, 0.3  # rad/s or m/s: no motion; a motion, and so much off its reference
-BEHIND, FAR_OFF = 1.5, 8.0  # of the bound of tracking; a servo at its effort is not far off a joint that falls
-SLOW, HALF = 0.3, 0.5  # of the commanded speed
-TRIAL = 0.2  # of the speed of a route, with a joint that may do more than was thought
-EASE = 0.8  # of the speed that such a joint has where it falls behind
-QUIET = 1.0  # s after which a contact is over
-SPARE = 1.2  # a weak motor must carry gravity so many times
-SETTLED, SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
-LATER = 0.5  # s more, for measured poses that come more slowly
-NAMED = 2.0  # s after the alarm by which the joint must be known
-FINAL = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
-SLACK = 1e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
-RAMP = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
-LEAST = 0.1  # rad/s or m/s: a joint that calibration has hardly moved may be so fast
-IDLE = 1e-3  # rad/s and m/s: a law that commands less is at its end
-_EASED = frozenset({"weak", "friction", "sluggish"})
+EARLY_BRAKE_DELAY_S = 0.020  # s after the alarm: a joint that does not move, or runs away, is braked before its kind is known
+STILL_SPEED, MOVING_SPEED, RUNAWAY_SPEED_ERROR = (
+    0.02,
+    0.2,
+    0.3,
+)  # rad/s or m/s: no motion; a motion, and so much off its reference
+LAGGING_TRACKING_RATIO, RUNAWAY_TRACKING_RATIO = (
+    1.5,
+    8.0,
+)  # of the bound of tracking; a servo at its effort is not far off a joint that falls
+SLOW_PACE, REDUCED_PACE = 0.3, 0.5  # of the commanded speed
+TRIAL_PACE = 0.2  # of the speed of a route, with a joint that may do more than was thought
+TRIAL_SPEED_FRACTION = 0.8  # of the speed that such a joint has where it falls behind
+CONTACT_END_S = 1.0  # s after which a contact is over
+GRAVITY_SAFETY_FACTOR = 1.2  # a weak motor must carry gravity so many times
+SETTLING_TIME_S, MIN_POSE_SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
+LATE_SAMPLES_WAIT_S = 0.5  # s more, for measured poses that come more slowly
+NAMING_DEADLINE_S = 2.0  # s after the alarm by which the joint must be known
+VERDICT_DEADLINE_S = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
+SENSOR_TOLERANCE = 1e-3  # rad or m: a sensor is believed where the tool's pose agrees so far
+PACE_RATE_PER_S = 5.0  # 1/s, of the pace: from standstill to the commanded speed, and back, in 0.2 s
+MIN_CALIBRATED_SPEED = 0.1  # rad/s or m/s: a joint that calibration has hardly moved may be so fast
+IDLE_SPEED = 1e-3  # rad/s and m/s: a law that commands less is at its end
+_SLOWING_KINDS = frozenset({"weak", "friction", "sluggish"})
 
 
 class Brakes(Protocol):
-    """What stops joints."""
+    """Interface of the joint brakes."""
 
     def brake(self, joint: str) -> None:
-        """Stop one where it is."""
+        """Stop a joint at its present position."""
         ...
 
     def release(self, joint: str) -> None:
-        """Release it again."""
+        """Release the brake of a joint."""
         ...
 
 
-class Watch(Protocol):
-    """What sees faults."""
+class FaultMonitor(Protocol):
+    """Interface of the fault monitor."""
 
     def rearm(self) -> None:
-        """Watch on after an alarm."""
+        """Resume monitoring after an alarm."""
         ...
 
-    def leave_out(self, joint: str) -> None:
-        """Watch on, but not this joint."""
+    def exclude(self, joint: str) -> None:
+        """Resume monitoring without one joint."""
         ...
 
 
 class Controller:
-    """A law, and what it becomes: with one joint less after each fault that is found.
+    """Control law that loses one joint after each fault that is found.
 
     Args:
         law: The law, masked by this class.
@@ -84,11 +91,11 @@ class Controller:
     """
 
     def __init__(
-        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: Brakes, watch: Watch | None, react: React, plan: bool
+        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: Brakes, watch: FaultMonitor | None, react: React, plan: bool
     ) -> None:
         self.law, self.arm = law, law.arm
         self._bounds, self._brakes, self._watch, self._react, self._plans = bounds, brakes, watch, react, plan
-        self.pace, self.over, self.actions, self.verdicts = 1.0, False, list[Action](), list[Verdict]()
+        self.pace, self.over, self.actions, self.verdicts = 1.0, False, list[Action](), list[FaultVerdict]()
         self._pace = self._time = self._since = 0.0
         self._nearest = np.inf
         self._alarm = self._settled = self._quiet = np.inf
@@ -99,7 +106,7 @@ class Controller:
         self._looked = False  # whether the law was followed ahead since
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
         self._poses, self._seen = list[tuple[Array, Array]](), False
-        self._planned: Planned | None = None
+        self._planned: RouteFollower | None = None
         self._way = 0.0  # 1 or -1: the joint that was braked was to go up or down
         self._doubted = True  # what is wrong with it may be less than was thought
         self._trial: int | None = None  # a joint whose brake was released again
@@ -111,119 +118,135 @@ class Controller:
 
     @property
     def degraded(self) -> Degraded | None:
-        """What is left of the arm, as the controller knows it."""
-        held = {int(j): float(self._last[j]) for j in np.flatnonzero(self.law.mask == 0)}
-        cut = np.flatnonzero((self._lower > self.arm.lower) | (self._upper < self.arm.upper))
-        ranges = {int(j): (self._lower[j], self._upper[j]) for j in cut if j not in held}
-        return Degraded(self.arm, locked=held, ranges=ranges) if held or ranges else None
+        """Failures of the arm that the controller knows; None if there are none."""
+        locked = {int(j): float(self._last[j]) for j in np.flatnonzero(self.law.mask == 0)}
+        range_limited = np.flatnonzero((self._lower > self.arm.lower) | (self._upper < self.arm.upper))
+        ranges = {int(j): (self._lower[j], self._upper[j]) for j in range_limited if j not in locked}
+        return Degraded(self.arm, locked=locked, ranges=ranges) if locked or ranges else None
 
-    def believed(self, told: Array) -> Array:
-        """Where the joints are, by sensors that are believed."""
+    def trusted_positions(self, q_measured: Array) -> Array:
+        """Return the joint positions (n,), replacing those of sensors that are not trusted."""
         if not self._true:
-            return told
-        q = told.copy()
+            return q_measured
+        q = q_measured.copy()
         for j, value in self._true.items():
             q[j] = value
         return q
 
-    def rates(self, time: float, told: Array) -> Array:
+    def rates(self, time: float, q_measured: Array) -> Array:
         """Commanded rates (n,), rad/s and m/s: smooth, within the velocity limits, and slower towards the ends of the range."""
-        q, dt = self.believed(told), time - self._time
-        wanted = self._wanted(time, told)
-        if not np.isfinite(wanted).all():
-            wanted = np.zeros(self.arm.n)
-        wanted = wanted / max(1.0, float((np.abs(wanted) / self._most).max()))
-        low, high = (np.sqrt(2 * ACCELERATION * np.maximum(room, 0.0)) for room in (q - self._lower, self._upper - q))
-        wanted = np.minimum(np.maximum(wanted, -low), high)
-        change = ACCELERATION * dt
-        self._commanded = self.law.mask * np.clip(wanted, self._commanded - change, self._commanded + change)
+        q, dt = self.trusted_positions(q_measured), time - self._time
+        requested = self._requested_rates(time, q_measured)
+        if not np.isfinite(requested).all():
+            requested = np.zeros(self.arm.n)
+        requested = requested / max(1.0, float((np.abs(requested) / self._most).max()))
+        low, high = (np.sqrt(2 * ACCELERATION_LIMIT * np.maximum(margin, 0.0)) for margin in (q - self._lower, self._upper - q))
+        requested = np.minimum(np.maximum(requested, -low), high)
+        change = ACCELERATION_LIMIT * dt
+        self._commanded = self.law.mask * np.clip(requested, self._commanded - change, self._commanded + change)
         return self._commanded
 
-    def _wanted(self, time: float, told: Array) -> Array:
-        """What the law or the route asks for."""
-        q = self._last = self.believed(told)
+    def _requested_rates(self, time: float, q_measured: Array) -> Array:
+        """Return the rates that the control law or the route requests."""
+        q = self._last = self.trusted_positions(q_measured)
         dt = time - self._time
-        self._time, self._pace = time, self._pace + min(max(self.pace - self._pace, -RAMP * dt), RAMP * dt)
+        self._time, self._pace = (
+            time,
+            self._pace + min(max(self.pace - self._pace, -PACE_RATE_PER_S * dt), PACE_RATE_PER_S * dt),
+        )
         if self._planned is not None:
-            if not self._planned.over:
+            if not self._planned.is_finished:
                 return self._planned.rates(q, pace=self._pace, dt=dt)
             self._planned, self._since, self._nearest, self._looked = None, time, np.inf, False
         rates = self.law.rates(q)
-        if self._waits(time):
+        if self._is_waiting(time):
             self._pace, self._since, self._nearest = 0.0, time, np.inf  # the arm waits until it knows where that joint is
-        elif self._ends_elsewhere(time, q, rates):
-            return self._way_round(time, q)
+        elif self._misses_target(time, q, rates):
+            return self._replan(time, q)
         return self._pace * rates
 
-    def _waits(self, time: float) -> bool:
-        later = LATER if 0 < len(self._poses) < SAMPLES else 0.0
-        return bool(np.isfinite(self._settled) and time <= self._settled + later)
+    def _is_waiting(self, time: float) -> bool:
+        extra_wait = LATE_SAMPLES_WAIT_S if 0 < len(self._poses) < MIN_POSE_SAMPLES else 0.0
+        return bool(np.isfinite(self._settled) and time <= self._settled + extra_wait)
 
-    def _ends_elsewhere(self, time: float, q: Array, rates: Array) -> bool:
-        """What is left of the law does not lead to its target: too near something, followed ahead, or at its end."""
+    def _misses_target(self, time: float, q: Array, rates: Array) -> bool:
+        """Return whether the remaining control law fails to reach its target, by forward simulation or at its end."""
         if self.over or self.law.mask.min() > 0:
             return False
-        if not self.law.clear(q + self._commanded * np.abs(self._commanded) / ACCELERATION):  # twice the way it takes to stop
+        if not self.law.is_collision_free(
+            q + self._commanded * np.abs(self._commanded) / ACCELERATION_LIMIT
+        ):  # twice the way it takes to stop
             return True
         if not self._tries:
             return False
         if not self._looked:
             self._looked = True
-            if not np.isfinite(self.law.ahead(q[None], most=self._most)[0]):
+            if not np.isfinite(self.law.predict_time_to_target(q[None], max_speeds=self._most)[0]):
                 return True
-        off = self.law.miss + self.law.turn
-        if off < self._nearest - NEARER:
-            self._nearest, self._since = off, time
-        slow = not np.isfinite(rates).all() or float(np.abs(rates).max()) < IDLE
-        return slow or time - self._since > PATIENCE
+        error = self.law.position_error + self.law.orientation_error
+        if error < self._nearest - MIN_PROGRESS:
+            self._nearest, self._since = error, time
+        is_slow = not np.isfinite(rates).all() or float(np.abs(rates).max()) < IDLE_SPEED
+        return is_slow or time - self._since > PROGRESS_TIMEOUT_S
 
-    def idle(self, rates: Array) -> bool:
-        """Nothing more is to come."""
-        return self._planned is None and self._pace == self.pace and float(np.abs(rates).max()) < IDLE
+    def is_idle(self, rates: Array) -> bool:
+        """Return whether no further motion is expected."""
+        return self._planned is None and self._pace == self.pace and float(np.abs(rates).max()) < IDLE_SPEED
 
     # ---- what the monitor says ---------------------------------------------------------------------------------------
 
-    def hear(self, time: float, verdict: Verdict, *, behind: Array, v: Array, wanted: Array, gravity: Array) -> None:
-        """React to a verdict.
+    def on_verdict(
+        self, time: float, verdict: FaultVerdict, *, tracking_error: Array, v: Array, commanded_rates: Array, gravity: Array
+    ) -> None:
+        """Respond to a verdict of the monitor.
 
         Args:
             time: s.
             verdict: Of the monitor, now.
-            behind: (n,) distances from the references, rad and m.
+            tracking_error: (n,) distances from the references, rad and m.
             v: (n,) measured rates, rad/s and m/s.
-            wanted: (n,) commanded ones.
+            commanded_rates: (n,) commanded ones.
             gravity: (n,) torques, N m and N.
         """
-        if self.over or self._waits(time):
+        if self.over or self._is_waiting(time):
             return
         if self._trial is not None:
             assert self._bounds is not None
-            j = self._trial
-            y, off = abs(behind[j]) / self._bounds.tracking[j], wanted[j] - v[j]
-            follows = y < BEHIND or abs(off) < max(STILL, HALF * abs(wanted[j]))
+            trial_joint = self._trial
+            tracking_ratio, rate_error = (
+                abs(tracking_error[trial_joint]) / self._bounds.tracking[trial_joint],
+                commanded_rates[trial_joint] - v[trial_joint],
+            )
+            follows = tracking_ratio < LAGGING_TRACKING_RATIO or abs(rate_error) < max(
+                STILL_SPEED, REDUCED_PACE * abs(commanded_rates[trial_joint])
+            )
             # Where its motor is at its effort its reference does not go ahead, so what it should have done is summed up.
-            self._lost = 0.0 if follows else self._lost + off * (time - self._heard)
+            self._lost = 0.0 if follows else self._lost + rate_error * (time - self._heard)
             self._heard = time
-            if y > BEHIND and LEAST < v[j] * np.sign(wanted[j]) < abs(wanted[j]):  # it may not be faster
-                self.pace = self._usual = min(self.pace, EASE * self._pace * float(v[j] / wanted[j]))
-            if max(y, abs(self._lost) / self._bounds.tracking[j]) > FAR_OFF:
+            if tracking_ratio > LAGGING_TRACKING_RATIO and MIN_CALIBRATED_SPEED < v[trial_joint] * np.sign(
+                commanded_rates[trial_joint]
+            ) < abs(commanded_rates[trial_joint]):  # it may not be faster
+                self.pace = self._usual = min(
+                    self.pace, TRIAL_SPEED_FRACTION * self._pace * float(v[trial_joint] / commanded_rates[trial_joint])
+                )
+            if max(tracking_ratio, abs(self._lost) / self._bounds.tracking[trial_joint]) > RUNAWAY_TRACKING_RATIO:
                 self._trial = None
-                self._brake(time, self.arm.joint_names[j], "it does not follow")
+                self._brake(time, self.arm.joint_names[trial_joint], "it does not follow")
                 self._stop(time, "what is left does not reach the target")
                 return
         if self._named is not None and self.law.mask[self.arm.joint_index(self._named)] == 0:
-            self._go_on()
+            self._resume()
             return
         if time > self._quiet:
-            self._act(time, "resume", "no joint was named")
-            self._go_on()
+            self._log_action(time, "resume", "no joint was named")
+            self._resume()
             return
         if not verdict.alarm:
             return
         if np.isinf(self._alarm):
             self._alarm = time
             self.verdicts.append(verdict)
-            self._act(time, "alarm", "something is outside its bounds")
+            self._log_action(time, "alarm", "something is outside its bounds")
             if self._react == "stop":
                 self._stop(time, "every joint, at the first alarm")
                 return
@@ -231,165 +254,179 @@ class Controller:
         if verdict.joint is None:
             if verdict.kind == "contact":
                 if np.isinf(self._quiet):
-                    self._quiet, self.pace = time + QUIET, SLOW
-                    self._act(time, "slow", "something pushes the arm, and no joint is to blame")
-            elif time > self._alarm + NAMED:
+                    self._quiet, self.pace = time + CONTACT_END_S, SLOW_PACE
+                    self._log_action(time, "slow", "something pushes the arm, and no joint is to blame")
+            elif time > self._alarm + NAMING_DEADLINE_S:
                 self._stop(time, "the joint is not known")
             return
-        i = self.arm.joint_index(verdict.joint)
+        joint = self.arm.joint_index(verdict.joint)
         self._doubted = verdict.kind != "sensor"
-        self._way = float(np.sign(wanted[i]))
-        if verdict.kind in _EASED:
+        self._way = float(np.sign(commanded_rates[joint]))
+        if verdict.kind in _SLOWING_KINDS:
             if self._named == verdict.joint:
-                if time > self._alarm + FINAL:
-                    self._go_on()
+                if time > self._alarm + VERDICT_DEADLINE_S:
+                    self._resume()
                 return
-            left = (1 - verdict.loss) * self._effort[i]  # not a number where no loss is told
-            if left < SPARE * abs(gravity[i]):
+            torque_left = (1 - verdict.loss) * self._effort[joint]  # not a number where no loss is told
+            if torque_left < GRAVITY_SAFETY_FACTOR * abs(gravity[joint]):
                 self._brake(time, verdict.joint, "what its motor still gives does not carry the arm")
             else:
-                self.pace, self._named = min(self._usual, HALF), verdict.joint
-                self._act(time, "slow", f"its fault: {verdict.kind}", joint=verdict.joint)
+                self.pace, self._named = min(self._usual, REDUCED_PACE), verdict.joint
+                self._log_action(time, "slow", f"its fault: {verdict.kind}", joint=verdict.joint)
         elif verdict.kind != "unknown" or verdict.candidates:
             self._brake(time, verdict.joint, f"its fault: {verdict.kind}")
-        elif time >= self._alarm + AT_ONCE:
-            self._at_once(time, verdict.joint, float(behind[i]), float(v[i]), float(wanted[i]))
+        elif time >= self._alarm + EARLY_BRAKE_DELAY_S:
+            self._brake_early(time, verdict.joint, float(tracking_error[joint]), float(v[joint]), float(commanded_rates[joint]))
 
-    def _go_on(self) -> None:
-        """Watch on: without the joint that was named, and at the pace that what has failed leaves."""
+    def _resume(self) -> None:
+        """Resume monitoring without the named joint, at the pace that the failures allow."""
         assert self._watch is not None
         if self._named is None:
             self._watch.rearm()
         else:
-            self._watch.leave_out(self._named)
+            self._watch.exclude(self._named)
             if self.law.mask[self.arm.joint_index(self._named)] > 0:
-                self._usual = min(self._usual, HALF)
+                self._usual = min(self._usual, REDUCED_PACE)
         self.pace, self._alarm, self._quiet, self._named = self._usual, np.inf, np.inf, None
 
-    def know(self, time: float, kind: str, joint: str, true: float) -> None:
-        """React to a fault that is known at once, with the joint's true place, rad or m."""
+    def on_known_fault(self, time: float, kind: str, joint: str, true_position: float) -> None:
+        """Respond to a fault that is known at once, with the joint's true position in rad or m."""
         if self.arm.joint_index(joint) in self._true or self.law.mask[self.arm.joint_index(joint)] == 0:
             return
         if kind in ("locked", "limp", "slipping_clutch") or kind.startswith("sensor"):
-            self._act(time, "alarm", f"its fault is known: {kind}", joint=joint)
+            self._log_action(time, "alarm", f"its fault is known: {kind}", joint=joint)
             self._brake(time, joint, f"its fault: {kind}")
-            self._true[self.arm.joint_index(joint)] = true
+            self._true[self.arm.joint_index(joint)] = true_position
             self._settled = np.inf
 
-    def feel(self, time: float, told: Array, pose: Array) -> None:
-        """A measured pose of the tool (4, 4): after braking it tells whether the joint's sensor can be believed."""
+    def on_tool_pose(self, time: float, q_measured: Array, pose: Array) -> None:
+        """Use a measured tool pose (4, 4): after braking it shows whether the joint's sensor can be trusted."""
         self._seen = True
-        if not self._waits(time) or time <= self._settled - SAMPLES / 100 or len(self._poses) == SAMPLES:
+        if not self._is_waiting(time) or time <= self._settled - MIN_POSE_SAMPLES / 100 or len(self._poses) == MIN_POSE_SAMPLES:
             return
-        self._poses.append((self.believed(told).copy(), pose))
-        if len(self._poses) == SAMPLES:
-            self._measure(time)
+        self._poses.append((self.trusted_positions(q_measured).copy(), pose))
+        if len(self._poses) == MIN_POSE_SAMPLES:
+            self._estimate_braked_joint(time)
 
     # ---- what it does ------------------------------------------------------------------------------------------------
 
-    def _act(self, time: float, what: What, why: str, *, joint: str | None = None) -> None:
+    def _log_action(self, time: float, what: What, why: str, *, joint: str | None = None) -> None:
         self.actions.append(Action(time, what, why, joint=joint))
 
     def _stop(self, time: float, why: str) -> None:
         self.over, self.pace = True, 0.0
-        self._act(time, "stop", why)
+        self._log_action(time, "stop", why)
 
-    def _at_once(self, time: float, joint: str, behind: float, v: float, wanted: float) -> None:
+    def _brake_early(self, time: float, joint: str, tracking_error: float, v: float, commanded_rate: float) -> None:
         assert self._bounds is not None
-        y = abs(behind) / self._bounds.tracking[self.arm.joint_index(joint)]
-        if abs(v) < STILL and y > BEHIND:
+        tracking_ratio = abs(tracking_error) / self._bounds.tracking[self.arm.joint_index(joint)]
+        if abs(v) < STILL_SPEED and tracking_ratio > LAGGING_TRACKING_RATIO:
             self._brake(time, joint, "it does not move")
-        elif y > (BEHIND if behind * v < 0 else FAR_OFF) and abs(v - wanted) > FASTER and abs(v) > RUNS:
+        elif (
+            tracking_ratio > (LAGGING_TRACKING_RATIO if tracking_error * v < 0 else RUNAWAY_TRACKING_RATIO)
+            and abs(v - commanded_rate) > RUNAWAY_SPEED_ERROR
+            and abs(v) > MOVING_SPEED
+        ):
             self._brake(time, joint, "it runs away")
-        elif self.pace > SLOW:
-            self.pace = SLOW
-            self._act(time, "slow", "its fault is not known yet", joint=joint)
+        elif self.pace > SLOW_PACE:
+            self.pace = SLOW_PACE
+            self._log_action(time, "slow", "its fault is not known yet", joint=joint)
 
     def _brake(self, time: float, joint: str, why: str) -> None:
-        j = self.arm.joint_index(joint)
+        index = self.arm.joint_index(joint)
         self._brakes.brake(joint)
-        self.law.mask[j], self.pace, self._named, self._braked = 0.0, self._usual, joint, j
+        self.law.mask[index], self.pace, self._named, self._braked = 0.0, self._usual, joint, index
         self._planned, self._looked = None, False
         self._tries = ["detour", "plan"] if self._plans else ["detour"]
         if self._bounds is not None:
-            self._most = calibrated(self.arm, self._bounds)
-        self._settled, self._poses = time + SETTLED + (SAMPLES / 100 if self._seen else 0.0), []
-        self._act(time, "brake", why, joint=joint)
+            self._most = calibrated_speeds(self.arm, self._bounds)
+        self._settled, self._poses = time + SETTLING_TIME_S + (MIN_POSE_SAMPLES / 100 if self._seen else 0.0), []
+        self._log_action(time, "brake", why, joint=joint)
 
-    def _measure(self, time: float) -> None:
-        """Where a braked joint is by the tool's pose, ``b = sum J_i' c / sum J_i' J_i``; metres and radians weighted alike."""
-        j = self._braked
+    def _estimate_braked_joint(self, time: float) -> None:
+        """Estimate a braked joint's position from the tool poses, ``b = sum J_i' c / sum J_i' J_i``; metres and radians weigh
+        equally.
+        """
+        joint = self._braked
         rows = np.array([q for q, _ in self._poses])
         measured = np.array([pose for _, pose in self._poses])
         for _ in range(3):
-            poses, along = self.arm.forward_kinematics(rows), self.arm.jacobian(rows)[:, :, j]
-            turns = rotation_vectors(measured[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1))
-            c = np.concatenate([measured[:, :3, 3] - poses[:, :3, 3], turns], axis=1)
-            rows[:, j] += (c * along).sum() / max(float((along**2).sum()), 1e-12)
-        off = float(np.mean([row[j] - q[j] for row, (q, _) in zip(rows, self._poses, strict=True)]))
-        if abs(off) > SLACK:
-            self._true[j] = float(rows[:, j].mean())  # it stands, whatever its sensor does
-            factor, unit = self.arm.joints[j].shown
-            why = f"by the tool's pose it is {factor * off:.3g} {unit} off what its sensor says"
-            self._act(time, "measure", why, joint=self.arm.joint_names[j])
+            poses, columns = self.arm.forward_kinematics(rows), self.arm.jacobian(rows)[:, :, joint]
+            rotations = rotation_vectors(measured[:, :3, :3] @ poses[:, :3, :3].transpose(0, 2, 1))
+            c = np.concatenate([measured[:, :3, 3] - poses[:, :3, 3], rotations], axis=1)
+            rows[:, joint] += (c * columns).sum() / max(float((columns**2).sum()), 1e-12)
+        position_error = float(np.mean([row[joint] - q[joint] for row, (q, _) in zip(rows, self._poses, strict=True)]))
+        if abs(position_error) > SENSOR_TOLERANCE:
+            self._true[joint] = float(rows[:, joint].mean())  # it stands, whatever its sensor does
+            factor, unit = self.arm.joints[joint].shown
+            reason = f"by the tool's pose it is {factor * position_error:.3g} {unit} off what its sensor says"
+            self._log_action(time, "measure", reason, joint=self.arm.joint_names[joint])
 
-    def _way_round(self, time: float, q: Array) -> Array:
-        """By way of another posture, else along a route; else the arm stops, or follows the law where no route is asked for."""
-        left, apart = self.degraded, self.law.clearance
-        assert left is not None
-        why = last = "the law would not get there" + ("" if apart is None else f" clear of {apart.others}")
+    def _replan(self, time: float, q: Array) -> Array:
+        """Return rates towards an intermediate configuration, else along a route; else the arm stops, or follows the law
+        without routes.
+        """
+        failures, clearance = self.degraded, self.law.clearance
+        assert failures is not None
+        reason = last_reason = "the law would not get there" + ("" if clearance is None else f" clear of {clearance.others}")
         while self._tries:
-            way = self._tries.pop(0)
-            found = self._by_posture(q, left) if way == "detour" else self._by_route(time, q, left)
-            if not isinstance(found, str):
-                self._planned, self._pace = found, 0.0
-                what = "another posture first, which" if way == "detour" else f"a route of {found.waypoints} waypoints"
-                self._act(time, way, f"{why}; {what} takes {found.duration:.3g} s")
+            attempt = self._tries.pop(0)
+            follower = self._plan_posture_change(q, failures) if attempt == "detour" else self._plan_route(time, q, failures)
+            if not isinstance(follower, str):
+                self._planned, self._pace = follower, 0.0
+                action_text = (
+                    "another posture first, which" if attempt == "detour" else f"a route of {follower.waypoints} waypoints"
+                )
+                self._log_action(time, attempt, f"{reason}; {action_text} takes {follower.duration:.3g} s")
                 return np.zeros(self.arm.n)
-            last = found
-        if self._plans or apart is not None:
-            self._stop(time, last)
+            last_reason = follower
+        if self._plans or clearance is not None:
+            self._stop(time, last_reason)
         return np.zeros(self.arm.n)
 
-    def _by_posture(self, q: Array, left: Degraded) -> Planned | str:
-        via = better_posture(self.law, q, most=self._most, fastest=self.law.whole.speed_limit)
-        return "no other posture helps" if via is None else planned(self.law, q, via, left, most=self._most)
+    def _plan_posture_change(self, q: Array, failures: Degraded) -> RouteFollower | str:
+        posture = choose_posture(self.law, q, max_speeds=self._most, max_tool_speed=self.law.whole.speed_limit)
+        return (
+            "no other posture helps" if posture is None else plan_route(self.law, q, posture, failures, max_speeds=self._most)
+        )
 
-    def _by_route(self, time: float, q: Array, left: Degraded) -> Planned | str:
-        found = planned(self.law, q, self.law.pose, left, most=self._most)
-        return self._tried(time, q) or found if isinstance(found, str) else found
+    def _plan_route(self, time: float, q: Array, failures: Degraded) -> RouteFollower | str:
+        follower = plan_route(self.law, q, self.law.pose, failures, max_speeds=self._most)
+        return self._plan_trial(time, q) or follower if isinstance(follower, str) else follower
 
-    def _tried(self, time: float, q: Array) -> Planned | None:
-        """A slow route for the braked joint too: at a stop, or slow, it looks as a joint does that drives nothing.
+    def _plan_trial(self, time: float, q: Array) -> RouteFollower | None:
+        """Plan a slow route with the braked joint too, because a joint at a stop or a slow joint looks like one without torque.
 
         It is not sent on the way that it was to go, if there is a route without. Nothing is lost: else the arm stops here.
         """
         braked = np.flatnonzero(self.law.mask == 0)
-        alone = len(braked) == 1 and self._trial is None and int(braked[0]) not in self._true
-        if self._react != "chain" or not self._doubted or not alone:
+        is_single = len(braked) == 1 and self._trial is None and int(braked[0]) not in self._true
+        if self._react != "chain" or not self._doubted or not is_single:
             return None
-        j, joint = int(braked[0]), self.arm.joint_names[int(braked[0])]
-        ends = max(self.arm.lower[j], q[j] - 2 * np.pi), min(self.arm.upper[j], q[j] + 2 * np.pi)
-        for way in dict.fromkeys((self._way, 0.0)):
-            low, high = q[j] if way < 0 else ends[0], q[j] if way > 0 else ends[1]
-            if not ends[0] <= low < high <= ends[1]:
+        index, joint = int(braked[0]), self.arm.joint_names[int(braked[0])]
+        limits = max(self.arm.lower[index], q[index] - 2 * np.pi), min(self.arm.upper[index], q[index] + 2 * np.pi)
+        for direction in dict.fromkeys((self._way, 0.0)):
+            low, high = q[index] if direction < 0 else limits[0], q[index] if direction > 0 else limits[1]
+            if not limits[0] <= low < high <= limits[1]:
                 continue
-            left = Degraded(self.arm, ranges={j: (low, high)})
-            found = planned(self.law, q, self.law.pose, left, most=self._most)
-            if not isinstance(found, str):
+            failures = Degraded(self.arm, ranges={index: (low, high)})
+            follower = plan_route(self.law, q, self.law.pose, failures, max_speeds=self._most)
+            if not isinstance(follower, str):
                 if self._named == joint:  # or what was heard of it before the release would brake it again
-                    self._go_on()
-                self._trial, self.law.mask[j], self.pace, self._usual = j, 1.0, TRIAL, TRIAL
+                    self._resume()
+                self._trial, self.law.mask[index], self.pace, self._usual = index, 1.0, TRIAL_PACE, TRIAL_PACE
                 self._lost, self._heard = 0.0, time
-                self._lower[j], self._upper[j] = low, high
+                self._lower[index], self._upper[index] = low, high
                 self._brakes.release(joint)
-                why = "there is no route without it; slowly, as far as it follows"
-                self._act(time, "release", why, joint=joint)
-                return found
+                reason = "there is no route without it; slowly, as far as it follows"
+                self._log_action(time, "release", reason, joint=joint)
+                return follower
         return None
 
 
-def calibrated(arm: Arm, bounds: Bounds) -> Array:
-    """(n,) rates that bounds hold for, rad/s and m/s, within the limits; faster joints would alarm for no reason."""
+def calibrated_speeds(arm: Arm, bounds: Bounds) -> Array:
+    """Return the rates (n,) for which the monitor is calibrated, rad/s and m/s, within the limits; faster motion would raise
+    alarms.
+    """
     limits = np.array([joint.velocity for joint in arm.joints])
-    return np.asarray(np.minimum(np.maximum(bounds.speed, LEAST), limits))
+    return np.asarray(np.minimum(np.maximum(bounds.speed, MIN_CALIBRATED_SPEED), limits))

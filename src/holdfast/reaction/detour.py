@@ -1,4 +1,4 @@
-"""Where what is left of a law ends off its target: another posture, from which it does not when it is followed ahead."""
+"""Choose an intermediate configuration from which the law with masked joints converges to the target, by forward simulation."""
 
 from __future__ import annotations
 
@@ -11,38 +11,44 @@ from holdfast.reaction.masked import MaskedLaw
 
 Array = NDArray[np.float64]
 
-DEPTHS = (0.25, 0.5, 0.75, 1.0)  # of the way of all joints to the middle of their ranges
-TURN = np.pi / 2  # rad, of a joint without limits, either way
-_PARTS = 16  # of the way to a posture, for the length of the tool's
+CENTRING_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the way of all joints to the middle of their ranges
+UNLIMITED_STEP_RAD = np.pi / 2  # rad, of a joint without limits, either way
+_PATH_SEGMENTS = 16  # of the way to a posture, for the length of the tool's
 
 
-def postures(arm: Arm, q: Array, mask: Array) -> Array:
-    """(K, n) around q (n,), rad and m: joints with a mask of 1 nearer to their middle, or one of them there or beyond."""
+def candidate_postures(arm: Arm, q: Array, mask: Array) -> Array:
+    """Return candidates (K, n) near q (n,), rad and m: unmasked joints nearer to their middle, or one of them there
+    or beyond.
+    """
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
     middle = np.where(bounded, np.mean(finite_limits(arm), axis=0), q)
-    found = [q + mask * depth * (middle - q) for depth in DEPTHS]
-    for j in np.flatnonzero(mask):
-        for place in (middle[j], 2 * middle[j] - q[j]) if bounded[j] else (q[j] - TURN, q[j] + TURN):
-            found.append(np.where(np.arange(arm.n) == j, place, q))
-    return np.array(found)
+    candidates = [q + mask * depth * (middle - q) for depth in CENTRING_FRACTIONS]
+    for joint in np.flatnonzero(mask):
+        for value in (
+            (middle[joint], 2 * middle[joint] - q[joint])
+            if bounded[joint]
+            else (q[joint] - UNLIMITED_STEP_RAD, q[joint] + UNLIMITED_STEP_RAD)
+        ):
+            candidates.append(np.where(np.arange(arm.n) == joint, value, q))
+    return np.array(candidates)
 
 
-def better_posture(law: MaskedLaw, q: Array, *, most: Array, fastest: float | None) -> Array | None:
-    """The posture (n,) by way of which the target is reached soonest; None if by way of none.
+def choose_posture(law: MaskedLaw, q: Array, *, max_speeds: Array, max_tool_speed: float | None) -> Array | None:
+    """Choose the intermediate configuration (n,) through which the target is reached soonest; None if none reaches it.
 
     Args:
         law: What is left of the law.
         q: (n,) where the arm is, rad and m.
-        most: (n,) joint rates, rad/s and m/s.
-        fastest: m/s, of the tool; None: as fast as the joints.
+        max_speeds: (n,) joint rates, rad/s and m/s.
+        max_tool_speed: m/s, of the tool; None: as fast as the joints.
     """
     arm = law.arm
-    tried = postures(arm, np.clip(q, arm.lower, arm.upper), law.mask)
-    takes = (np.abs(tried - q) / most).max(axis=1)
-    if fastest is not None:
-        between = q + np.linspace(0.0, 1.0, _PARTS)[:, None, None] * (tried - q)
-        tool = arm.forward_kinematics(between.reshape(-1, arm.n))[:, :3, 3].reshape(_PARTS, -1, 3)
-        takes = np.maximum(takes, np.linalg.norm(np.diff(tool, axis=0), axis=-1).sum(axis=0) / fastest)
-    takes = takes + law.ahead(tried, most=most)
-    best = int(np.argmin(takes))
-    return tried[best] if np.isfinite(takes[best]) else None
+    candidates = candidate_postures(arm, np.clip(q, arm.lower, arm.upper), law.mask)
+    durations = (np.abs(candidates - q) / max_speeds).max(axis=1)
+    if max_tool_speed is not None:
+        between = q + np.linspace(0.0, 1.0, _PATH_SEGMENTS)[:, None, None] * (candidates - q)
+        tool = arm.forward_kinematics(between.reshape(-1, arm.n))[:, :3, 3].reshape(_PATH_SEGMENTS, -1, 3)
+        durations = np.maximum(durations, np.linalg.norm(np.diff(tool, axis=0), axis=-1).sum(axis=0) / max_tool_speed)
+    durations = durations + law.predict_time_to_target(candidates, max_speeds=max_speeds)
+    best = int(np.argmin(durations))
+    return candidates[best] if np.isfinite(durations[best]) else None

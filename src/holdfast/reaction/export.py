@@ -1,4 +1,4 @@
-"""A controller in C++17 that goes on after a joint fault: the law, the monitor and what one does about what the other says."""
+"""Export a C++17 controller that continues after a joint fault: the control law, the monitor, and the response."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
-from holdfast.control.c_functions import Function, commented, filled, written
-from holdfast.control.export import check_name, version
+from holdfast.control.c_functions import CFunction, fill_template, write_c_comment, write_c_functions
+from holdfast.control.export import check_name, holdfast_version
 from holdfast.control.law import Law
 from holdfast.diagnosis import decision
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.export import ExportedMonitor
 from holdfast.diagnosis.export import export_c as export_monitor
-from holdfast.diagnosis.gaps import cycles
+from holdfast.diagnosis.gaps import count_cycles
 from holdfast.diagnosis.sensors import Sensors
-from holdfast.files.output import put
-from holdfast.kernels.c_backend import number
-from holdfast.notice import says
+from holdfast.files.output import write_files
+from holdfast.kernels.c_backend import c_number
+from holdfast.notice import reports_progress
 from holdfast.reaction import controller, masked
 from holdfast.result import Result
 
-LEAK = 1.0  # 1/s: servos of rates do not hold a place, so the reference forgets where it began
+REFERENCE_LEAK_PER_S = 1.0  # 1/s: servos of rates do not hold a place, so the reference forgets where it began
 
 
 @dataclass(frozen=True, kw_only=True)
 class ExportedController(Result):
-    """The files of a controller.
+    """Files of an exported controller.
 
     Attributes:
         law: Its law.
@@ -64,10 +64,10 @@ class ExportedController(Result):
         return iter((*own, *self.monitor))
 
     def describe(self) -> list[str]:
-        """What was written where."""
-        first, *others = self
-        names = ", ".join(file.name for file in others)
-        return [f"controller of {self.law.arm.title}, {self.law.phrase()}: wrote {first} and {names}"]
+        """Return the list of written files in sentences."""
+        header, *files = self
+        names = ", ".join(file.name for file in files)
+        return [f"controller of {self.law.arm.title}, {self.law.phrase()}: wrote {header} and {names}"]
 
     def to_dict(self) -> dict[str, Any]:
         """The arm, the law, the monitor's digest and the files."""
@@ -75,12 +75,12 @@ class ExportedController(Result):
         return {**self.law.arm.entry(), **known, "files": [str(file) for file in self]}
 
 
-@checked
-@says("writing down the controller")
+@check_arguments
+@reports_progress("writing down the controller")
 def export_controller(
     law: Law, bounds: Bounds, folder: str | Path, *, name: str = "controller", sensors: Sensors | None = None
 ) -> ExportedController:
-    """Write a controller in C++17 that moves the tool by a twist, watches for joint faults and goes on with what is left.
+    """Write a C++17 controller that moves the tool by a twist, monitors the joints, and continues with the remaining joints.
 
     Its life cycle is that of a chainable controller of ROS 2, and it needs nothing of it; a file that does is beside it. It
     reacts as :func:`holdfast.simulate_faults` does with ``react="chain"``, but knows no target, hence no other posture and no
@@ -103,87 +103,88 @@ def export_controller(
     """
     check_name(name)
     watching = export_monitor(law.arm, bounds, folder, name=f"{name}_monitor", sensors=sensors)
-    text_of = partial(filled, "holdfast.reaction", "cpp", words=_words(law, bounds, name))
-    about = _about(law, bounds, name)
+    text_of = partial(fill_template, "holdfast.reaction", "cpp", words=_template_values(law, bounds, name))
+    comment = _header_comment(law, bounds, name)
     texts = {
-        f"{name}.hpp": f"{about}\n{text_of('controller.hpp')}",
-        f"{name}.cpp": f"{about}\n{text_of('controller.cpp')}",
-        f"{name}_law.h": f"{about}\n{text_of('law.h')}",
-        f"{name}_law.c": f'{about}\n#include "{name}_law.h"\n\n#include <math.h>\n\n{_masked(law)}\n{text_of("law.c")}',
+        f"{name}.hpp": f"{comment}\n{text_of('controller.hpp')}",
+        f"{name}.cpp": f"{comment}\n{text_of('controller.cpp')}",
+        f"{name}_law.h": f"{comment}\n{text_of('law.h')}",
+        f"{name}_law.c": f'{comment}\n#include "{name}_law.h"\n\n#include '
+        f"<math.h>\n\n{_masked_law_source(law)}\n{text_of('law.c')}",
         f"{name}_example.cpp": text_of("example.cpp"),
         f"{name}_ros.cpp": text_of("ros.cpp"),
         f"{name}_plugin.xml": text_of("plugin.xml"),
     }
     keys = ("header", "source", "law_header", "law_source", "example", "ros", "plugin")
-    return ExportedController(law=law, monitor=watching, **dict(zip(keys, put(folder, texts), strict=True)))
+    return ExportedController(law=law, monitor=watching, **dict(zip(keys, write_files(folder, texts), strict=True)))
 
 
-def _masked(law: Law) -> str:
+def _masked_law_source(law: Law) -> str:
     q, v, mask = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m), ca.SX.sym("mask", law.arm.n)
     j = law.jacobian(q) @ ca.diag(mask)
-    seen = Function({"q": q, "v": v, "mask": mask}, {"j": [j.T], "scaled": [law.scaled(v)]})
-    return f"{written({'seen': seen})}\n{law.inverse_in_c()}"
+    function = CFunction({"q": q, "v": v, "mask": mask}, {"j": [j.T], "scaled": [law.scaled(v)]})
+    return f"{write_c_functions({'seen': function})}\n{law.inverse_in_c()}"
 
 
-def _words(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
-    """What the files leave open."""
+def _template_values(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
+    """Return the values of the template placeholders."""
     arm = law.arm
     arrays: dict[str, ArrayLike] = {
         "lower": arm.lower,
         "upper": arm.upper,
         "largest_rate": [joint.velocity for joint in arm.joints],
         "largest_effort": [joint.effort for joint in arm.joints],
-        "calibrated_rate": controller.calibrated(arm, bounds),
+        "calibrated_rate": controller.calibrated_speeds(arm, bounds),
         "tracking_bound": bounds.tracking,
     }
     values = {
-        "AT_ONCE": controller.AT_ONCE,
-        "NAMED": controller.NAMED,
-        "FINAL": controller.FINAL,
-        "STILL": controller.STILL,
-        "RUNS": controller.RUNS,
-        "FASTER": controller.FASTER,
-        "BEHIND": controller.BEHIND,
-        "FAR": controller.FAR_OFF,
-        "SLOW": controller.SLOW,
-        "HALF": controller.HALF,
-        "RAMP": controller.RAMP,
-        "QUIET": controller.QUIET,
-        "SETTLED": controller.SETTLED,
-        "LATER": controller.LATER,
-        "SPARE": controller.SPARE,
-        "SLACK": controller.SLACK,
-        "NEAR": masked.NEAR,
-        "LEAK": LEAK,
+        "AT_ONCE": controller.EARLY_BRAKE_DELAY_S,
+        "NAMED": controller.NAMING_DEADLINE_S,
+        "FINAL": controller.VERDICT_DEADLINE_S,
+        "STILL": controller.STILL_SPEED,
+        "RUNS": controller.MOVING_SPEED,
+        "FASTER": controller.RUNAWAY_SPEED_ERROR,
+        "BEHIND": controller.LAGGING_TRACKING_RATIO,
+        "FAR": controller.RUNAWAY_TRACKING_RATIO,
+        "SLOW": controller.SLOW_PACE,
+        "HALF": controller.REDUCED_PACE,
+        "RAMP": controller.PACE_RATE_PER_S,
+        "QUIET": controller.CONTACT_END_S,
+        "SETTLED": controller.SETTLING_TIME_S,
+        "LATER": controller.LATE_SAMPLES_WAIT_S,
+        "SPARE": controller.GRAVITY_SAFETY_FACTOR,
+        "SLACK": controller.SENSOR_TOLERANCE,
+        "NEAR": masked.LIMIT_TOLERANCE,
+        "LEAK": REFERENCE_LEAK_PER_S,
     }
     home = arm.states.get("home", np.mean(finite_limits(arm), axis=0))
     return {
         "NAME": name,
         "GUARD": name.upper(),
         "COUNT": str(arm.n),
-        "HOME": _listed(home),
+        "HOME": _cpp_list(home),
         "TASK_ROWS": str(law.task.m),
         "TASK_FRAME": law.task.frame,
-        "TASK_TEXT": "{" + ", ".join(f"{{{_listed(row)}}}" for row in law.task.rows) + "}",
-        "CONST_ARRAYS": "".join(f"constexpr double {key}[{arm.n}] = {{{_listed(x)}}};\n" for key, x in arrays.items()),
-        "CONST_SAMPLES": str(controller.SAMPLES),
-        "CONST_KNOWN": str(cycles(decision.ISOLATE + decision.CLASSIFY, 1 / bounds.rate)),
-        **{f"CONST_{key}": number(value) for key, value in values.items()},
+        "TASK_TEXT": "{" + ", ".join(f"{{{_cpp_list(row)}}}" for row in law.task.rows) + "}",
+        "CONST_ARRAYS": "".join(f"constexpr double {entry}[{arm.n}] = {{{_cpp_list(x)}}};\n" for entry, x in arrays.items()),
+        "CONST_SAMPLES": str(controller.MIN_POSE_SAMPLES),
+        "CONST_KNOWN": str(count_cycles(decision.ISOLATION_TIME_S + decision.CLASSIFICATION_TIME_S, 1 / bounds.rate)),
+        **{f"CONST_{entry}": c_number(value) for entry, value in values.items()},
     }
 
 
-def _listed(values: ArrayLike) -> str:
-    """Numbers as C++ writes them."""
-    return ", ".join(map(number, np.asarray(values)))
+def _cpp_list(values: ArrayLike) -> str:
+    """Write numbers as a C++ initialiser list."""
+    return ", ".join(map(c_number, np.asarray(values)))
 
 
-def _about(law: Law, bounds: Bounds, name: str) -> str:
+def _header_comment(law: Law, bounds: Bounds, name: str) -> str:
     lines = [
         f"{name}: moves the arm {law.arm.title} by {law.phrase()},",
         f"and goes on without a joint that fails; {bounds.rate:g} cycles a second.",
-        f"Made by holdfast {version()} of the arm {law.arm.fingerprint}.",
+        f"Made by holdfast {holdfast_version()} of the arm {law.arm.fingerprint}.",
         "",
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
         "Compile without -ffast-math.",
     ]
-    return commented(lines)
+    return write_c_comment(lines)

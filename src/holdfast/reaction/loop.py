@@ -1,4 +1,4 @@
-"""The closed loop of an arm with faults: its body in MuJoCo, the monitor beside it, and the controller's reaction."""
+"""Closed loop of an arm with faults: the body in MuJoCo, the monitor, and the controller's response."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
-from holdfast.arm.mjcf import import_mujoco, quiet
+from holdfast.arguments import check_arguments
+from holdfast.arm.mjcf import import_mujoco, silence_mujoco
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
@@ -19,34 +19,34 @@ from holdfast.diagnosis.monitor import Monitor
 from holdfast.errors import InputError
 from holdfast.faults.events import FaultEvent
 from holdfast.faults.injector import FaultInjector
-from holdfast.faults.scheme import Faults
-from holdfast.notice import each, says
+from holdfast.faults.scheme import FaultModel
+from holdfast.notice import reports_progress, track
 from holdfast.physics.body import Body
 from holdfast.physics.drives import Drives
-from holdfast.physics.plant import BURST
-from holdfast.physics.servos import Servos, leads
+from holdfast.physics.plant import MAX_PHYSICAL_SPEED
+from holdfast.physics.servos import Servos, reference_leads
 from holdfast.reaction.controller import Controller
 from holdfast.reaction.masked import MaskedLaw
 from holdfast.reaction.run import Ended, FaultRun, React
 
 Array = NDArray[np.float64]
 
-RATE = 1000.0  # Hz, of the control cycle without a monitor
-TIME_LIMIT = 12.0  # s
-THERE, FACING, HELD = 5e-3, np.deg2rad(1.0), 0.2  # m, rad, s: a target that is reached
-POSE_RATE = 100.0  # Hz, of the measured tool
-WAITING = 0.5  # s after which nothing more is expected
+CONTROL_RATE_HZ = 1000.0  # Hz, of the control cycle without a monitor
+DEFAULT_TIME_LIMIT_S = 12.0  # s
+POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD, DWELL_S = 5e-3, np.deg2rad(1.0), 0.2  # m, rad, s: a target that is reached
+POSE_RATE_HZ = 100.0  # Hz, of the measured tool
+IDLE_END_S = 0.5  # s after which nothing more is expected
 
 
-@checked
-@quiet()
-@says("simulating the faults")
+@check_arguments
+@silence_mujoco()
+@reports_progress("simulating the faults")
 def simulate_faults(
     law: Law,
     q0: ArrayLike,
     target: ArrayLike,
     *,
-    faults: Faults | Sequence[FaultEvent] = (),
+    faults: FaultModel | Sequence[FaultEvent] = (),
     episode: int = 0,
     monitor: Monitor | None = None,
     react: React | None = None,
@@ -57,10 +57,11 @@ def simulate_faults(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     pose: bool = True,
-    time_limit: float = TIME_LIMIT,
+    time_limit: float = DEFAULT_TIME_LIMIT_S,
     seed: int = 0,
 ) -> FaultRun:
-    """One run of the closed loop in MuJoCo: joints fail, are noticed, and the task goes on (needs ``holdfast[physics]``).
+    """Simulate one closed-loop run in MuJoCo in which joints fail and are detected, and the task continues (needs
+    ``holdfast[physics]``).
 
     At every control cycle the law is given what the joint sensors tell, and its rates, kept within the joints' limits and
     speeds and 10 rad/s^2, go to the servos, whose torques move a body that is not quite the arm's model. Faults begin and end
@@ -119,10 +120,12 @@ def simulate_faults(
         raise InputError(f"centring is {centring:g}; it must be a finite number of 0 or more, 1/s")
     if react is not None and react not in get_args(React):
         raise InputError(f"react '{react}' is not known; use {', '.join(get_args(React))}")
-    how: React = react or ("none" if monitor is None else "chain")
-    if how in ("stop", "chain") and monitor is None:
-        raise InputError(f"react='{how}' needs a monitor, which says what is wrong; make one by holdfast.diagnosis.Monitor")
-    chosen = servos or Servos(rate=RATE if monitor is None else monitor.bounds.rate)
+    response: React = react or ("none" if monitor is None else "chain")
+    if response in ("stop", "chain") and monitor is None:
+        raise InputError(
+            f"react='{response}' needs a monitor, which says what is wrong; make one by holdfast.diagnosis.Monitor"
+        )
+    chosen = servos or Servos(rate=CONTROL_RATE_HZ if monitor is None else monitor.bounds.rate)
     if monitor is not None:
         monitor.bounds.require(law.arm, chosen.rate)
         monitor.reset()
@@ -130,22 +133,24 @@ def simulate_faults(
     if start.ndim != 1 or not np.isfinite(start).all():
         raise InputError(f"q0 has shape {start.shape}; a run starts from one configuration of finite numbers, ({law.arm.n},)")
     looked = chosen_clearance(law.arm, clearance or False, cell, looks=False)
-    made = Body() if body is None else body
+    robot_body = Body() if body is None else body
     masked = MaskedLaw(law, target, centring=centring, clearance=looked)
-    robot = _Robot(law, start, made, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose)
+    robot = _SimulatedRobot(
+        law, start, robot_body, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose
+    )
     bounds = None if monitor is None else monitor.bounds
-    controller = Controller(masked, bounds=bounds, brakes=robot.injector, watch=monitor, react=how, plan=plan)
-    outcome = _drive(robot, controller, masked, monitor if how in ("stop", "chain") else None, how, time_limit)
+    controller = Controller(masked, bounds=bounds, brakes=robot.injector, watch=monitor, react=response, plan=plan)
+    outcome = _run_cycles(robot, controller, masked, monitor if response in ("stop", "chain") else None, response, time_limit)
     places = np.full(law.arm.n, np.nan)
-    for event, place in robot.began.items():
-        j = law.arm.joint_index(event.joint)
-        places[j] = place if np.isnan(places[j]) else places[j]
+    for event, position in robot.began.items():
+        joint = law.arm.joint_index(event.joint)
+        places[joint] = position if np.isnan(places[joint]) else places[joint]
     return FaultRun(
         law=law,
         servos=chosen,
-        body=made,
+        body=robot_body,
         target=masked.pose,
-        react=how,
+        react=response,
         events=robot.injector.events,
         places=places,
         actions=tuple(controller.actions),
@@ -153,12 +158,12 @@ def simulate_faults(
         degraded=controller.degraded,
         outcome=outcome,
         clearance=looked,
-        **robot.record(),
+        **robot.recorded_arrays(),
     )
 
 
-class _Robot:
-    """The body, its servos and its sensors, with what was recorded so far."""
+class _SimulatedRobot:
+    """Robot body with servos and sensors, and the recording so far."""
 
     def __init__(
         self,
@@ -167,7 +172,7 @@ class _Robot:
         body: Body,
         servos: Servos,
         *,
-        faults: Faults | Sequence[FaultEvent],
+        faults: FaultModel | Sequence[FaultEvent],
         episode: int,
         horizon: float,
         seed: int,
@@ -180,109 +185,123 @@ class _Robot:
         self.mujoco.mj_forward(self.model, self.data)
         self.injector = FaultInjector(self.model, self.data, law.arm, faults=faults, horizon=horizon)
         self.injector.reset(episode)
-        self.rng, self.dt, self.every = np.random.default_rng([2, seed]), 1 / servos.rate, round(servos.rate / POSE_RATE) or 1
+        self.rng, self.dt, self.every = (
+            np.random.default_rng([2, seed]),
+            1 / servos.rate,
+            round(servos.rate / POSE_RATE_HZ) or 1,
+        )
         effort = np.array([joint.effort for joint in law.arm.joints])
         self.drives = Drives(stiffness, damping, effort=effort, period=self.dt)
-        self.reference, self.lead, self._pose = start.copy(), leads(law.arm, stiffness), pose
-        self.gravity_of = law.arm._gravity_torque_kernel.single()
+        self.reference, self.lead, self._pose = start.copy(), reference_leads(law.arm, stiffness), pose
+        self.gravity_of = law.arm._gravity_torque_kernel.single_row()
         self.began: dict[FaultEvent, float] = {}
         self.rows: list[tuple[Array, ...]] = []
         self.gravity = self.gravity_of(start)
 
-    def sense(self, k: int) -> tuple[Array, Array | None]:
-        """What joint sensors tell in cycle k, and the tool's measured pose if there is a sample."""
-        self.injector.before_step(k * self.dt)
-        for event, place in self.injector.places.items():
-            self.began.setdefault(event, place)
+    def sense(self, cycle: int) -> tuple[Array, Array | None]:
+        """Return the measured joint positions in a cycle and the measured tool pose, None without a sample."""
+        self.injector.before_step(cycle * self.dt)
+        for event, position in self.injector.places.items():
+            self.began.setdefault(event, position)
         true = self.data.qpos
-        told = self.injector.read(true, reference=self.reference) + self.rng.normal(0, self.body.joint, self.arm.n)
-        self.drives.sense(told, true)
+        q_measured = self.injector.read(true, reference=self.reference) + self.rng.normal(0, self.body.joint, self.arm.n)
+        self.drives.sense(q_measured, true)
         self.v = self.data.qvel + self.drives.rate_error
-        if not self._pose or k % self.every:
-            return told, None
-        return told, self.body.measured(self.arm.forward_kinematics(true[None]), self.rng)[0]
+        if not self._pose or cycle % self.every:
+            return q_measured, None
+        return q_measured, self.body.measured(self.arm.forward_kinematics(true[None]), self.rng)[0]
 
     def move(self, q: Array, rates: Array, mask: Array) -> Array:
-        """One cycle with commanded rates, the joints believed at (n,); the torque of the motors (n,) as it is recorded."""
-        ahead = np.minimum(np.maximum(self.reference + self.dt * rates, q - self.lead), q + self.lead)
-        inside = np.clip(ahead, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
+        """Advance one cycle with commanded rates, the joints assumed at q (n,), and return the recorded motor torques (n,)."""
+        reference = np.minimum(np.maximum(self.reference + self.dt * rates, q - self.lead), q + self.lead)
+        inside = np.clip(reference, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
         self.reference = np.where(mask > 0, inside, q)
         self.gravity = self.gravity_of(q)
         velocity = self.data.qvel
-        command = self.drives.command(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
+        command = self.drives.compute_command(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
         self.data.ctrl[:] = command
         self.injector.before_step(self.injector.time)
         before = self.data.qpos.copy()
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
-        torque = self.drives.torque(command, self.data.qpos - before)
+        torque = self.drives.compute_torque(command, self.data.qpos - before)
         return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
 
-    def note(self, true: Array, told: Array, torque: Array, pose: Array | None, off: tuple[float, float]) -> None:
+    def record_cycle(
+        self, true: Array, q_measured: Array, torque: Array, pose: Array | None, errors: tuple[float, float]
+    ) -> None:
         """Record a cycle."""
         self.rows.append(
-            (true, told, self.reference, torque, np.full(16, np.nan) if pose is None else pose.ravel(), np.array(off))
+            (true, q_measured, self.reference, torque, np.full(16, np.nan) if pose is None else pose.ravel(), np.array(errors))
         )
 
-    def record(self) -> dict[str, Array]:
-        """The fields of :class:`FaultRun` that are rows over time."""
+    def recorded_arrays(self) -> dict[str, Array]:
+        """Return the fields of :class:`FaultRun` that are rows over time."""
         from scipy.spatial.transform import Rotation
 
-        q, told, reference, torque, poses, off = (np.array(part) for part in zip(*self.rows, strict=True))
+        q, q_measured, reference, torque, poses, errors = (np.array(part) for part in zip(*self.rows, strict=True))
         poses = poses.reshape(-1, 4, 4)
-        seen = np.isfinite(poses[:, 0, 0])
+        has_pose = np.isfinite(poses[:, 0, 0])
         quat = np.full((len(q), 4), np.nan)
-        if seen.any():
-            quat[seen] = Rotation.from_matrix(poses[seen, :3, :3]).as_quat()
+        if has_pose.any():
+            quat[has_pose] = Rotation.from_matrix(poses[has_pose, :3, :3]).as_quat()
         return {
             "time": np.arange(len(q)) * self.dt,
             "q": q,
-            "told": told,
+            "told": q_measured,
             "reference": reference,
             "torque": torque,
             "x": poses[:, :3, 3],
             "quat": quat,
-            "miss": off[:, 0],
-            "turn": off[:, 1],
+            "miss": errors[:, 0],
+            "turn": errors[:, 1],
         }
 
 
 @dataclass
-class _Ends:
-    """Counts of cycles that decide that a run is over."""
+class _EndCounters:
+    """Counters of cycles that decide when a run ends."""
 
-    there: int = 0
+    at_target: int = 0
     idle: int = 0
 
 
-def _drive(robot: _Robot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float) -> Ended:
-    """The run, and how it ended."""
-    dt, ends, off = robot.dt, _Ends(), (math.inf, math.inf)
-    last = max((event.onset for event in robot.injector.events), default=0.0)
-    for k in each("control cycles", range(int(np.ceil(limit / dt))), most=True, every=1000):
-        time, true = k * dt, robot.data.qpos.copy()
-        told, pose = robot.sense(k)
-        if k % robot.every == 0:
-            off = law.distance(true)
-            ends.there = ends.there + robot.every if off[0] <= THERE and off[1] <= FACING else 0
+def _run_cycles(
+    robot: _SimulatedRobot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float
+) -> Ended:
+    """Run the control cycles and return the outcome."""
+    dt, ends, errors = robot.dt, _EndCounters(), (math.inf, math.inf)
+    last_onset = max((event.onset for event in robot.injector.events), default=0.0)
+    for cycle in track("control cycles", range(int(np.ceil(limit / dt))), most=True, every=1000):
+        time, true = cycle * dt, robot.data.qpos.copy()
+        q_measured, pose = robot.sense(cycle)
+        if cycle % robot.every == 0:
+            errors = law.target_errors(true)
+            ends.at_target = (
+                ends.at_target + robot.every
+                if errors[0] <= POSITION_TOLERANCE_M and errors[1] <= ORIENTATION_TOLERANCE_RAD
+                else 0
+            )
         if react == "known":
             for event in robot.injector.active:
-                controller.know(time, event.kind, event.joint, robot.began[event])
+                controller.on_known_fault(time, event.kind, event.joint, robot.began[event])
         if pose is not None:
-            controller.feel(time, told, pose)
-        rates = controller.rates(time, told)
-        q = controller.believed(told)
+            controller.on_tool_pose(time, q_measured, pose)
+        rates = controller.rates(time, q_measured)
+        q = controller.trusted_positions(q_measured)
         torque = robot.move(q, rates, law.mask)
-        robot.note(true, told, torque, pose, off)
+        robot.record_cycle(true, q_measured, torque, pose, errors)
         if monitor is not None and not controller.over:
             verdict = monitor.step(q, robot.reference, torque, pose=pose)
-            behind = robot.reference - q
-            controller.hear(time, verdict, behind=behind, v=robot.v, wanted=rates, gravity=robot.gravity)
+            tracking_error = robot.reference - q
+            controller.on_verdict(
+                time, verdict, tracking_error=tracking_error, v=robot.v, commanded_rates=rates, gravity=robot.gravity
+            )
         speed = float(np.abs(robot.data.qvel).max())
-        if not speed < BURST:
+        if not speed < MAX_PHYSICAL_SPEED:
             return "unstable"
-        if ends.there * dt >= HELD:
+        if ends.at_target * dt >= DWELL_S:
             return "reached"
-        ends.idle = ends.idle + 1 if controller.idle(rates) and speed < 0.05 and time > last else 0
-        if ends.idle * dt > WAITING:
+        ends.idle = ends.idle + 1 if controller.is_idle(rates) and speed < 0.05 and time > last_onset else 0
+        if ends.idle * dt > IDLE_END_S:
             return "stopped" if controller.over else "missed"
     return "stopped" if controller.over else "missed"

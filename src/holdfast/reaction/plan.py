@@ -1,4 +1,4 @@
-"""A route for what is left of an arm, as :func:`holdfast.recover` times it, run through by its controller."""
+"""Plan a route for the remaining joints with :func:`holdfast.recover` and follow it."""
 
 from __future__ import annotations
 
@@ -11,64 +11,70 @@ from holdfast.recovery import TimedMotion, recover
 
 Array = NDArray[np.float64]
 
-ACCELERATION = 10.0  # rad/s^2 or m/s^2, of commanded rates
-SPEED = 0.5  # of the motion at its fastest
-PULL = 5.0  # 1/s, at which a reference returns to the route
+ACCELERATION_LIMIT = 10.0  # rad/s^2 or m/s^2, of commanded rates
+ROUTE_PACE = 0.5  # of the motion at its fastest
+ROUTE_GAIN_PER_S = 5.0  # 1/s, at which a reference returns to the route
 
 
-class Planned:
-    """A motion, and how far along it the arm is.
+class RouteFollower:
+    """Timed motion and the present position along it.
 
     Args:
         motion: As it is at its fastest.
-        fastest: m/s, of the tool; None: as fast as that.
-        most: (n,) of the joints, rad/s and m/s. What the arm is told beyond that it would not do, and leave the route.
+        max_tool_speed: m/s, of the tool; None: as fast as that.
+        max_speeds: (n,) of the joints, rad/s and m/s. What the arm is told beyond that it would not do, and leave the route.
 
     Attributes:
         waypoints: Of the route, how many.
         duration: From its start to its end at the full pace, s.
     """
 
-    def __init__(self, motion: TimedMotion, *, waypoints: int, fastest: float | None, most: Array) -> None:
+    def __init__(self, motion: TimedMotion, *, waypoints: int, max_tool_speed: float | None, max_speeds: Array) -> None:
         self.waypoints, self._motion, self._at = waypoints, motion, 0.0
         tool = (motion.arm.jacobian(motion.q)[:, :3] @ motion.qd[:, :, None])[..., 0]
-        limit = np.inf if fastest is None else fastest
-        slow = np.minimum(SPEED, limit / np.maximum(np.linalg.norm(tool, axis=1), 1e-9))
-        slow = np.minimum(slow, (most / np.maximum(np.abs(motion.qd), 1e-9)).min(axis=1))
-        self._slow = np.minimum(slow, np.r_[slow[1:], slow[-1]])  # from each row to the next
+        limit = np.inf if max_tool_speed is None else max_tool_speed
+        pace = np.minimum(ROUTE_PACE, limit / np.maximum(np.linalg.norm(tool, axis=1), 1e-9))
+        pace = np.minimum(pace, (max_speeds / np.maximum(np.abs(motion.qd), 1e-9)).min(axis=1))
+        self._slow = np.minimum(pace, np.r_[pace[1:], pace[-1]])  # from each row to the next
         self.duration = float((motion.period / self._slow[:-1]).sum())
 
     @property
-    def over(self) -> bool:
-        """Whether its end is reached."""
+    def is_finished(self) -> bool:
+        """True once the end of the route is reached."""
         return bool(self._at >= self._motion.time[-1])
 
     def rates(self, q: Array, *, pace: float, dt: float) -> Array:
-        """Rates (n,) of the next ``dt`` s along the route at a fraction of its pace, and back to it for an arm at (n,)."""
+        """Return rates (n,) for the next ``dt`` s along the route at a fraction of its pace, and back to it for an arm at q
+        (n,).
+        """
         motion, last = self._motion, len(self._motion.q) - 1
         x = min(self._at / motion.period, float(last)) if last else 0.0
-        k = min(int(x), max(last - 1, 0))
-        rate = pace * float(self._slow[k])
+        sample = min(int(x), max(last - 1, 0))
+        rate = pace * float(self._slow[sample])
         self._at += rate * dt
-        there, along = (part[k] + (x - k) * (part[min(k + 1, last)] - part[k]) for part in (motion.q, motion.qd))
-        return np.asarray(rate * along + PULL * (there - q))
+        q_route, qd_route = (
+            part[sample] + (x - sample) * (part[min(sample + 1, last)] - part[sample]) for part in (motion.q, motion.qd)
+        )
+        return np.asarray(rate * qd_route + ROUTE_GAIN_PER_S * (q_route - q))
 
 
-def planned(law: MaskedLaw, q: Array, goal: Array, left: Degraded, *, most: Array) -> Planned | str:
-    """A route to a goal, or a phrase with what is in its way. Planning takes no time: the arm waits.
+def plan_route(law: MaskedLaw, q: Array, goal: Array, failures: Degraded, *, max_speeds: Array) -> RouteFollower | str:
+    """Plan a route to a goal, or return a phrase with the obstacle; planning takes no simulated time because the arm waits.
 
     Args:
         law: Whose task it is; its speed limit holds for the tool, and what it keeps clear of for the arm.
         q: (n,) where the arm is, rad and m.
         goal: (4, 4) pose of the tool, m, world; or (n,) a configuration.
-        left: What is left of the arm.
-        most: (n,) joint rates, rad/s and m/s.
+        failures: What is left of the arm.
+        max_speeds: (n,) joint rates, rad/s and m/s.
     """
     start = np.clip(q, law.arm.lower, law.arm.upper)
     task = law.whole.task if goal.ndim == 2 else None
-    clear = law.clearance or False
-    found = recover(law.arm, left, start, goal=goal, task=task, samples=0, clearance=clear, accelerations=ACCELERATION)
-    if not found.ok or found.timed is None:
-        gives = "" if found.given_up is None else f"; it could be met without {', '.join(found.given_up.names)}"
-        return f"{found.ending.sentence}{gives}"
-    return Planned(found.timed, waypoints=len(found.q), fastest=law.whole.speed_limit, most=most)
+    clearance = law.clearance or False
+    recovery = recover(
+        law.arm, failures, start, goal=goal, task=task, samples=0, clearance=clearance, accelerations=ACCELERATION_LIMIT
+    )
+    if not recovery.ok or recovery.timed is None:
+        relaxed_text = "" if recovery.relaxed is None else f"; it could be met without {', '.join(recovery.relaxed.names)}"
+        return f"{recovery.ending.sentence}{relaxed_text}"
+    return RouteFollower(recovery.timed, waypoints=len(recovery.q), max_tool_speed=law.whole.speed_limit, max_speeds=max_speeds)

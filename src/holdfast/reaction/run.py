@@ -1,4 +1,4 @@
-"""What became of an arm with faults: what happened, what was noticed, and what was done about it."""
+"""Result of a closed-loop run with faults: events, detections, and responses."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
-from holdfast.clearance.contacts import Contact, first_contacts
+from holdfast.clearance.contacts import Contact, find_first_contacts
 from holdfast.errors import HoldfastError
 from holdfast.failures import Degraded
 from holdfast.faults.events import FaultEvents
@@ -25,20 +25,20 @@ if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.clearance.clearance import Clearance
     from holdfast.control.law import Law
-    from holdfast.diagnosis.kinds import Verdict
+    from holdfast.diagnosis.kinds import FaultVerdict
 
 Array = NDArray[np.float64]
 React = Literal["none", "stop", "chain", "known"]
 Ended = Literal["reached", "stopped", "missed", "unstable"]
 What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "stop"]
 
-_ENDS = {
+_OUTCOME_PHRASES = {
     "reached": "the tool reached its target",
     "stopped": "the controller stopped the arm before the target",
     "missed": "the tool did not reach its target",
     "unstable": "the physics left all bounds; make the servos softer or their rate higher",
 }
-_REACTS = {
+_RESPONSE_PHRASES = {
     "none": "nobody notices",
     "stop": "everything stops at an alarm",
     "chain": "the controller reacts to what the monitor names",
@@ -48,7 +48,7 @@ _REACTS = {
 
 @dataclass(frozen=True)
 class Action:
-    """One thing that the controller did.
+    """Action of the controller.
 
     Attributes:
         time: s.
@@ -65,7 +65,7 @@ class Action:
     joint: str | None = None
 
     def sentence(self) -> str:
-        """For people: ``1.234 s: brake panda_joint4: it is locked``."""
+        """Return the action as text: ``1.234 s: brake panda_joint4: it is locked``."""
         return f"{self.time:.3f} s: {self.what}{f' {self.joint}' if self.joint else ''}: {self.why}"
 
 
@@ -88,13 +88,13 @@ class FaultRun(Result):
         clearance: What the arm was to keep clear of; None: nothing.
         time: (T,) s.
         q: (T, n) where the joints were, rad and m.
-        told: (T, n) what their sensors told.
+        q_measured: (T, n) what their sensors told.
         reference: (T, n) what the servos followed.
         torque: (T, n) commanded, N m and N, with the noise of a record.
         x: (T, 3) measured tool point, m, and
         quat: (T, 4) orientation x, y, z, w; NaN where there is no sample.
-        miss: (T,) distance of the tool from its target, m, and
-        turn: (T,) angle, rad, of what the task asks for; of the last sample at 100 Hz.
+        position_error: (T,) distance of the tool from its target, m, and
+        orientation_error: (T,) angle, rad, of what the task asks for; of the last sample at 100 Hz.
     """
 
     law: Law
@@ -105,19 +105,19 @@ class FaultRun(Result):
     events: FaultEvents
     places: Array
     actions: tuple[Action, ...]
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[FaultVerdict, ...]
     degraded: Degraded | None
     outcome: Ended
     clearance: Clearance | None = None
     time: Array
     q: Array
-    told: Array
+    q_measured: Array
     reference: Array
     torque: Array
     x: Array
     quat: Array
-    miss: Array
-    turn: Array
+    position_error: Array
+    orientation_error: Array
 
     @property
     def arm(self) -> Arm:
@@ -130,25 +130,25 @@ class FaultRun(Result):
         return self.outcome == "reached"
 
     def require_ok(self) -> FaultRun:
-        """Itself, or :class:`holdfast.HoldfastError` with how it ended."""
+        """Return the run itself, or raise :class:`holdfast.HoldfastError` with its outcome."""
         if not self.ok:
-            raise HoldfastError(f"run with faults: {_ENDS[self.outcome]}")
+            raise HoldfastError(f"run with faults: {_OUTCOME_PHRASES[self.outcome]}")
         return self
 
     @property
-    def noticed(self) -> float:
-        """When the first alarm was, s; infinite if there was none."""
+    def detection_time(self) -> float:
+        """Time of the first alarm, s; infinite if there was none."""
         return next((action.time for action in self.actions if action.what == "alarm"), float("inf"))
 
     @property
     def delay(self) -> float:
-        """From the first fault to the alarm, s; infinite if nothing was noticed, negative for a false alarm."""
+        """Time from the first fault to the alarm, s; infinite without an alarm, negative for a false alarm."""
         first = min((event.onset for event in self.events), default=float("inf"))
-        return self.noticed - first if self.noticed < float("inf") else self.noticed
+        return self.detection_time - first if self.detection_time < float("inf") else self.detection_time
 
     @property
     def false_alarm(self) -> bool:
-        """Whether something was noticed before anything had failed."""
+        """True if an alarm was raised before any fault."""
         return self.delay < 0
 
     @cached_property
@@ -158,21 +158,21 @@ class FaultRun(Result):
 
     @cached_property
     def contacts(self) -> tuple[Contact, ...] | None:
-        """What the arm touched, the first time of each pair, in order of time; None if nobody looked."""
+        """Contacts of the arm, the first of each pair, in order of time; None if contacts were not checked."""
         if self.clearance is None:
             return None
         rows = np.unique(np.r_[: len(self.time) : round(self.servos.rate / 100) or 1, len(self.time) - 1])
-        return tuple(first_contacts(self.clearance, self.time[rows], self.q[rows]))
+        return tuple(find_first_contacts(self.clearance, self.time[rows], self.q[rows]))
 
     def log(self) -> Log:
-        """What a robot would have recorded: for :func:`holdfast.diagnosis.calibrate` and ``diagnose``."""
-        return Log(t=self.time, q_ref=self.reference, q=self.told, tau=self.torque, x=self.x, quat=self.quat)
+        """Return the recording that a robot would have made, for :func:`holdfast.diagnosis.calibrate` and ``diagnose``."""
+        return Log(t=self.time, q_ref=self.reference, q=self.q_measured, tau=self.torque, x=self.x, quat=self.quat)
 
     def describe(self) -> list[str]:
-        """How it ended, what happened, and what was done."""
+        """Return the outcome, the events, and the responses in sentences."""
         lines = [
-            f"{_ENDS[self.outcome]} ({_REACTS[self.react]}), {1e3 * self.miss[-1]:.3g} mm"
-            + (f" and {np.rad2deg(self.turn[-1]):.3g} deg" if self.law.task.angular else "")
+            f"{_OUTCOME_PHRASES[self.outcome]} ({_RESPONSE_PHRASES[self.react]}), {1e3 * self.position_error[-1]:.3g} mm"
+            + (f" and {np.rad2deg(self.orientation_error[-1]):.3g} deg" if self.law.task.angular else "")
             + f" off after {self.time[-1]:.4g} s"
         ]
         lines += [event.sentence() for event in self.events] or ["no fault in this episode"]

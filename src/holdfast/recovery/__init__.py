@@ -1,4 +1,4 @@
-"""After a known lock: what is left of the task, and the route back."""
+"""Recover an arm after a known lock: the remaining task, and a route to the goal."""
 
 from holdfast._lazy import offer
 

@@ -1,10 +1,10 @@
 from holdfast.recovery.continuation import RestOfPath as RestOfPath
-from holdfast.recovery.goals import RowsGivenUp as RowsGivenUp
-from holdfast.recovery.recovery import Ending as Ending
+from holdfast.recovery.goals import RelaxedRows as RelaxedRows
 from holdfast.recovery.recovery import Leg as Leg
 from holdfast.recovery.recovery import Recovery as Recovery
-from holdfast.recovery.recovery import Verdict as Verdict
-from holdfast.recovery.remainder import WhatIsLeft as WhatIsLeft
+from holdfast.recovery.recovery import RecoveryOutcome as RecoveryOutcome
+from holdfast.recovery.recovery import RecoveryVerdict as RecoveryVerdict
+from holdfast.recovery.remainder import RemainingWorkspace as RemainingWorkspace
 from holdfast.recovery.search import recover as recover
 from holdfast.recovery.timing.motion import TimedMotion as TimedMotion
 from holdfast.recovery.verification import Verification as Verification

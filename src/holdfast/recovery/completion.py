@@ -1,4 +1,4 @@
-"""What is added to a motion once it is found: its timing, and what other code finds of it."""
+"""Complete a motion that was found: verify it with independent code, and time it."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.recovery.question import Goal
-from holdfast.recovery.recovery import Ending, Recovery
-from holdfast.recovery.rows import Rows
-from holdfast.recovery.space import Space
-from holdfast.recovery.timing.motion import TimedMotion, timed_motion
-from holdfast.recovery.verification import Verification, verify
-from holdfast.recovery.waypoints import FIRST, parameter
+from holdfast.recovery.question import RecoveryGoal
+from holdfast.recovery.recovery import Recovery, RecoveryOutcome
+from holdfast.recovery.rows import TaskRows
+from holdfast.recovery.space import FreeSpace
+from holdfast.recovery.timing.motion import TimedMotion, time_motion
+from holdfast.recovery.verification import Verification, verify_waypoints
+from holdfast.recovery.waypoints import FIRST_COLUMNS, compute_first_column
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
@@ -22,63 +22,74 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def completed(
-    ended: Recovery, space: Space, rows: Rows, aim: Goal | None, path: Path | None, pace: tuple[Array, float] | None
+def complete_recovery(
+    recovery: Recovery,
+    space: FreeSpace,
+    rows: TaskRows,
+    aim: RecoveryGoal | None,
+    path: Path | None,
+    timing_limits: tuple[Array, float] | None,
 ) -> Recovery:
-    """A recovery that has a motion, verified, and timed where that is asked for.
+    """Verify a recovery that has a motion, and time the motion if that is requested.
 
     Args:
-        ended: With its motion.
+        recovery: With its motion.
         space: In which it was planned.
         rows: That count.
         aim: The goal, if there is one.
         path: The tool path, if there is one.
-        pace: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s.
+        timing_limits: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s.
     """
-    leg = next((leg for leg in ended.legs if leg.name == "along the path"), None)
-    places = None
-    if leg is not None and ended.rest is not None:
-        places = ended.rest.share, slice(leg.first, leg.last + 1)
+    leg = next((leg for leg in recovery.legs if leg.name == "along the path"), None)
+    path_samples = None
+    if leg is not None and recovery.rest is not None:
+        path_samples = recovery.rest.share, slice(leg.first, leg.last + 1)
 
-    def found(q: Array, along: tuple[Array, slice] | None, times: tuple[Array, Array] | None = None) -> Verification:
-        whole = ended.ending == Ending.HOME
-        return verify(
-            ended.degraded,
-            ended.at,
+    def verify_motion(
+        q: Array, path_samples_used: tuple[Array, slice] | None, timing: tuple[Array, Array] | None = None
+    ) -> Verification:
+        goal_is_met = recovery.ending == RecoveryOutcome.GOAL_REACHED
+        return verify_waypoints(
+            recovery.degraded,
+            recovery.at,
             q,
             rows=rows,
-            goals=None if aim is None or not whole else aim.poses,
-            goal_q=None if aim is None or not whole else aim.q,
-            along=None if path is None or along is None or not whole else (path, *along),
-            keep=ended.keep,
-            clearance=ended.clearance,
-            margin=ended.margin,
-            pace=times,
+            goals=None if aim is None or not goal_is_met else aim.poses,
+            goal_q=None if aim is None or not goal_is_met else aim.q,
+            path_samples=None if path is None or path_samples_used is None or not goal_is_met else (path, *path_samples_used),
+            constraints=recovery.keep,
+            clearance=recovery.clearance,
+            margin=recovery.margin,
+            timing_limits=timing,
         )
 
-    verified = found(ended.q, places)
-    if pace is None:
-        return replace(ended, verified=verified)
-    name, at_speed = parameter(space.arm, ended.q)
+    verified = verify_motion(recovery.q, path_samples)
+    if timing_limits is None:
+        return replace(recovery, verified=verified)
+    column_name, column_values = compute_first_column(space.arm, recovery.q)
     for cautious in (False, True):  # a corner whose rounding other code refuses is not rounded
-        timed = timed_motion(
+        timed_result = time_motion(
             space,
-            ended.degraded,
-            ended.q,
-            accelerations=pace[0],
-            period=pace[1],
-            without=float(at_speed[-1]) if name == FIRST[0] else None,
-            exact=[leg.last for leg in ended.legs],
-            along=places,
-            cautious=cautious,
+            recovery.degraded,
+            recovery.q,
+            accelerations=timing_limits[0],
+            period=timing_limits[1],
+            without=float(column_values[-1]) if column_name == FIRST_COLUMNS[0] else None,
+            stop_indices=[leg.last for leg in recovery.legs],
+            path_samples=path_samples,
+            stop_at_corners=cautious,
         )
-        again = found(timed.q, _on_path(timed), (timed.time, timed.accelerations))
-        if again.ok:
+        timed_verification = verify_motion(
+            timed_result.q, _select_path_samples(timed_result), (timed_result.time, timed_result.accelerations)
+        )
+        if timed_verification.ok:
             break
-    return replace(ended, timed=timed, verified=verified.beside(again))
+    return replace(recovery, timed=timed_result, verified=verified.merge_timed(timed_verification))
 
 
-def _on_path(timed: TimedMotion) -> tuple[Array, slice] | None:
-    """Places on the tool path of the rows that are there, and which rows; None if hardly any is."""
-    some = np.flatnonzero(np.isfinite(timed.place))
-    return (timed.place[some], slice(int(some[0]), int(some[-1]) + 1)) if len(some) > 1 else None
+def _select_path_samples(timed: TimedMotion) -> tuple[Array, slice] | None:
+    """Return the fractions of the tool path of the samples that lie on it, and their slice; None if there are fewer
+    than two.
+    """
+    indices = np.flatnonzero(np.isfinite(timed.place))
+    return (timed.place[indices], slice(int(indices[0]), int(indices[-1]) + 1)) if len(indices) > 1 else None

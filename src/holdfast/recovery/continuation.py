@@ -1,4 +1,4 @@
-"""Whether the rest of a tool path can still be finished with joints locked, in one continuous motion."""
+"""Search for one continuous motion that finishes the rest of a tool path with joints locked."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
-from holdfast.notice import each
-from holdfast.recovery.goals import RowsGivenUp, configurations_of, kept_too, met_from
-from holdfast.recovery.layers import JUMP, continue_path, through_layers
-from holdfast.recovery.routes import reachable_goals
-from holdfast.recovery.rows import RowSolver, preferred, subsets
-from holdfast.recovery.space import Metric, Space
-from holdfast.recovery.timing.motion import OFF_PATH
+from holdfast.notice import track
+from holdfast.recovery.goals import RelaxedRows, find_goal_configurations, project_onto_constraints, solve_pose
+from holdfast.recovery.layers import MAX_JOINT_STEP, continue_path, search_ladder_graph
+from holdfast.recovery.routes import find_reachable_goals
+from holdfast.recovery.rows import RowSolver, list_subsets, rank_relaxed_rows
+from holdfast.recovery.space import FreeSpace, JointMetric
+from holdfast.recovery.timing.motion import PATH_TOLERANCE
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
@@ -23,17 +23,17 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_SPACING = 0.01  # m or rad of the end effector between samples
-_LEAST, _MOST = 20, 400  # samples
+_SAMPLE_SPACING = 0.01  # m or rad of the end effector between samples
+_MIN_SAMPLES, _MAX_SAMPLES = 20, 400  # samples
 _STARTS_PER_SET = 12
-_FINER = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
-_INNER = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
-_HALVED = 8  # times what is between two waypoints is, until it is near the path
+_REFINEMENT_FACTOR = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
+_INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
+_MAX_BISECTIONS = 8  # times what is between two waypoints is, until it is near the path
 
 
 @dataclass(frozen=True, kw_only=True)
 class RestOfPath:
-    """What became of the rest of a tool path.
+    """Result of the search for a motion along the rest of a tool path.
 
     Attributes:
         furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row, to 0.001; it begins in a
@@ -55,7 +55,7 @@ class RestOfPath:
     found: Flags
     q: Array
     deviation: float
-    given_up: RowsGivenUp | None
+    given_up: RelaxedRows | None
     starts: int
     begin: Array | None = None
     cut_off: bool = False
@@ -68,22 +68,22 @@ class RestOfPath:
 
     @property
     def first_lost(self) -> float | None:
-        """The first sample, 0 to 1, of which no configuration was found; None if one was found of all."""
-        lost = self.share[~self.found]
-        return float(lost[0]) if lost.size else None
+        """First sample, 0 to 1, without a configuration; None if a configuration was found for every sample."""
+        unreached = self.share[~self.found]
+        return float(unreached[0]) if unreached.size else None
 
     @property
     def why(self) -> str:
-        """Why it was not finished, a phrase."""
+        """Reason why the path was not finished, a phrase."""
         if self.cut_off:
             return "configurations of its beginning exist, but no route from here to any of them was found"
         if self.first_lost is not None:
             return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
-        among = f" among {self.graph:,} configurations joined from pose to pose" if self.graph else ""
-        return f"each of its poses is reached on its own, but no continuous motion through all of them was found{among}"
+        graph_text = f" among {self.graph:,} configurations joined from pose to pose" if self.graph else ""
+        return f"each of its poses is reached on its own, but no continuous motion through all of them was found{graph_text}"
 
     def describe(self) -> str:
-        """One sentence for people."""
+        """Return the result in one or two sentences."""
         if self.finished:
             return (
                 f"The rest of the tool path can be finished: {len(self.q)} waypoints, off the path by at most "
@@ -91,215 +91,281 @@ class RestOfPath:
             )
         text = f"The rest of the tool path was not finished: {self.why}; the best motion gets to {100 * self.furthest:.1f} %"
         if self.begin is not None:
-            text += f" of it, from the configuration ({', '.join(f'{x:.4g}' for x in self.begin)}) of its first pose"
+            text += f" of it, from the configuration ({', '.join(f'{angle:.4g}' for angle in self.begin)}) of its first pose"
         text += "."
         if self.given_up is not None:
             text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
         return text
 
 
-def rest_of_path(
-    solver: RowSolver, space: Space, metric: Metric, path: Path, at: Array, starts: int, rng: np.random.Generator
-) -> tuple[RestOfPath, list[Array]]:
-    """Follow a path from configurations of its first pose; also every motion (S, n) found, the shortest first."""
-    share = _samples(path)
-    poses = path.pose(share)
-    found = np.array([not space.spent and _reached(solver, space, pose, at, rng) for pose in each("poses of the path", poses)])
-    first = configurations_of(solver, space, metric, poses[0], at, starts, rng)
-    made = RestOfPath(
-        furthest=0.0, share=share, found=found, q=np.zeros((0, solver.arm.n)), deviation=0.0, given_up=None, starts=len(first)
-    )
-    made, motions = _followed(made, solver, space, metric, path, first)
-    if not motions and _all_reached(solver, space, poses, made.found, at, starts, rng):
-        if space.free.sum() > solver.rows.m:
-            graph = through_layers(solver, space, metric, poses, first, at, starts, rng)
-            furthest = max(made.furthest, float(share[graph.last]))
-            made, motions = replace(made, furthest=furthest, graph=graph.size), graph.motions
-        if not motions:
-            made, motions = _followed(made, solver, space, metric, path, first, _FINER)
-    return (along(made, solver, path, motions[0]) if motions else made), motions
-
-
-def continued(
-    made: RestOfPath,
+def follow_rest_of_path(
     solver: RowSolver,
-    space: Space,
-    metric: Metric,
+    space: FreeSpace,
+    metric: JointMetric,
     path: Path,
-    at: Array,
-    starts: int,
+    q_start: Array,
+    start_count: int,
     rng: np.random.Generator,
 ) -> tuple[RestOfPath, list[Array]]:
-    """A path that was not finished, with the furthest place to which the arm follows it, and the motion if that is its end.
+    """Follow a path from configurations of its first pose; also return every motion (S, n) found, the shortest first."""
+    fractions = _sample_fractions(path)
+    poses = path.pose(fractions)
+    is_reached = np.array(
+        [
+            not space.is_time_over and _is_reachable(solver, space, pose, q_start, rng)
+            for pose in track("poses of the path", poses)
+        ]
+    )
+    first_configurations = find_goal_configurations(solver, space, metric, poses[0], q_start, start_count, rng)
+    rest = RestOfPath(
+        furthest=0.0,
+        share=fractions,
+        found=is_reached,
+        q=np.zeros((0, solver.arm.n)),
+        deviation=0.0,
+        given_up=None,
+        starts=len(first_configurations),
+    )
+    rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations)
+    if not motions and _retry_unreached(solver, space, poses, rest.found, q_start, start_count, rng):
+        if space.free.sum() > solver.rows.m:
+            graph = search_ladder_graph(solver, space, metric, poses, first_configurations, q_start, start_count, rng)
+            furthest = max(rest.furthest, float(fractions[graph.last_sample]))
+            rest, motions = replace(rest, furthest=furthest, graph=graph.configuration_count), graph.motions
+        if not motions:
+            rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations, _REFINEMENT_FACTOR)
+    return (add_motion(rest, solver, path, motions[0]) if motions else rest), motions
+
+
+def continue_unfinished_path(
+    rest: RestOfPath,
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    q_start: Array,
+    start_count: int,
+    rng: np.random.Generator,
+) -> tuple[RestOfPath, list[Array]]:
+    """Continue an unfinished path to its furthest reachable point; also return the motion if it gets to the end.
 
     Followed are all configurations of the first pose that were found and to which a motion leads.
     """
-    made = replace(made, furthest=0.0)
-    pose = path.pose(made.share[:1])[0]
-    first = np.concatenate(
+    rest = replace(rest, furthest=0.0)
+    pose = path.pose(rest.share[:1])[0]
+    first_configurations = np.concatenate(
         [
-            configurations_of(solver, space, metric, pose, at, starts, rng),
-            met_from(solver, space, pose, solver.starts(starts, at, space.free, rng)),
+            find_goal_configurations(solver, space, metric, pose, q_start, start_count, rng),
+            solve_pose(solver, space, pose, solver.sample_configurations(start_count, q_start, space.free, rng)),
         ]
     )
-    first = at + space.difference(first, at)
-    if not len(first):
-        return made, []
-    first = first[reachable_goals(space, metric, at, first, rng)]
-    if not len(first):
-        return replace(made, cut_off=True), []
-    stride = float(np.diff(made.share).max())
-    end = continue_path(solver, space, metric, path, first, stride=stride, rng=rng)
-    furthest, graph = float(end.share[-1]), max(made.graph, end.size)
-    made = replace(made, furthest=furthest, begin=end.q[0], graph=graph, cut_off=False)
-    made = replace(made, found=made.found | (made.share <= furthest))
+    first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
+    if not len(first_configurations):
+        return rest, []
+    first_configurations = first_configurations[find_reachable_goals(space, metric, q_start, first_configurations, rng)]
+    if not len(first_configurations):
+        return replace(rest, cut_off=True), []
+    stride = float(np.diff(rest.share).max())
+    continuation = continue_path(solver, space, metric, path, first_configurations, stride=stride, rng=rng)
+    furthest, graph_size = float(continuation.fractions[-1]), max(rest.graph, continuation.configuration_count)
+    rest = replace(rest, furthest=furthest, begin=continuation.q[0], graph=graph_size, cut_off=False)
+    rest = replace(rest, found=rest.found | (rest.share <= furthest))
     if furthest < 1:
-        return made, []
-    made = replace(made, share=end.share, found=np.ones(len(end.share), dtype=bool))
-    return along(made, solver, path, end.q), [end.q]
+        return rest, []
+    rest = replace(rest, share=continuation.fractions, found=np.ones(len(continuation.fractions), dtype=bool))
+    return add_motion(rest, solver, path, continuation.q), [continuation.q]
 
 
-def _followed(
-    made: RestOfPath, solver: RowSolver, space: Space, metric: Metric, path: Path, first: Array, finer: int = 1
+def _follow_samples(
+    rest: RestOfPath,
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    first_configurations: Array,
+    refinement: int = 1,
 ) -> tuple[RestOfPath, list[Array]]:
-    """The path followed from configurations (R, n) of its first pose, by samples that are finer than those made."""
-    places = np.arange((len(made.share) - 1) * finer + 1) / finer
-    share = np.interp(places, np.arange(len(made.share)), made.share)
-    q, last = _tracked(solver, space, path.pose(share), first, np.ones((len(first), solver.rows.m)))
-    furthest = max(made.furthest, float(share[last.max(initial=0)]))
-    whole = np.flatnonzero(last == len(share) - 1)
-    if whole.size:
-        made = replace(made, share=share, found=np.ones(len(share), dtype=bool))
+    """Follow the path from configurations (R, n) of its first pose, with ``refinement`` times as many samples."""
+    positions = np.arange((len(rest.share) - 1) * refinement + 1) / refinement
+    fractions = np.interp(positions, np.arange(len(rest.share)), rest.share)
+    q, last_samples = _track_poses(
+        solver, space, path.pose(fractions), first_configurations, np.ones((len(first_configurations), solver.rows.m))
+    )
+    furthest = max(rest.furthest, float(fractions[last_samples.max(initial=0)]))
+    complete = np.flatnonzero(last_samples == len(fractions) - 1)
+    if complete.size:
+        rest = replace(rest, share=fractions, found=np.ones(len(fractions), dtype=bool))
     # A pose on the way is found where a motion passes it.
-    made = replace(made, furthest=furthest, found=made.found | (made.share <= furthest) & (last.max(initial=-1) >= 0))
-    return made, _by_length(metric, [q[:, k] for k in whole])
+    rest = replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest) & (last_samples.max(initial=-1) >= 0))
+    return rest, _sort_by_length(metric, [q[:, index] for index in complete])
 
 
-def without_rows(
-    made: RestOfPath, solver: RowSolver, space: Space, path: Path, at: Array, rng: np.random.Generator
+def relax_fewest_rows(
+    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q_start: Array, rng: np.random.Generator
 ) -> tuple[RestOfPath, list[Array]]:
-    """The same path with as few rows given up as possible, and the motion (S, n) for that, if there is one."""
-    poses = path.pose(made.share)
+    """Follow the path with as few rows relaxed as possible; also return the motion (S, n) if there is one."""
+    poses = path.pose(rest.share)
     for size in range(1, solver.rows.m):
-        sets = [] if space.spent else subsets(solver.rows.m, size, [])
-        best = _without(solver, space, poses, at, sets, rng) if sets else None
-        if best:
-            given_up, motion = best
-            mask = np.ones(solver.rows.m)
-            mask[list(given_up)] = 0.0
-            given_up = tuple(np.flatnonzero(solver.missed(motion, poses).any(axis=0)).tolist())
-            if not given_up:  # a row that is met all the way is not given up
-                return along(made, solver, path, motion), [motion]
-            misses = np.abs(solver.errors(motion, poses)).max(axis=0)[list(given_up)]
-            names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
-            rows = RowsGivenUp(tuple(names), tuple(misses.tolist()), tuple(units))
-            return replace(along(made, solver, path, motion, mask), given_up=rows), [motion]
-    return made, []
+        row_sets = [] if space.is_time_over else list_subsets(solver.rows.m, size, [])
+        solution = _find_best_row_set(solver, space, poses, q_start, row_sets, rng) if row_sets else None
+        if solution:
+            relaxed_rows, motion = solution
+            row_mask = np.ones(solver.rows.m)
+            row_mask[list(relaxed_rows)] = 0.0
+            relaxed_rows = tuple(np.flatnonzero(solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
+            if not relaxed_rows:  # a row that is met all the way is not given up
+                return add_motion(rest, solver, path, motion), [motion]
+            row_errors = np.abs(solver.compute_errors(motion, poses)).max(axis=0)[list(relaxed_rows)]
+            names, units = ([labels[i] for i in relaxed_rows] for labels in (solver.rows.names, solver.rows.units))
+            relaxed = RelaxedRows(tuple(names), tuple(row_errors.tolist()), tuple(units))
+            return replace(add_motion(rest, solver, path, motion, row_mask), given_up=relaxed), [motion]
+    return rest, []
 
 
-def _samples(path: Path) -> Array:
-    coarse = path.pose(np.linspace(0, 1, 65))[:, :3, :3]
-    turns = rotation_vectors(coarse[1:] @ coarse[:-1].transpose(0, 2, 1))
-    turned = float(np.linalg.norm(turns, axis=1).sum()) if path.oriented else 0.0
-    count = int(np.clip(np.ceil(max(path.length, turned) / _SPACING), _LEAST, _MOST))
+def _sample_fractions(path: Path) -> Array:
+    rotations = path.pose(np.linspace(0, 1, 65))[:, :3, :3]
+    rotation_steps = rotation_vectors(rotations[1:] @ rotations[:-1].transpose(0, 2, 1))
+    total_rotation = float(np.linalg.norm(rotation_steps, axis=1).sum()) if path.oriented else 0.0
+    count = int(np.clip(np.ceil(max(path.length, total_rotation) / _SAMPLE_SPACING), _MIN_SAMPLES, _MAX_SAMPLES))
     return np.unique(np.concatenate([np.linspace(0, 1, count + 1), path.bounds]))
 
 
-def _all_reached(
-    solver: RowSolver, space: Space, poses: Array, found: Flags, at: Array, starts: int, rng: np.random.Generator
+def _retry_unreached(
+    solver: RowSolver,
+    space: FreeSpace,
+    poses: Array,
+    is_reached: Flags,
+    q_start: Array,
+    start_count: int,
+    rng: np.random.Generator,
 ) -> bool:
-    """Poses that were not found are looked for longer, up to the first that is not found again."""
-    for k in np.flatnonzero(~found):
-        found[k] = not space.spent and _reached(solver, space, poses[k], at, rng, starts)
-        if not found[k]:
+    """Search longer for each pose without a configuration, up to the first pose for which none is found again."""
+    for sample in np.flatnonzero(~is_reached):
+        is_reached[sample] = not space.is_time_over and _is_reachable(solver, space, poses[sample], q_start, rng, start_count)
+        if not is_reached[sample]:
             return False
-    return not space.spent
+    return not space.is_time_over
 
 
-def _reached(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator, starts: int = 15) -> bool:
-    begin = np.concatenate([at[None], solver.starts(starts, at, space.free, rng)])
-    return len(met_from(solver, space, pose, begin)) > 0
+def _is_reachable(
+    solver: RowSolver, space: FreeSpace, pose: Array, q_start: Array, rng: np.random.Generator, start_count: int = 15
+) -> bool:
+    initial_configurations = np.concatenate(
+        [q_start[None], solver.sample_configurations(start_count, q_start, space.free, rng)]
+    )
+    return len(solve_pose(solver, space, pose, initial_configurations)) > 0
 
 
-def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: Array) -> tuple[Array, NDArray[np.int64]]:
-    """Motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of each (R,)."""
-    q = np.full((len(poses), *first.shape), np.nan)
-    q[0] = first
-    last = np.zeros(len(first), dtype=np.int64)
-    alive = np.arange(len(first))
-    for k in each("waypoints", range(1, len(poses)), most=True):
-        if not alive.size or space.spent:
+def _track_poses(
+    solver: RowSolver, space: FreeSpace, poses: Array, first_configurations: Array, row_masks: Array
+) -> tuple[Array, NDArray[np.int64]]:
+    """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of
+    each (R,).
+    """
+    q = np.full((len(poses), *first_configurations.shape), np.nan)
+    q[0] = first_configurations
+    last_samples = np.zeros(len(first_configurations), dtype=np.int64)
+    active = np.arange(len(first_configurations))
+    for sample in track("waypoints", range(1, len(poses)), most=True):
+        if not active.size or space.is_time_over:
             break
-        before = q[k - 1, alive]
-        target = np.repeat(poses[k][None], len(alive), axis=0)
-        after = solver.nearest(before, target, kept[alive], space.free)
-        far = np.abs(after - before).max(axis=1) > JUMP
-        if far.any():  # rows that are given up must not pull the others onto another branch
-            after[far] = solver.run(before[far], target[far], kept[alive][far], space.free)
-        after = kept_too(solver, space, after, target, kept[alive])
-        good = solver.meets(after, target, kept[alive], space.free) & (np.abs(after - before).max(axis=1) <= JUMP)
-        some = np.flatnonzero(good)
-        good[some] = space.edges(before[some], after[some])
-        alive, after = alive[good], after[good]
-        q[k, alive], last[alive] = after, k
-    return q, last
+        before = q[sample - 1, active]
+        targets = np.repeat(poses[sample][None], len(active), axis=0)
+        after = solver.solve_relaxed(before, targets, row_masks[active], space.free)
+        is_jump = np.abs(after - before).max(axis=1) > MAX_JOINT_STEP
+        if is_jump.any():  # rows that are given up must not pull the others onto another branch
+            after[is_jump] = solver.solve(before[is_jump], targets[is_jump], row_masks[active][is_jump], space.free)
+        after = project_onto_constraints(solver, space, after, targets, row_masks[active])
+        is_valid = solver.meets_rows(after, targets, row_masks[active], space.free) & (
+            np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
+        )
+        indices = np.flatnonzero(is_valid)
+        is_valid[indices] = space.are_segments_valid(before[indices], after[indices])
+        active, after = active[is_valid], after[is_valid]
+        q[sample, active], last_samples[active] = after, sample
+    return q, last_samples
 
 
-def _by_length(metric: Metric, motions: list[Array]) -> list[Array]:
-    return sorted(motions, key=lambda q: float(metric.along(q)[-1]))
+def _sort_by_length(metric: JointMetric, motions: list[Array]) -> list[Array]:
+    return sorted(motions, key=lambda q: float(metric.cumulative_length(q)[-1]))
 
 
-def _without(
-    solver: RowSolver, space: Space, poses: Array, at: Array, sets: list[tuple[int, ...]], rng: np.random.Generator
+def _find_best_row_set(
+    solver: RowSolver, space: FreeSpace, poses: Array, q_start: Array, row_sets: list[tuple[int, ...]], rng: np.random.Generator
 ) -> tuple[tuple[int, ...], Array] | None:
-    """The set of rows, of those preferred most, without which the path is followed, and the motion that misses least."""
-    begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
-    owner = np.repeat(np.arange(len(sets)), len(begin))
-    kept = np.ones((len(owner), solver.rows.m))
-    for row, k in zip(kept, owner, strict=True):
-        row[list(sets[k])] = 0.0
-    target = np.repeat(poses[:1], len(owner), axis=0)
-    first = solver.nearest(np.tile(begin, (len(sets), 1)), target, kept, space.free)
-    first = kept_too(solver, space, first, target, kept)
-    good = solver.meets(first, target, kept, space.free)
-    good[good] = space.clear(first[good])
-    q, last = _tracked(solver, space, poses, first[good], kept[good])
-    whole = np.flatnonzero(last == len(poses) - 1)
-    if not whole.size:
+    """Return the preferred set of rows without which the path is followed, and the motion with the least errors."""
+    initial_configurations = np.concatenate(
+        [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
+    )
+    set_indices = np.repeat(np.arange(len(row_sets)), len(initial_configurations))
+    row_masks = np.ones((len(set_indices), solver.rows.m))
+    for row_mask, index in zip(row_masks, set_indices, strict=True):
+        row_mask[list(row_sets[index])] = 0.0
+    targets = np.repeat(poses[:1], len(set_indices), axis=0)
+    first_configurations = solver.solve_relaxed(
+        np.tile(initial_configurations, (len(row_sets), 1)), targets, row_masks, space.free
+    )
+    first_configurations = project_onto_constraints(solver, space, first_configurations, targets, row_masks)
+    is_valid = solver.meets_rows(first_configurations, targets, row_masks, space.free)
+    is_valid[is_valid] = space.are_valid(first_configurations[is_valid])
+    q, last_samples = _track_poses(solver, space, poses, first_configurations[is_valid], row_masks[is_valid])
+    complete = np.flatnonzero(last_samples == len(poses) - 1)
+    if not complete.size:
         return None
-    missed = [float(np.linalg.norm(solver.errors(q[:, k], poses), axis=1).max()) for k in whole]
-    keys = [(*preferred(solver.rows, sets[owner[good][k]]), miss) for k, miss in zip(whole, missed, strict=True)]
-    best = whole[min(range(len(keys)), key=keys.__getitem__)]
-    return sets[owner[good][best]], q[:, best]
+    motion_errors = [float(np.linalg.norm(solver.compute_errors(q[:, index], poses), axis=1).max()) for index in complete]
+    sort_keys = [
+        (*rank_relaxed_rows(solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
+        for index, motion_error in zip(complete, motion_errors, strict=True)
+    ]
+    best = complete[min(range(len(sort_keys)), key=sort_keys.__getitem__)]
+    return row_sets[set_indices[is_valid][best]], q[:, best]
 
 
-def along(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array | float = 1.0) -> RestOfPath:
-    """The same with the motion q (S, n), and how far it is off between its waypoints in the rows whose ``mask`` is 1."""
-    middle = path.pose((made.share[1:] + made.share[:-1]) / 2)
-    off = np.abs(solver.errors((q[1:] + q[:-1]) / 2, middle) * mask).max()
-    return replace(made, q=q, deviation=float(off))
+def add_motion(rest: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array | float = 1.0) -> RestOfPath:
+    """Return the result with the motion q (S, n) and its deviation between waypoints, of the rows whose ``mask`` is 1."""
+    middle_poses = path.pose((rest.share[1:] + rest.share[:-1]) / 2)
+    deviation = np.abs(solver.compute_errors((q[1:] + q[:-1]) / 2, middle_poses) * mask).max()
+    return replace(rest, q=q, deviation=float(deviation))
 
 
-def refined(made: RestOfPath, solver: RowSolver, space: Space, path: Path, q: Array) -> tuple[RestOfPath, Array] | None:
-    """The motion q (S, n) with more waypoints wherever it is far off the path between two; None if none is found there.
+def refine_waypoints(
+    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q: Array
+) -> tuple[RestOfPath, Array] | None:
+    """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
 
     Where joints move fast, as beside a singular configuration, straight lines in joint space are no straight lines of the tool.
     """
-    near = np.where(np.array(solver.rows.units) == "m", OFF_PATH[0] * max(solver.arm.length_unit, 1.0), OFF_PATH[1])
-    share, found = made.share, made.found
-    for _ in range(_HALVED):
-        inner = q[:-1, None] + _INNER[:, None] * np.diff(q, axis=0)[:, None]
-        places = share[:-1, None] + _INNER * np.diff(share)[:, None]
-        off = np.abs(solver.errors(inner.reshape(-1, q.shape[1]), path.pose(places.ravel()))).reshape(*places.shape, -1)
-        k = np.flatnonzero((off > near).any(axis=(1, 2)))
-        if not k.size:
-            return replace(along(replace(made, share=share, found=found), solver, path, q), q=q), q
-        middle, between = (share[k] + share[k + 1]) / 2, (q[k] + q[k + 1]) / 2
-        poses, kept = path.pose(middle), np.ones((len(k), solver.rows.m))
-        new = kept_too(solver, space, solver.run(between, poses, kept, space.free), poses, kept)
-        good = solver.meets(new, poses, kept, space.free)
-        good &= np.abs(new - between).max(axis=1) <= np.abs(q[k + 1] - q[k]).max(axis=1)  # else on another branch
-        if not (good.all() and space.edges(q[k], new).all() and space.edges(new, q[k + 1]).all()):
+    tolerances = np.where(
+        np.array(solver.rows.units) == "m", PATH_TOLERANCE[0] * max(solver.arm.length_unit, 1.0), PATH_TOLERANCE[1]
+    )
+    fractions, is_reached = rest.share, rest.found
+    for _ in range(_MAX_BISECTIONS):
+        inner_configurations = q[:-1, None] + _INNER_FRACTIONS[:, None] * np.diff(q, axis=0)[:, None]
+        inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
+        path_errors = np.abs(
+            solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
+        ).reshape(*inner_fractions.shape, -1)
+        segments = np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
+        if not segments.size:
+            return replace(add_motion(replace(rest, share=fractions, found=is_reached), solver, path, q), q=q), q
+        middle_fractions, midpoints = (fractions[segments] + fractions[segments + 1]) / 2, (q[segments] + q[segments + 1]) / 2
+        poses, row_masks = path.pose(middle_fractions), np.ones((len(segments), solver.rows.m))
+        new_waypoints = project_onto_constraints(
+            solver, space, solver.solve(midpoints, poses, row_masks, space.free), poses, row_masks
+        )
+        is_valid = solver.meets_rows(new_waypoints, poses, row_masks, space.free)
+        is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(
+            axis=1
+        )  # else on another branch
+        if not (
+            is_valid.all()
+            and space.are_segments_valid(q[segments], new_waypoints).all()
+            and space.are_segments_valid(new_waypoints, q[segments + 1]).all()
+        ):
             return None
-        q, share, found = np.insert(q, k + 1, new, axis=0), np.insert(share, k + 1, middle), np.insert(found, k + 1, True)
+        q, fractions, is_reached = (
+            np.insert(q, segments + 1, new_waypoints, axis=0),
+            np.insert(fractions, segments + 1, middle_fractions),
+            np.insert(is_reached, segments + 1, True),
+        )
     return None

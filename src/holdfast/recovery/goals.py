@@ -1,4 +1,4 @@
-"""Where a failed arm may end: configurations of the goal, and the rows to give up if there is none."""
+"""Search for configurations of a goal, and for the rows to relax if there is none."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.notice import each
-from holdfast.recovery.rows import RowSolver, preferred, subsets
-from holdfast.recovery.space import Metric, Space
-from holdfast.solvers.descent import descend
+from holdfast.notice import track
+from holdfast.recovery.rows import RowSolver, list_subsets, rank_relaxed_rows
+from holdfast.recovery.space import FreeSpace, JointMetric
+from holdfast.solvers.descent import minimise_constrained
 
 Array = NDArray[np.float64]
 
-_MOST = 48  # configurations of a goal that are kept, the nearest ones
-_SLIDES = 25
-_SAME = 1e-4  # rad and m
+_MAX_CONFIGURATIONS = 48  # configurations of a goal that are kept, the nearest ones
+_SELF_MOTION_STEPS = 25
+_DUPLICATE_TOLERANCE = 1e-4  # rad and m
 _STARTS_PER_SET = 96
-_POLISHED = 4  # of the best configurations of a set, each another one
+_POLISHED_CONFIGURATIONS = 4  # of the best configurations of a set, each another one
 
 
 @dataclass(frozen=True)
-class RowsGivenUp:
-    """Rows without which the rest of the goal is met, none of which can be kept beside the others.
+class RelaxedRows:
+    """Rows without which the rest of the goal is met, none of which can be met in addition to the others.
 
     Attributes:
         names: As people call them: ``about tool z``, ``x``, or a joint.
@@ -37,197 +37,245 @@ class RowsGivenUp:
 
     def __str__(self) -> str:
         parts = [
-            f"{name} by {miss:.4g} m" if unit == "m" else f"{name} by {np.rad2deg(miss):.4g} deg"
-            for name, miss, unit in zip(self.names, self.misses, self.units, strict=True)
+            f"{name} by {error:.4g} m" if unit == "m" else f"{name} by {np.rad2deg(error):.4g} deg"
+            for name, error, unit in zip(self.names, self.misses, self.units, strict=True)
         ]
         return ", ".join(parts)
 
-    def __add__(self, other: RowsGivenUp) -> RowsGivenUp:
-        return RowsGivenUp(self.names + other.names, self.misses + other.misses, self.units + other.units)
+    def __add__(self, other: RelaxedRows) -> RelaxedRows:
+        return RelaxedRows(self.names + other.names, self.misses + other.misses, self.units + other.units)
 
 
 @dataclass(frozen=True)
-class Relaxed:
-    """A set of rows to give up and configurations (K, n) that meet the others."""
+class RelaxedGoal:
+    """Set of rows to relax and configurations (K, n) that meet the others."""
 
-    rows: RowsGivenUp
+    relaxed_rows: RelaxedRows
     q: Array
 
 
-def configurations_of(
-    solver: RowSolver, space: Space, metric: Metric, pose: Array, at: Array, starts: int, rng: np.random.Generator
+def find_goal_configurations(
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    pose: Array,
+    q_start: Array,
+    start_count: int,
+    rng: np.random.Generator,
 ) -> Array:
-    """Configurations (K, n) that meet every row of a pose (4, 4), those on the way from ``at`` first; maybe none.
+    """Return configurations (K, n) that meet every row of a pose (4, 4), the nearest to ``q_start`` first; maybe none.
 
-    From random starts and from ``at``; each is then moved along the self-motion of the pose towards ``at``.
+    From random starts and from ``q_start``; each is then moved along the self-motion of the pose towards ``q_start``.
     """
-    q = met_from(solver, space, pose, np.concatenate([at[None], solver.starts(starts, at, space.free, rng)]))
-    q = at + space.difference(q, at)
-    poses, kept = np.repeat(pose[None], len(q), axis=0), np.ones((len(q), solver.rows.m))
+    q = solve_pose(
+        solver,
+        space,
+        pose,
+        np.concatenate([q_start[None], solver.sample_configurations(start_count, q_start, space.free, rng)]),
+    )
+    q = q_start + space.shortest_difference(q, q_start)
+    poses, row_masks = np.repeat(pose[None], len(q), axis=0), np.ones((len(q), solver.rows.m))
     moving = np.arange(len(q))
-    for _ in range(_SLIDES):
-        some = q[moving]
-        trial = solver.run(some + 0.3 * space.difference(at, some), poses[moving], kept[moving], space.free, 20)
-        trial = kept_too(solver, space, trial, poses[moving], kept[moving])
-        nearer = metric.length(trial - at) < metric.length(some - at) * (1 - 1e-6)
-        nearer &= _good(solver, space, trial, poses[moving], kept[moving])
+    for _ in range(_SELF_MOTION_STEPS):
+        current = q[moving]
+        trial = solver.solve(
+            current + 0.3 * space.shortest_difference(q_start, current), poses[moving], row_masks[moving], space.free, 20
+        )
+        trial = project_onto_constraints(solver, space, trial, poses[moving], row_masks[moving])
+        nearer = metric.measure_length(trial - q_start) < metric.measure_length(current - q_start) * (1 - 1e-6)
+        nearer &= _are_valid(solver, space, trial, poses[moving], row_masks[moving])
         q[moving[nearer]] = trial[nearer]
         moving = moving[nearer]
         if not moving.size:
             break
-    return _distinct(q[np.argsort(metric.length(q - at), kind="stable")])
+    return _remove_duplicates(q[np.argsort(metric.measure_length(q - q_start), kind="stable")])
 
 
-def met_from(solver: RowSolver, space: Space, pose: Array, begin: Array) -> Array:
-    """Clear configurations (K, n) that meet every row of a pose (4, 4), from starts (N, n)."""
-    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
-    q = kept_too(solver, space, solver.run(begin, poses, kept, space.free), poses, kept)
-    return np.asarray(q[_good(solver, space, q, poses, kept)])
+def solve_pose(solver: RowSolver, space: FreeSpace, pose: Array, initial_configurations: Array) -> Array:
+    """Return valid configurations (K, n) that meet every row of a pose (4, 4), from initial configurations (N, n)."""
+    poses, row_masks = (
+        np.repeat(pose[None], len(initial_configurations), axis=0),
+        np.ones((len(initial_configurations), solver.rows.m)),
+    )
+    q = project_onto_constraints(
+        solver, space, solver.solve(initial_configurations, poses, row_masks, space.free), poses, row_masks
+    )
+    return np.asarray(q[_are_valid(solver, space, q, poses, row_masks)])
 
 
-def kept_too(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> Array:
-    """From q (N, n): rows of a goal with weights kept (N, m) above 0 are met, and with them what is kept all the way."""
-    some = np.zeros(0, dtype=np.intp) if space.manifold is None else np.flatnonzero(~space.manifold.holds(q))
-    if space.manifold is None or not some.size:
+def project_onto_constraints(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, row_masks: Array) -> Array:
+    """Project q (N, n) so that the rows whose mask (N, m) is above 0 and the tool constraints are met together."""
+    indices = np.zeros(0, dtype=np.intp) if space.manifold is None else np.flatnonzero(~space.manifold.is_satisfied(q))
+    if space.manifold is None or not indices.size:
         return q
 
-    def more(x: Array, which: NDArray[np.intp]) -> tuple[Array, Array]:
-        on, pose = kept[some[which]] > 0, poses[some[which]]
-        return solver.errors(x, pose) * on, -solver.slopes(x, pose) * on[:, :, None]
+    def goal_rows(trial: Array, trial_indices: NDArray[np.intp]) -> tuple[Array, Array]:
+        is_active, pose = row_masks[indices[trial_indices]] > 0, poses[indices[trial_indices]]
+        return solver.compute_errors(trial, pose) * is_active, -solver.compute_jacobian(trial, pose) * is_active[:, :, None]
 
     q = q.copy()
-    q[some] = space.manifold.projected(q[some], more)
+    q[indices] = space.manifold.project(q[indices], goal_rows)
     return q
 
 
-def what_bars(solver: RowSolver, space: Space, poses: Array, at: Array, seed: int) -> str:
-    """The pair that most often is too close where one of poses (G, 4, 4) is met; empty if none is met or each is clear."""
+def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: Array, q_start: Array, seed: int) -> str:
+    """Return the pair that most often is too close where one of poses (G, 4, 4) is met; empty if there is none."""
     rng = np.random.default_rng(seed)
     for pose in poses:
-        begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
-        same, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
-        q = solver.run(begin, same, kept, space.free)
-        pair = space.nearest(q[solver.meets(q, same, kept, space.free)])
+        initial_configurations = np.concatenate(
+            [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
+        )
+        repeated_poses, row_masks = (
+            np.repeat(pose[None], len(initial_configurations), axis=0),
+            np.ones((len(initial_configurations), solver.rows.m)),
+        )
+        q = solver.solve(initial_configurations, repeated_poses, row_masks, space.free)
+        pair = space.name_closest_pair(q[solver.meets_rows(q, repeated_poses, row_masks, space.free)])
         if pair:
             return pair
     return ""
 
 
-def _good(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> NDArray[np.bool_]:
-    good = solver.meets(q, poses, kept, space.free)
-    some = np.flatnonzero(good)
-    good[some] = space.clear(q[some])
-    return good
+def _are_valid(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, row_masks: Array) -> NDArray[np.bool_]:
+    is_valid = solver.meets_rows(q, poses, row_masks, space.free)
+    indices = np.flatnonzero(is_valid)
+    is_valid[indices] = space.are_valid(q[indices])
+    return is_valid
 
 
-def _distinct(q: Array) -> Array:
-    """The first of configurations that are the same, the nearest ones only."""
-    keep: list[int] = []
-    for k in range(len(q)):
-        if all(np.abs(q[k] - q[i]).max() > _SAME for i in keep):
-            keep.append(k)
-        if len(keep) == _MOST:
+def _remove_duplicates(q: Array) -> Array:
+    """Return the first of configurations that are the same, up to the number that a goal keeps."""
+    retained: list[int] = []
+    for candidate in range(len(q)):
+        if all(np.abs(q[candidate] - q[other]).max() > _DUPLICATE_TOLERANCE for other in retained):
+            retained.append(candidate)
+        if len(retained) == _MAX_CONFIGURATIONS:
             break
-    return q[keep]
+    return q[retained]
 
 
-def rows_to_give_up(
-    solver: RowSolver, space: Space, metric: Metric, pose: Array, at: Array, rng: np.random.Generator
-) -> list[Relaxed]:
-    """Every minimal set of rows without which a pose is met, as far as found: few rows first, turns before positions.
+def find_rows_to_relax(
+    solver: RowSolver, space: FreeSpace, metric: JointMetric, pose: Array, q_start: Array, rng: np.random.Generator
+) -> list[RelaxedGoal]:
+    """Return every minimal set found of rows to relax so that a pose is met: fewest rows first, orientations before positions.
 
     A row that is met all the same is not given up; of a set without any row left the configurations meet the whole pose.
     """
-    rows, found = solver.rows, dict[tuple[int, ...], Array]()
+    rows, configurations = solver.rows, dict[tuple[int, ...], Array]()
     for size in range(1, rows.m):
-        sets = subsets(rows.m, size, list(found))
-        if not sets or space.spent:
+        row_sets = list_subsets(rows.m, size, list(configurations))
+        if not row_sets or space.is_time_over:
             break
-        begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
-        owner = np.repeat(np.arange(len(sets)), len(begin))
-        kept = np.ones((len(sets), rows.m))
-        for one, given_up in zip(kept, sets, strict=True):
-            one[list(given_up)] = 0.0
-        poses = np.repeat(pose[None], len(owner), axis=0)
-        q = solver.nearest(np.tile(begin, (len(sets), 1)), poses, kept[owner], space.free)
-        q = kept_too(solver, space, q, poses, kept[owner])
-        good = _good(solver, space, q, poses, kept[owner])
-        missed = np.linalg.norm(solver.errors(q, poses), axis=1)
-        for k, given_up in enumerate(each("sets of rows", sets)):
-            some = np.flatnonzero(good & (owner == k))
-            some = some[np.argsort(missed[some], kind="stable")]
-            if some.size:
-                for fewer, ends in _with_fewer_rows(solver, space, pose, q[some], given_up).items():
-                    found[fewer] = np.concatenate([found.get(fewer, ends[:0]), ends])
-        found = {one: q for one, q in found.items() if not any(set(other) < set(one) for other in found)}
-    relaxed = [(given_up, _relaxed(solver, metric, space, pose, at, given_up, q)) for given_up, q in found.items()]
-    relaxed.sort(key=lambda x: (*preferred(rows, x[0]), float(np.linalg.norm(x[1].rows.misses))))
-    return [one for _, one in relaxed]
+        initial_configurations = np.concatenate(
+            [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
+        )
+        set_indices = np.repeat(np.arange(len(row_sets)), len(initial_configurations))
+        row_masks = np.ones((len(row_sets), rows.m))
+        for row_set, dropped_rows in zip(row_masks, row_sets, strict=True):
+            row_set[list(dropped_rows)] = 0.0
+        poses = np.repeat(pose[None], len(set_indices), axis=0)
+        q = solver.solve_relaxed(np.tile(initial_configurations, (len(row_sets), 1)), poses, row_masks[set_indices], space.free)
+        q = project_onto_constraints(solver, space, q, poses, row_masks[set_indices])
+        is_valid = _are_valid(solver, space, q, poses, row_masks[set_indices])
+        pose_errors = np.linalg.norm(solver.compute_errors(q, poses), axis=1)
+        for set_index, dropped_rows in enumerate(track("sets of rows", row_sets)):
+            indices = np.flatnonzero(is_valid & (set_indices == set_index))
+            indices = indices[np.argsort(pose_errors[indices], kind="stable")]
+            if indices.size:
+                for fewer_rows, solutions in _reduce_row_set(solver, space, pose, q[indices], dropped_rows).items():
+                    configurations[fewer_rows] = np.concatenate([configurations.get(fewer_rows, solutions[:0]), solutions])
+        configurations = {
+            row_set: q
+            for row_set, q in configurations.items()
+            if not any(set(other_set) < set(row_set) for other_set in configurations)
+        }
+    relaxed_goals = [
+        (dropped_rows, _select_least_error(solver, metric, space, pose, q_start, dropped_rows, q))
+        for dropped_rows, q in configurations.items()
+    ]
+    relaxed_goals.sort(
+        key=lambda entry: (*rank_relaxed_rows(rows, entry[0]), float(np.linalg.norm(entry[1].relaxed_rows.misses)))
+    )
+    return [row_set for _, row_set in relaxed_goals]
 
 
-def _with_fewer_rows(
-    solver: RowSolver, space: Space, pose: Array, q: Array, given_up: tuple[int, ...]
+def _reduce_row_set(
+    solver: RowSolver, space: FreeSpace, pose: Array, q: Array, dropped_rows: tuple[int, ...]
 ) -> dict[tuple[int, ...], Array]:
-    """Configurations by the rows that they miss, from some (N, n) that meet all rows but those given up.
+    """Return configurations by the rows that they violate, from some (N, n) that meet all rows except the relaxed ones.
 
     Those are moved to where the rows given up are missed least, and to where one of them is met too, if that leads anywhere.
     """
-    found, open_ = dict[tuple[int, ...], Array](), [(given_up, q)]
-    while open_:
-        lost, begin = open_.pop()
-        better = [_polished(solver, space, pose, x, list(lost)) for x in _distinct(begin)[:_POLISHED]]
-        ends = np.concatenate([np.stack(better), begin])
-        missed = solver.missed(ends, np.repeat(pose[None], len(ends), axis=0))
-        for names in {tuple(np.flatnonzero(row).tolist()) for row in missed}:
-            same = ends[(missed == np.isin(np.arange(solver.rows.m), names)).all(axis=1)]
-            found[names] = np.concatenate([found.get(names, same[:0]), same])
-        for row in lost if len(lost) > 1 else ():
-            fewer = tuple(k for k in lost if k != row)
-            mask = np.ones((len(better), solver.rows.m))
-            mask[:, fewer] = 0.0
-            poses = np.repeat(pose[None], len(better), axis=0)
-            nearer = kept_too(solver, space, solver.run(np.stack(better), poses, mask, space.free), poses, mask)
-            good = _good(solver, space, nearer, poses, mask)
-            if good.any() and not any(set(one) <= set(fewer) for one in found):
-                open_.append((fewer, nearer[good]))
-    return found
+    configurations, open_sets = dict[tuple[int, ...], Array](), [(dropped_rows, q)]
+    while open_sets:
+        lost_rows, initial_configurations = open_sets.pop()
+        polished = [
+            _minimize_row_errors(solver, space, pose, start, list(lost_rows))
+            for start in _remove_duplicates(initial_configurations)[:_POLISHED_CONFIGURATIONS]
+        ]
+        candidates = np.concatenate([np.stack(polished), initial_configurations])
+        is_missed = solver.find_violated_rows(candidates, np.repeat(pose[None], len(candidates), axis=0))
+        for missed_rows in {tuple(np.flatnonzero(row).tolist()) for row in is_missed}:
+            matching = candidates[(is_missed == np.isin(np.arange(solver.rows.m), missed_rows)).all(axis=1)]
+            configurations[missed_rows] = np.concatenate([configurations.get(missed_rows, matching[:0]), matching])
+        for row in lost_rows if len(lost_rows) > 1 else ():
+            fewer_rows = tuple(index for index in lost_rows if index != row)
+            row_masks = np.ones((len(polished), solver.rows.m))
+            row_masks[:, fewer_rows] = 0.0
+            poses = np.repeat(pose[None], len(polished), axis=0)
+            nearer = project_onto_constraints(
+                solver, space, solver.solve(np.stack(polished), poses, row_masks, space.free), poses, row_masks
+            )
+            is_valid = _are_valid(solver, space, nearer, poses, row_masks)
+            if is_valid.any() and not any(set(known_set) <= set(fewer_rows) for known_set in configurations):
+                open_sets.append((fewer_rows, nearer[is_valid]))
+    return configurations
 
 
-def _relaxed(
-    solver: RowSolver, metric: Metric, space: Space, pose: Array, at: Array, given_up: tuple[int, ...], q: Array
-) -> Relaxed:
-    """Of configurations (N, n) those that miss the rows given up by least, the nearest first."""
-    error = np.abs(solver.errors(q, np.repeat(pose[None], len(q), axis=0))[:, given_up])
-    size = np.linalg.norm(error, axis=1)
-    near = size <= size.min() * (1 + 1e-3) + 1e-6
-    ends = at + space.difference(q[near], at)
-    ends = _distinct(ends[np.argsort(metric.length(ends - at), kind="stable")])
-    names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
-    return Relaxed(RowsGivenUp(tuple(names), tuple(error[size.argmin()].tolist()), tuple(units)), ends)
+def _select_least_error(
+    solver: RowSolver,
+    metric: JointMetric,
+    space: FreeSpace,
+    pose: Array,
+    q_start: Array,
+    dropped_rows: tuple[int, ...],
+    q: Array,
+) -> RelaxedGoal:
+    """Select the configurations (N, n) with the least error of the relaxed rows, the nearest first."""
+    row_errors = np.abs(solver.compute_errors(q, np.repeat(pose[None], len(q), axis=0))[:, dropped_rows])
+    error_norms = np.linalg.norm(row_errors, axis=1)
+    is_least = error_norms <= error_norms.min() * (1 + 1e-3) + 1e-6
+    selected = q_start + space.shortest_difference(q[is_least], q_start)
+    selected = _remove_duplicates(selected[np.argsort(metric.measure_length(selected - q_start), kind="stable")])
+    names, units = ([labels[index] for index in dropped_rows] for labels in (solver.rows.names, solver.rows.units))
+    return RelaxedGoal(RelaxedRows(tuple(names), tuple(row_errors[error_norms.argmin()].tolist()), tuple(units)), selected)
 
 
-def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:
-    """From q (n,) where the other rows are met, the rows lost missed by as little as possible."""
+def _minimize_row_errors(solver: RowSolver, space: FreeSpace, pose: Array, q: Array, lost_rows: list[int]) -> Array:
+    """Minimize the errors of the lost rows from q (n,), where the other rows are met."""
     arm, clearance = solver.arm, space.clearance
-    kept = [k for k in range(solver.rows.m) if k not in lost]
+    met_rows = [index for index in range(solver.rows.m) if index not in lost_rows]
 
     def errors(x: Array) -> Array:
-        return np.asarray(solver.errors(x[None], pose[None])[0])
+        return np.asarray(solver.compute_errors(x[None], pose[None])[0])
 
-    def look(x: Array) -> tuple[float, Array, Array, Array]:
-        e, slopes = errors(x), solver.slopes(x, pose)
-        values, rows = e[kept], slopes[kept]
+    def evaluate_objective(x: Array) -> tuple[float, Array, Array, Array]:
+        error, jacobian = errors(x), solver.compute_jacobian(x, pose)
+        values, gradients = error[met_rows], jacobian[met_rows]
         if clearance is not None:
-            values, rows = np.append(values, clearance.room(x) - space.margin), np.vstack([rows, clearance.gradient(x)])
-        return float(e[lost] @ e[lost]), 2 * e[lost] @ slopes[lost], values, rows
+            values, gradients = (
+                np.append(values, clearance.margin_left(x) - space.margin),
+                np.vstack([gradients, clearance.gradient(x)]),
+            )
+        return float(error[lost_rows] @ error[lost_rows]), 2 * error[lost_rows] @ jacobian[lost_rows], values, gradients
 
-    low, high = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)
+    lower, upper = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)
     with np.errstate(all="ignore"):
-        found = descend(look, q, low, high, len(kept))
-    if not np.isfinite(found).all():
+        minimum = minimise_constrained(evaluate_objective, q, lower, upper, len(met_rows))
+    if not np.isfinite(minimum).all():
         return q
-    mask = np.ones((1, solver.rows.m))
-    mask[0, lost] = 0.0
-    back = solver.run(np.where(space.free, np.clip(found, low, high), q)[None], pose[None], mask, space.free)
-    nearer = np.linalg.norm(errors(back[0])[lost]) < np.linalg.norm(errors(q)[lost])
-    return np.asarray(back[0] if nearer and _good(solver, space, back, pose[None], mask)[0] else q)
+    row_mask = np.ones((1, solver.rows.m))
+    row_mask[0, lost_rows] = 0.0
+    projected = solver.solve(np.where(space.free, np.clip(minimum, lower, upper), q)[None], pose[None], row_mask, space.free)
+    is_better = np.linalg.norm(errors(projected[0])[lost_rows]) < np.linalg.norm(errors(q)[lost_rows])
+    return np.asarray(projected[0] if is_better and _are_valid(solver, space, projected, pose[None], row_mask)[0] else q)

@@ -1,4 +1,4 @@
-"""Motions along a tool path through a graph: many configurations of each pose, each joined to those of the pose before."""
+"""Search for motions along a tool path in a ladder graph: many configurations per pose, each joined to the previous pose."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.notice import each
-from holdfast.recovery.goals import kept_too, met_from
+from holdfast.notice import track
+from holdfast.recovery.goals import project_onto_constraints, solve_pose
 from holdfast.recovery.rows import RowSolver
-from holdfast.recovery.space import Metric, Space
+from holdfast.recovery.space import FreeSpace, JointMetric
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
@@ -20,108 +20,124 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Index = NDArray[np.int64]
 
-JUMP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
-_MOST = 150  # configurations of a pose
-_COPIES = 3  # moved along the self-motion, of each of them
-_STIR = 0.15  # rad or m, standard deviation of that
-_SAME = 1e-3  # rad or m: configurations that are no nearer count as two
-_SWEEPS = 40
+MAX_JOINT_STEP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
+_MAX_LAYER_CONFIGURATIONS = 150  # configurations of a pose
+_COPIES_PER_CONFIGURATION = 3  # moved along the self-motion, of each of them
+_PERTURBATION_STD = 0.15  # rad or m, standard deviation of that
+_DUPLICATE_TOLERANCE = 1e-3  # rad or m: configurations that are no nearer count as two
+_SHORTENING_SWEEPS = 40
 
-FINEST_SHARE = 2.5e-4  # of a path: how closely the end of a motion along it is found
-_STILL = 1e-7  # of a path: a step along the self-motion, nearly in place, so that places increase
-_KEPT = 60  # configurations of a place where a path is followed as far as possible
-_BENT = 0.25  # of a step, by which its middle may be off the straight line
+MIN_PATH_STEP = 2.5e-4  # of a path: how closely the end of a motion along it is found
+_SELF_MOTION_PATH_STEP = 1e-7  # of a path: a step along the self-motion, nearly in place, so that places increase
+_MAX_CONTINUED_CONFIGURATIONS = 60  # configurations of a place where a path is followed as far as possible
+_MIDPOINT_TOLERANCE = 0.25  # of a step, by which its middle may be off the straight line
 _MAX_SPREADS = 8  # along the self-motion, before the end counts as reached
 _MAX_LAYERS = 4000
 
 
 @dataclass(frozen=True)
-class Graph:
-    """What a search through the layers found.
+class LadderGraph:
+    """Result of the search through the layers.
 
     Attributes:
         motions: (S, n) each, the shortest first, no two from one configuration of the first pose; rad and m.
-        last: The last sample that any motion gets to.
-        size: Configurations in all layers.
+        last_sample: The last sample that any motion gets to.
+        configuration_count: Configurations in all layers.
     """
 
     motions: list[Array]
-    last: int
-    size: int
+    last_sample: int
+    configuration_count: int
 
 
-def through_layers(
+def search_ladder_graph(
     solver: RowSolver,
-    space: Space,
-    metric: Metric,
+    space: FreeSpace,
+    metric: JointMetric,
     poses: Array,
-    first: Array,
-    at: Array,
-    starts: int,
+    first_configurations: Array,
+    q_start: Array,
+    start_count: int,
     rng: np.random.Generator,
-) -> Graph:
-    """Motions along poses (S, 4, 4) from configurations of the first, those given (R, n) and others, if self-motion is left.
+) -> LadderGraph:
+    """Search motions along poses (S, 4, 4) from configurations (R, n) of the first pose and others on its self-motion.
 
     Each configuration leads to the nearest of the next pose and to others on its self-motion, by steps that are proved clear.
     Of the many of a pose those are kept that are spread widest: a motion through a passage that is narrower than their
     distance may be missed.
     """
-    first = np.concatenate([first, met_from(solver, space, poses[0], solver.starts(starts, at, space.free, rng))])
-    first = at + space.difference(first, at)
-    some = _spread(first, metric.length(first - at))
-    layers, came = [first[some]], [np.arange(len(some))]
-    cost = metric.length(layers[0] - at)
-    for pose in each("layers", list(poses[1:])):
+    first_configurations = np.concatenate(
+        [
+            first_configurations,
+            solve_pose(solver, space, poses[0], solver.sample_configurations(start_count, q_start, space.free, rng)),
+        ]
+    )
+    first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
+    selected = _select_widest_spread(first_configurations, metric.measure_length(first_configurations - q_start))
+    layers, sources = [first_configurations[selected]], [np.arange(len(selected))]
+    costs = metric.measure_length(layers[0] - q_start)
+    for pose in track("layers", list(poses[1:])):
         before = layers[-1]
-        source = np.tile(np.arange(len(before)), 1 + _COPIES)
-        stirred = before[source]
-        stirred[len(before) :] += rng.normal(0.0, _STIR, (_COPIES * len(before), before.shape[1])) * space.free
-        after, good = _met(solver, space, stirred, np.repeat(pose[None], len(source), axis=0), before[source])
-        source, after = source[good], after[good]
-        total = cost[source] + metric.length(after - before[source])
-        some = _spread(after, total, 2 * _MOST)  # what is not kept anyway need not be proved clear
-        some = some[space.edges(before[source[some]], after[some])]
-        some = some[_spread(after[some], total[some])]
-        source, after, total = source[some], after[some], total[some]
-        if not len(after) or space.spent:
+        source = np.tile(np.arange(len(before)), 1 + _COPIES_PER_CONFIGURATION)
+        perturbed = before[source]
+        perturbed[len(before) :] += (
+            rng.normal(0.0, _PERTURBATION_STD, (_COPIES_PER_CONFIGURATION * len(before), before.shape[1])) * space.free
+        )
+        after, is_valid = _solve_poses(solver, space, perturbed, np.repeat(pose[None], len(source), axis=0), before[source])
+        source, after = source[is_valid], after[is_valid]
+        total_costs = costs[source] + metric.measure_length(after - before[source])
+        selected = _select_widest_spread(
+            after, total_costs, 2 * _MAX_LAYER_CONFIGURATIONS
+        )  # what is not kept anyway need not be proved clear
+        selected = selected[space.are_segments_valid(before[source[selected]], after[selected])]
+        selected = selected[_select_widest_spread(after[selected], total_costs[selected])]
+        source, after, total_costs = source[selected], after[selected], total_costs[selected]
+        if not len(after) or space.is_time_over:
             break
         layers.append(after)
-        came.append(source)
-        cost = total
-    size = sum(map(len, layers))
+        sources.append(source)
+        costs = total_costs
+    configuration_count = sum(map(len, layers))
     if len(layers) < len(poses):
-        return Graph([], len(layers) - 1, size)
+        return LadderGraph([], len(layers) - 1, configuration_count)
     motions: dict[int, Array] = {}
-    for end in np.argsort(cost, kind="stable"):
-        chosen = [int(end)]
-        for source in came[:0:-1]:
-            chosen.append(int(source[chosen[-1]]))
-        if chosen[-1] not in motions:
-            motions[chosen[-1]] = np.stack([q[k] for q, k in zip(layers, reversed(chosen), strict=True)])
-    return Graph(list(motions.values()), len(poses) - 1, size)
+    for last_index in np.argsort(costs, kind="stable"):
+        indices = [int(last_index)]
+        for source in sources[:0:-1]:
+            indices.append(int(source[indices[-1]]))
+        if indices[-1] not in motions:
+            motions[indices[-1]] = np.stack([layer[index] for layer, index in zip(layers, reversed(indices), strict=True)])
+    return LadderGraph(list(motions.values()), len(poses) - 1, configuration_count)
 
 
 @dataclass(frozen=True)
-class Continuation:
-    """How far a path is followed from configurations of its beginning.
+class PathContinuation:
+    """Furthest motion along a path from configurations of its beginning.
 
     Attributes:
-        share: (S,) places on the path, 0 to 1, increasing; the last one is where every motion found ends.
+        fractions: (S,) places on the path, 0 to 1, increasing; the last one is where every motion found ends.
         q: (S, n) the shortest motion to there, rad and m.
-        size: Configurations of all places together, where self-motion was used; else 0.
+        configuration_count: Configurations of all places together, where self-motion was used; else 0.
     """
 
-    share: Array
+    fractions: Array
     q: Array
-    size: int
+    configuration_count: int
 
 
 def continue_path(
-    solver: RowSolver, space: Space, metric: Metric, path: Path, first: Array, *, stride: float, rng: np.random.Generator
-) -> Continuation:
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    first_configurations: Array,
+    *,
+    stride: float,
+    rng: np.random.Generator,
+) -> PathContinuation:
     """Follow a path as far as possible from any of the configurations (R, n) of its beginning.
 
-    Steps become shorter where none leads on, down to ``FINEST_SHARE``. If the arm has self-motion, the configurations of the
+    Steps become shorter where none leads on, down to ``MIN_PATH_STEP``. If the arm has self-motion, the configurations of the
     last place are then spread along it, and the path is tried again from there.
 
     Args:
@@ -129,109 +145,117 @@ def continue_path(
         space: Where the arm may be.
         metric: By which motions are short.
         path: The path.
-        first: (R, n) configurations of its beginning, at least one, rad and m.
+        first_configurations: (R, n) configurations of its beginning, at least one, rad and m.
         stride: Largest step, a share of the path.
         rng: For the spreading.
     """
-    copies = _COPIES if space.free.sum() > solver.rows.m else 0
-    some = _spread(first, np.zeros(len(first)), _KEPT)
-    layers, came, share = [first[some]], [some], [0.0]
-    cost, step, spreads, since = np.zeros(len(some)), stride, 0, 0.0
-    while share[-1] < 1 and not space.spent and len(layers) < _MAX_LAYERS:
-        place = min(share[-1] + step, 1.0)
-        after, source, total = _next_layer(
-            solver, space, metric, layers[-1], cost, path.pose(np.array([place]))[0], copies, rng
+    copies = _COPIES_PER_CONFIGURATION if space.free.sum() > solver.rows.m else 0
+    selected = _select_widest_spread(first_configurations, np.zeros(len(first_configurations)), _MAX_CONTINUED_CONFIGURATIONS)
+    layers, sources, fractions = [first_configurations[selected]], [selected], [0.0]
+    costs, step, spread_count, last_spread = np.zeros(len(selected)), stride, 0, 0.0
+    while fractions[-1] < 1 and not space.is_time_over and len(layers) < _MAX_LAYERS:
+        fraction = min(fractions[-1] + step, 1.0)
+        after, source, total_costs = _compute_next_layer(
+            solver, space, metric, layers[-1], costs, path.pose(np.array([fraction]))[0], copies, rng
         )
         if len(after):
-            layers, came, share, cost = [*layers, after], [*came, source], [*share, place], total
-            if step == _STILL:
-                step = FINEST_SHARE
+            layers, sources, fractions, costs = [*layers, after], [*sources, source], [*fractions, fraction], total_costs
+            if step == _SELF_MOTION_PATH_STEP:
+                step = MIN_PATH_STEP
                 continue
             step = min(2 * step, stride)
-            if place - since > 4 * FINEST_SHARE:
-                spreads, since = 0, place
-        elif step > FINEST_SHARE:
+            if fraction - last_spread > 4 * MIN_PATH_STEP:
+                spread_count, last_spread = 0, fraction
+        elif step > MIN_PATH_STEP:
             step /= 4
-        elif copies and spreads < _MAX_SPREADS:
-            spreads, step = spreads + 1, _STILL
+        elif copies and spread_count < _MAX_SPREADS:
+            spread_count, step = spread_count + 1, _SELF_MOTION_PATH_STEP
         else:
             break
-    q = [int(cost.argmin())]
-    for source in came[:0:-1]:
-        q.append(int(source[q[-1]]))
-    motion = np.stack([layer[k] for layer, k in zip(layers, reversed(q), strict=True)])
-    return Continuation(np.array(share), motion, sum(map(len, layers)) if copies else 0)
+    indices = [int(costs.argmin())]
+    for source in sources[:0:-1]:
+        indices.append(int(source[indices[-1]]))
+    motion = np.stack([layer[index] for layer, index in zip(layers, reversed(indices), strict=True)])
+    return PathContinuation(np.array(fractions), motion, sum(map(len, layers)) if copies else 0)
 
 
-def _next_layer(
+def _compute_next_layer(
     solver: RowSolver,
-    space: Space,
-    metric: Metric,
+    space: FreeSpace,
+    metric: JointMetric,
     before: Array,
-    cost: Array,
+    costs: Array,
     pose: Array,
     copies: int,
     rng: np.random.Generator,
 ) -> tuple[Array, Index, Array]:
-    """Configurations (K, n) of a pose one step from configurations (N, n), from which each comes, and the cost up to there."""
+    """Return configurations (K, n) of a pose one step from configurations (N, n), the source of each, and the costs so far."""
     source = np.tile(np.arange(len(before)), 1 + copies)
-    stirred = before[source]
-    stirred[len(before) :] += rng.normal(0.0, _STIR, (copies * len(before), before.shape[1])) * space.free
+    perturbed = before[source]
+    perturbed[len(before) :] += rng.normal(0.0, _PERTURBATION_STD, (copies * len(before), before.shape[1])) * space.free
     poses = np.repeat(pose[None], len(source), axis=0)
-    after, good = _met(solver, space, stirred, poses, before[source])
-    source, after = source[good], after[good]
-    some = _spread(after, cost[source] + metric.length(after - before[source]), 2 * _KEPT)
-    source, after = source[some], after[some]
+    after, is_valid = _solve_poses(solver, space, perturbed, poses, before[source])
+    source, after = source[is_valid], after[is_valid]
+    selected = _select_widest_spread(
+        after, costs[source] + metric.measure_length(after - before[source]), 2 * _MAX_CONTINUED_CONFIGURATIONS
+    )
+    source, after = source[selected], after[selected]
     # On another branch the middle is not where the straight line has it.
-    middle, near = _met(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
-    off = np.abs(middle - (before[source] + after) / 2).max(axis=1)
-    near &= off <= _BENT * np.abs(after - before[source]).max(axis=1) + 10 * _SAME
-    near[near] = space.edges(before[source[near]], after[near])
-    source, after = source[near], after[near]
-    total = cost[source] + metric.length(after - before[source])
-    some = _spread(after, total, _KEPT)
-    return after[some], source[some], total[some]
+    middle, is_near = _solve_poses(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
+    midpoint_errors = np.abs(middle - (before[source] + after) / 2).max(axis=1)
+    is_near &= midpoint_errors <= _MIDPOINT_TOLERANCE * np.abs(after - before[source]).max(axis=1) + 10 * _DUPLICATE_TOLERANCE
+    is_near[is_near] = space.are_segments_valid(before[source[is_near]], after[is_near])
+    source, after = source[is_near], after[is_near]
+    total_costs = costs[source] + metric.measure_length(after - before[source])
+    selected = _select_widest_spread(after, total_costs, _MAX_CONTINUED_CONFIGURATIONS)
+    return after[selected], source[selected], total_costs[selected]
 
 
-def _met(solver: RowSolver, space: Space, q: Array, poses: Array, before: Array) -> tuple[Array, Flags]:
-    """From starts q (N, n): configurations of poses (N, 4, 4), and which of them are met and one step from ``before``."""
-    kept = np.ones((len(q), solver.rows.m))
-    after = kept_too(solver, space, solver.run(q, poses, kept, space.free), poses, kept)
-    return after, solver.meets(after, poses, kept, space.free) & (np.abs(after - before).max(axis=1) <= JUMP)
+def _solve_poses(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, before: Array) -> tuple[Array, Flags]:
+    """Solve poses (N, 4, 4) from q (N, n); also return which solutions meet their pose and are one step from ``before``."""
+    row_masks = np.ones((len(q), solver.rows.m))
+    after = project_onto_constraints(solver, space, solver.solve(q, poses, row_masks, space.free), poses, row_masks)
+    return after, solver.meets_rows(after, poses, row_masks, space.free) & (
+        np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
+    )
 
 
-def _spread(q: Array, cost: Array, most: int = _MOST) -> Index:
-    """Which of configurations (N, n) to keep: the cheapest, then always the one farthest from all that are kept."""
+def _select_widest_spread(q: Array, costs: Array, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> Index:
+    """Return the indices of the cheapest of configurations (N, n), then repeatedly of the one farthest from all selected."""
     if not len(q):
         return np.zeros(0, dtype=np.int64)
     columns = np.ascontiguousarray(q.T)
-    keep, away = [int(np.argmin(cost))], np.full(len(q), np.inf)
-    while len(keep) <= most:
-        away = np.minimum(away, np.abs(columns - columns[:, keep[-1:]]).max(axis=0))
-        if away.max() <= _SAME:
+    selected, distances = [int(np.argmin(costs))], np.full(len(q), np.inf)
+    while len(selected) <= max_count:
+        distances = np.minimum(distances, np.abs(columns - columns[:, selected[-1:]]).max(axis=0))
+        if distances.max() <= _DUPLICATE_TOLERANCE:
             break
-        keep.append(int(np.argmax(away)))
-    return np.array(keep[:most])
+        selected.append(int(np.argmax(distances)))
+    return np.array(selected[:max_count])
 
 
-def shorter(solver: RowSolver, space: Space, metric: Metric, poses: Array, q: Array) -> Array:
-    """The same motion (S, n) with less to and fro along self-motions: each configuration drawn between its neighbours."""
+def shorten_along_poses(solver: RowSolver, space: FreeSpace, metric: JointMetric, poses: Array, q: Array) -> Array:
+    """Shorten the motion (S, n) along self-motions: each configuration moves towards the middle of its neighbors."""
     q = q.copy()
-    for _ in range(_SWEEPS):
-        before = float(metric.along(q)[-1])
+    for _ in range(_SHORTENING_SWEEPS):
+        old_length = float(metric.cumulative_length(q)[-1])
         for parity in (1, 2):
-            here = np.arange(parity, len(q), 2)
-            after = np.minimum(here + 1, len(q) - 1)
-            wanted = np.where((here < len(q) - 1)[:, None], (q[here - 1] + q[after]) / 2, q[here - 1])
-            trial, good = _met(solver, space, wanted, poses[here], q[here - 1])
-            good &= np.abs(trial - q[after]).max(axis=1) <= JUMP
-            old = metric.length(q[here] - q[here - 1]) + metric.length(q[after] - q[here]) * (after > here)
-            new = metric.length(trial - q[here - 1]) + metric.length(q[after] - trial) * (after > here)
-            good &= new < old
-            good[good] = space.edges(q[here[good] - 1], trial[good])
-            inner = good & (after > here)
-            good[inner] = space.edges(trial[inner], q[after[inner]])
-            q[here[good]] = trial[good]
-        if space.spent or float(metric.along(q)[-1]) > before * (1 - 1e-4):
+            indices = np.arange(parity, len(q), 2)
+            next_indices = np.minimum(indices + 1, len(q) - 1)
+            targets = np.where((indices < len(q) - 1)[:, None], (q[indices - 1] + q[next_indices]) / 2, q[indices - 1])
+            trial, is_better = _solve_poses(solver, space, targets, poses[indices], q[indices - 1])
+            is_better &= np.abs(trial - q[next_indices]).max(axis=1) <= MAX_JOINT_STEP
+            old_lengths = metric.measure_length(q[indices] - q[indices - 1]) + metric.measure_length(
+                q[next_indices] - q[indices]
+            ) * (next_indices > indices)
+            new_lengths = metric.measure_length(trial - q[indices - 1]) + metric.measure_length(q[next_indices] - trial) * (
+                next_indices > indices
+            )
+            is_better &= new_lengths < old_lengths
+            is_better[is_better] = space.are_segments_valid(q[indices[is_better] - 1], trial[is_better])
+            has_successor = is_better & (next_indices > indices)
+            is_better[has_successor] = space.are_segments_valid(trial[has_successor], q[next_indices[has_successor]])
+            q[indices[is_better]] = trial[is_better]
+        if space.is_time_over or float(metric.cumulative_length(q)[-1]) > old_length * (1 - 1e-4):
             break
     return q

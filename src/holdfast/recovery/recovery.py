@@ -14,19 +14,19 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.sharper import Sharper
+from holdfast.clearance.exact.sharper import ExactClearance
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.failures import Degraded
-from holdfast.keep.kept import Kept
+from holdfast.keep.kept import ToolConstraint
 from holdfast.recovery.continuation import RestOfPath
-from holdfast.recovery.goals import RowsGivenUp
-from holdfast.recovery.remainder import WhatIsLeft
+from holdfast.recovery.goals import RelaxedRows
+from holdfast.recovery.remainder import RemainingWorkspace
 from holdfast.recovery.space import MetricName
 from holdfast.recovery.timing.motion import TimedMotion
 from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
-from holdfast.words import capitalised
+from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from holdfast.certificates.joint_boxes.refutations import Refutation
@@ -37,8 +37,8 @@ ProofKind = Literal["start", "limits", "reach bound", "boxes", "a pose of the pa
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """Whether everything that was asked for can be done.
+class RecoveryVerdict:
+    """Feasibility of everything that was requested, and its justification.
 
     Attributes:
         answer: ``solved``: a motion was found and verified by other code. ``proved infeasible``: none does it, up to floating
@@ -56,62 +56,67 @@ class Verdict:
 
     @property
     def solved(self) -> bool:
-        """Everything that was asked for is done by the motion, as other code found too."""
+        """True if the motion does everything that was requested, confirmed by independent code."""
         return self.answer == "solved"
 
     def __str__(self) -> str:
-        said = f"{self.answer} ({self.kind})" if self.kind else self.answer
-        return f"{said}: {self.why}" if self.why else said
+        answer_text = f"{self.answer} ({self.kind})" if self.kind else self.answer
+        return f"{answer_text}: {self.why}" if self.why else answer_text
 
 
-class Ending(IntEnum):
-    """How a recovery ends, as one answer; rows of batches have a :class:`holdfast.Status`.
+class RecoveryOutcome(IntEnum):
+    """Outcome of a recovery as one answer; rows of batches have a :class:`holdfast.Status`.
 
-    Only ``HOME`` is success: all that was asked for, nothing dropped.
+    Only ``GOAL_REACHED`` is success: all that was asked for, nothing dropped.
     """
 
-    HOME = 0
-    HOME_WITH_ROWS_GIVEN_UP = 1
+    GOAL_REACHED = 0
+    GOAL_REACHED_WITH_RELAXED_ROWS = 1
     PATH_UNFINISHED = 2
     NO_ROUTE_FOUND = 3
     NOTHING_FOUND = 4
     PROVED_UNREACHABLE = 5
     START_OUTSIDE_LIMITS = 6
     START_TOO_CLOSE = 7
-    LOCK_ELSEWHERE = 8
-    START_BREAKS_ROWS = 9
+    LOCK_MISMATCH = 8
+    START_VIOLATES_CONSTRAINTS = 9
     PROVED_DISCONNECTED = 10
 
     @property
     def phrase(self) -> str:
-        """Its name in words."""
+        """Name of the outcome in words."""
         return self.name.lower().replace("_", " ")
 
     @property
     def sentence(self) -> str:
-        """What it means and what to try."""
-        return _SENTENCES[self]
+        """Meaning of the outcome and advice."""
+        return _OUTCOME_SENTENCES[self]
 
 
-_SENTENCES = {
-    Ending.HOME: "the whole goal is met, within limits, locks and clearance",
-    Ending.HOME_WITH_ROWS_GIVEN_UP: "the goal is NOT met as a whole: a motion was found to a configuration that gives rows up",
-    Ending.PATH_UNFINISHED: "the rest of the tool path is NOT finished; if a goal was given too, it is met",
-    Ending.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not prove that "
+_OUTCOME_SENTENCES = {
+    RecoveryOutcome.GOAL_REACHED: "the whole goal is met, within limits, locks and clearance",
+    RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS: "the goal is NOT met as a whole: a motion was found to a "
+    "configuration that gives rows up",
+    RecoveryOutcome.PATH_UNFINISHED: "the rest of the tool path is NOT finished; if a goal was given too, it is met",
+    RecoveryOutcome.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not "
+    "prove that "
     "there is none: give more tries",
-    Ending.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not prove that there "
+    RecoveryOutcome.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not "
+    "prove that there "
     "is none: give more starts",
-    Ending.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
-    Ending.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
-    Ending.START_TOO_CLOSE: "no motion: the arm, or what covers it, is already closer to itself or its cell than the clearance "
+    RecoveryOutcome.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
+    RecoveryOutcome.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
+    RecoveryOutcome.START_TOO_CLOSE: "no motion: the arm, or what covers it, is already closer to itself or its cell than "
+    "the clearance "
     "that must be kept",
-    Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
-    Ending.START_BREAKS_ROWS: "no motion: where the arm is breaks a row that must be kept all the way",
-    Ending.PROVED_DISCONNECTED: "configurations of the goal exist, and NO motion leads to any of them, which is PROVED",
+    RecoveryOutcome.LOCK_MISMATCH: "no motion: a joint is not where it is said to be locked",
+    RecoveryOutcome.START_VIOLATES_CONSTRAINTS: "no motion: where the arm is breaks a row that must be kept all the way",
+    RecoveryOutcome.PROVED_DISCONNECTED: "configurations of the goal exist, and NO motion leads to any of them, "
+    "which is PROVED",
 }
 
 
-_UNCERTIFIED = {  # why a proof has no certificate, by its kind
+_NO_CERTIFICATE_REASONS = {  # why a proof has no certificate, by its kind
     "": "nothing is proved to be out of reach",
     "start": "the proof is about where the arm is, which its file and its limits tell",
     "limits": "the goal names joints beyond what is left of their limits, which needs no proof",
@@ -142,7 +147,7 @@ class Leg:
 
 @dataclass(frozen=True, kw_only=True)
 class Recovery(Result):
-    """What an arm with joints known to be locked can still do; see :func:`holdfast.recover`.
+    """Remaining capabilities of an arm with joints known to be locked; see :func:`holdfast.recover`.
 
     Attributes:
         degraded: What is left of the arm: each locked joint with its value, reduced ranges and speeds.
@@ -153,17 +158,17 @@ class Recovery(Result):
         task: Whose rows the end effector must meet.
         within: Angle in rad by which the tool's z axis may be off that of the goal's pose, any turn about it allowed; None: the
             orientation counts as in ``task``.
-        ending: :class:`holdfast.recovery.Ending`.
+        ending: :class:`holdfast.recovery.RecoveryOutcome`.
         reason: What is in the way, a sentence; empty if nothing is.
         q: (K, n) waypoints, rad and m, joints moving in straight lines between them; (0, n) if there is no motion.
         timed: The same motion within accelerations, its corners rounded; None if none were given, or if there is no motion.
         legs: The parts of the motion, in order.
-        given_up: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
+        relaxed: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
         unknown: What is not known of the arm's shape, a sentence, where only a cover or an assumption is in the way of what was
             asked for; empty if nothing depends on that.
         proof: Why not everything that was asked for can be done, if that is proved; else None.
-        proof_kind: Of the proof; see :class:`holdfast.recovery.Verdict`.
+        proof_kind: Of the proof; see :class:`holdfast.recovery.RecoveryVerdict`.
         proved_pose: (4, 4) of the end effector, m, world: the pose of the tool path that is proved to have no configuration.
         closed_in: ``start`` or ``goal`` if what was searched from there along the rows kept could not grow any more.
         stopped: At which level the time limit was spent; empty if it was not.
@@ -189,13 +194,13 @@ class Recovery(Result):
     goal_pose: Array | None
     task: Task
     within: float | None = None
-    ending: Ending = Ending.HOME
+    ending: RecoveryOutcome = RecoveryOutcome.GOAL_REACHED
     reason: str = ""
     q: Array
     timed: TimedMotion | None = None
     legs: tuple[Leg, ...] = ()
-    given_up: RowsGivenUp | None = None
-    choices: tuple[RowsGivenUp, ...] = ()
+    relaxed: RelaxedRows | None = None
+    choices: tuple[RelaxedRows, ...] = ()
     unknown: str = ""
     proof: str | None = None
     proof_kind: ProofKind | Literal[""] = ""
@@ -203,7 +208,7 @@ class Recovery(Result):
     closed_in: Literal["", "start", "goal"] = ""
     stopped: str = ""
     verified: Verification | None = None
-    left: WhatIsLeft | None = None
+    left: RemainingWorkspace | None = None
     rest: RestOfPath | None = None
     starts: int
     found: int = 0
@@ -211,84 +216,88 @@ class Recovery(Result):
     unit: str
     clearance: Clearance | None
     margin: float
-    keep: tuple[Kept, ...] = ()
+    keep: tuple[ToolConstraint, ...] = ()
     tolerance: tuple[float, float] | None = None
     proved_within: bool = False
     seed: int
 
     @property
     def arm(self) -> Arm:
-        """The arm, healthy."""
+        """Healthy arm."""
         return self.degraded.arm
 
     @property
     def locked(self) -> dict[str, float]:
-        """Where each locked joint is, by name, rad or m."""
+        """Value of each locked joint by name, rad or m."""
         return {name: value for name, value in self.degraded.locked.items() if value is not None}
 
     @property
     def cell(self) -> Cell | None:
-        """The objects around the arm."""
+        """Objects around the arm."""
         return None if self.clearance is None else self.clearance.cell
 
     @property
     def ok(self) -> bool:
-        """True only if everything that was asked for is met, as other code found too."""
+        """True only if everything that was requested is met, confirmed by independent code."""
         return self.verdict.solved
 
     @property
-    def verdict(self) -> Verdict:
-        """Whether everything that was asked for can be done, and how that is known."""
-        if self.ending == Ending.HOME:
+    def verdict(self) -> RecoveryVerdict:
+        """Feasibility of everything that was requested, and its justification."""
+        if self.ending == RecoveryOutcome.GOAL_REACHED:
             if self.verified is None or self.verified.ok:
-                return Verdict("solved")
-            return Verdict("undecided", f"a motion was found, and {self.verified}; please report this")
+                return RecoveryVerdict("solved")
+            return RecoveryVerdict("undecided", f"a motion was found, and {self.verified}; please report this")
         if self.proof_kind and self.proof_kind != "start":
-            return Verdict("proved infeasible", f"{self.proof or ''}{self._within}", self.proof_kind)
+            return RecoveryVerdict("proved infeasible", f"{self.proof or ''}{self._tolerance_text}", self.proof_kind)
         if self.proof_kind == "start":
-            return Verdict("proved infeasible", self.reason, "start")
+            return RecoveryVerdict("proved infeasible", self.reason, "start")
         if self.unknown:
-            return Verdict("undecided", self.unknown)
+            return RecoveryVerdict("undecided", self.unknown)
         if self.closed_in:
-            there = "the goal" if self.closed_in == "start" else "the start"
-            return Verdict(
+            missing_end = "the goal" if self.closed_in == "start" else "the start"
+            return RecoveryVerdict(
                 "argued infeasible",
-                f"searched along the rows kept, what the {self.closed_in} is joined to grows no more, without {there}",
+                f"searched along the rows kept, what the {self.closed_in} is joined to grows no more, without {missing_end}",
             )
         if self.stopped:
-            return Verdict("undecided", f"the time limit was spent {self.stopped}")
-        if self.ending == Ending.NO_ROUTE_FOUND or (self.rest is not None and self.rest.cut_off):
-            return Verdict("undecided", "configurations were found, and the searches for a motion to them are spent")
+            return RecoveryVerdict("undecided", f"the time limit was spent {self.stopped}")
+        if self.ending == RecoveryOutcome.NO_ROUTE_FOUND or (self.rest is not None and self.rest.cut_off):
+            return RecoveryVerdict("undecided", "configurations were found, and the searches for a motion to them are spent")
         if self.rest is not None and not self.rest.finished:
-            return Verdict("argued infeasible", self.rest.why)
-        return Verdict("argued infeasible", self.reason)
+            return RecoveryVerdict("argued infeasible", self.rest.why)
+        return RecoveryVerdict("argued infeasible", self.reason)
 
     @property
-    def _within(self) -> str:
-        """What the proof says of what may be missed."""
+    def _tolerance_text(self) -> str:
+        """Tolerance for which the proof holds, as text."""
         if self.tolerance is None:
             return ""
-        by = f"{1e3 * self.tolerance[0]:.4g} mm and {np.rad2deg(self.tolerance[1]):.4g} deg"
-        return f"; so is what misses it by {by}" if self.proved_within else f"; not proved of what misses it by {by}"
+        tolerance_values = f"{1e3 * self.tolerance[0]:.4g} mm and {np.rad2deg(self.tolerance[1]):.4g} deg"
+        return (
+            f"; so is what misses it by {tolerance_values}"
+            if self.proved_within
+            else f"; not proved of what misses it by {tolerance_values}"
+        )
 
     def require_ok(self) -> Recovery:
-        """Itself, or :class:`holdfast.HoldfastError` with the reason if anything was dropped."""
+        """Return the recovery, or raise :class:`holdfast.HoldfastError` with the reason if anything was dropped."""
         if not self.ok:
             raise HoldfastError(f"recovery: {self.ending.sentence}{f' ({self.reason})' if self.reason else ''}")
         return self
 
     @property
     def length(self) -> float:
-        """Of the whole motion, in ``unit``; 0 if there is none."""
+        """Length of the whole motion, in ``unit``; 0 if there is none."""
         return sum(leg.length for leg in self.legs)
 
     @property
     def lower_bound(self) -> float:
-        """Sum of the legs' lower bounds, in ``unit``: between the ends that were chosen nothing is shorter."""
+        """Sum of the lower bounds of the legs, in ``unit``: no motion between the chosen ends is shorter."""
         return sum(leg.lower_bound for leg in self.legs)
 
     def certificate(self, *, time_limit: float | None = 60.0) -> Refutation:
-        """The proof that the goal has no configuration, as a certificate that the verifier checks: ``.write(file)``.
+        """Return the proof that the goal has no configuration, as a certificate for the verifier: ``.write(file)``.
 
         It is searched for anew, with the joints that are locked at equal limits. Proofs about boxes of joints and about the
         arm's length have one, of a goal and of a pose of a tool path; others say why they have none.
@@ -299,17 +308,19 @@ class Recovery(Result):
         Raises:
             InputError: A proof of another kind, or none, a goal of several poses, or nothing proved of the arm alone.
         """
-        from holdfast.recovery.proofs.refuted_poses import refuted_pose
+        from holdfast.recovery.proofs.refuted_poses import certify_unreachable_pose
 
         pose = self.proved_pose if self.proof_kind == "a pose of the path" else self.goal_pose
         if self.proof_kind not in ("reach bound", "boxes", "a pose of the path") or pose is None:
-            raise InputError(f"there is no certificate: {_UNCERTIFIED.get(self.proof_kind, _UNCERTIFIED['rows kept'])}")
+            raise InputError(
+                f"there is no certificate: {_NO_CERTIFICATE_REASONS.get(self.proof_kind, _NO_CERTIFICATE_REASONS['rows kept'])}"
+            )
         if self.proof_kind != "a pose of the path" and self.goal.startswith("any of"):
             raise InputError("a certificate is about one pose, and the goal is several; ask for each of them")
-        return refuted_pose(self.degraded, self.task, pose, time_limit)
+        return certify_unreachable_pose(self.degraded, self.task, pose, time_limit)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the waypoints, or the motion as it is timed; see :func:`holdfast.recovery.read_waypoints`.
+        """Write the waypoints, or the timed motion; see :func:`holdfast.recovery.read_waypoints`.
 
         Raises:
             StoreError: There is no motion, or the file cannot be written.
@@ -321,7 +332,7 @@ class Recovery(Result):
         return write_waypoints(self.degraded.limited, self.q, file)
 
     def check(self) -> WaypointCheck:
-        """Replay the waypoints in small steps, or the motion as it is timed; see :func:`holdfast.recovery.check_waypoints`.
+        """Replay the waypoints in small steps, or the timed motion; see :func:`holdfast.recovery.check_waypoints`.
 
         Raises:
             InputError: There is no motion.
@@ -339,29 +350,31 @@ class Recovery(Result):
         )
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the result in a few sentences."""
         lines = [
             f"{self.arm.title}, {self.degraded.describe()}; goal: {self.goal}",
-            f"{capitalised(self.ending.phrase)}: {self.ending.sentence}",
+            f"{capitalise_first(self.ending.phrase)}: {self.ending.sentence}",
             f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.solved and self.verified is not None else ""),
         ]
-        lines += [f"kept all the way: {kept}" for kept in self.keep]
+        lines += [f"kept all the way: {constraint}" for constraint in self.keep]
         if self.reason and self.reason != self.verdict.why:
             lines.append(self.reason)
-        if len(self.q) and isinstance(self.clearance, Sharper):
+        if len(self.q) and isinstance(self.clearance, ExactClearance):
             lines.append(f"by the bound this is not clear; it is by exact distances ({self.clearance.exact_by}), all the way")
-        if self.given_up is not None:
-            lines.append(f"given up: {self.given_up}")
-        others = [str(c) for c in self.choices if self.given_up is None or not set(c.names) <= set(self.given_up.names)]
-        if others:
-            lines.append("other sets of rows that could be given up: " + "; ".join(others[:6]))
+        if self.relaxed is not None:
+            lines.append(f"given up: {self.relaxed}")
+        other_options = [
+            str(option) for option in self.choices if self.relaxed is None or not set(option.names) <= set(self.relaxed.names)
+        ]
+        if other_options:
+            lines.append("other sets of rows that could be given up: " + "; ".join(other_options[:6]))
         for leg in self.legs:
             text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit}"
             if leg.name != "along the path":
                 kind = "a straight line" if leg.straight else "the shortest route found"
-                least = leg.length <= leg.lower_bound * (1 + 1e-9)
-                bound = "no route" if least else f"lower bound {leg.lower_bound:.4g} {self.unit}"
-                text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if least else ''})"
+                is_shortest = leg.length <= leg.lower_bound * (1 + 1e-9)
+                bound = "no route" if is_shortest else f"lower bound {leg.lower_bound:.4g} {self.unit}"
+                text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if is_shortest else ''})"
             lines.append(text)
         if self.timed is not None:
             lines.append(self.timed.describe())

@@ -1,4 +1,4 @@
-"""Which part of the workspace is left once joints are locked."""
+"""Remaining part of the workspace once joints are locked."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from holdfast.clearance.clearance import Clearance
 from holdfast.failures import Degraded
-from holdfast.notice import Count
-from holdfast.probability.intervals import Interval, Sums
+from holdfast.notice import ProgressCount
+from holdfast.probability.intervals import Interval, WeightSums
 from holdfast.recovery.rows import RowSolver
 from holdfast.regions.region import Region
 from holdfast.result import Result
@@ -18,12 +18,12 @@ from holdfast.result import Result
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-STARTS = 48  # per target
+STARTS_PER_TARGET = 48  # per target
 
 
 @dataclass(frozen=True, kw_only=True)
-class WhatIsLeft(Result):
-    """The share of targets that are still reached with joints locked.
+class RemainingWorkspace(Result):
+    """Fraction of targets that are still reached with joints locked.
 
     A target counts as left if a configuration is found in ``starts`` random starts, so the share is a lower bound.
 
@@ -52,7 +52,7 @@ class WhatIsLeft(Result):
     starts: int
 
     def describe(self) -> list[str]:
-        """One sentence for people."""
+        """Return the result in one sentence."""
         if self.left is None:
             return [
                 f"No configuration of the healthy arm was found for any of the {len(self.healthy):,} targets ({self.region})"
@@ -63,7 +63,7 @@ class WhatIsLeft(Result):
         ]
 
 
-def what_is_left(
+def remaining_workspace(
     solver: RowSolver,
     degraded: Degraded,
     clearance: Clearance | None,
@@ -71,8 +71,8 @@ def what_is_left(
     region: Region | None,
     samples: int,
     seed: int,
-) -> WhatIsLeft:
-    """Sample targets and see which are still reached.
+) -> RemainingWorkspace:
+    """Sample targets and count those that are still reached.
 
     Args:
         solver: Of the rows that count, within the limits in force.
@@ -83,94 +83,98 @@ def what_is_left(
         samples: How many.
         seed: Of the run.
     """
-    arm, free = degraded.arm, degraded.moves
-    failed, solver = solver, solver.within(arm)
-    at = np.where(free, 0.0, degraded.lo)
+    arm, is_free = degraded.arm, degraded.moves
+    failed_solver, solver = solver, solver.with_limits(arm)
+    q_locked = np.where(is_free, 0.0, degraded.lo)
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
     weights, heaviest = np.ones(samples), 0.0 if region is None else region.heaviest
     if region is None:
-        poses = arm.forward_kinematics(_healthy(solver, clearance, margin, samples, rng))
+        poses = arm.forward_kinematics(_sample_healthy(solver, clearance, margin, samples, rng))
         healthy, name = np.ones(len(poses), dtype=bool), "poses of random configurations"
         weights = weights[: len(poses)]
     else:
-        drawn = _drawn(region, samples, seed)
+        sampled_rows = _sample_region(region, samples, seed)
         if region.kind == "joints":
-            poses = arm.forward_kinematics(drawn)
+            poses = arm.forward_kinematics(sampled_rows)
         else:
-            poses, weights = region.poses(drawn), region.weights(drawn)
-        healthy = _reached(solver, poses, at, np.ones(arm.n, dtype=bool), clearance, margin, rng)
+            poses, weights = region.poses(sampled_rows), region.weights(sampled_rows)
+        healthy = _find_reached(solver, poses, q_locked, np.ones(arm.n, dtype=bool), clearance, margin, rng)
         name = region.name
     locked = healthy.copy()
-    locked[healthy] = _reached(failed, poses[healthy], at, free, clearance, margin, rng)
-    return WhatIsLeft(
-        left=_share(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
-        of_region=None if region is None else _share(weights, locked, heaviest),
-        healthy_of_region=None if region is None else _share(weights, healthy, heaviest),
+    locked[healthy] = _find_reached(failed_solver, poses[healthy], q_locked, is_free, clearance, margin, rng)
+    return RemainingWorkspace(
+        left=_estimate_fraction(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
+        of_region=None if region is None else _estimate_fraction(weights, locked, heaviest),
+        healthy_of_region=None if region is None else _estimate_fraction(weights, healthy, heaviest),
         region=name,
         degraded=degraded,
         rows=solver.rows.names,
         position=poses[:, :3, 3],
         healthy=healthy,
         locked=locked,
-        starts=STARTS,
+        starts=STARTS_PER_TARGET,
     )
 
 
-def _share(weights: Array, hits: Flags, heaviest: float) -> Interval:
+def _estimate_fraction(weights: Array, is_hit: Flags, heaviest: float) -> Interval:
     if (weights == weights[0]).all():
-        return Interval.of(int(hits.sum()), len(hits))
-    sums = Sums(largest=heaviest)
-    sums.add(weights)
-    share = min(float(weights[hits].sum() / sums.weight), 1.0)
-    return Interval.of_share(share, sums.effective)
+        return Interval.of(int(is_hit.sum()), len(is_hit))
+    weight_sums = WeightSums(largest=heaviest)
+    weight_sums.add(weights)
+    fraction = min(float(weights[is_hit].sum() / weight_sums.weight), 1.0)
+    return Interval.of_share(fraction, weight_sums.effective)
 
 
-def _healthy(solver: RowSolver, clearance: Clearance | None, margin: float, samples: int, rng: np.random.Generator) -> Array:
-    """Configurations of the healthy arm, clear ones if that is asked; fewer than ``samples`` if hardly any is."""
-    everything = np.ones(solver.arm.n, dtype=bool)
-    found = np.zeros((0, solver.arm.n))
+def _sample_healthy(
+    solver: RowSolver, clearance: Clearance | None, margin: float, samples: int, rng: np.random.Generator
+) -> Array:
+    """Sample configurations of the healthy arm, collision-free ones if requested; fewer than ``samples`` if hardly any is."""
+    all_joints = np.ones(solver.arm.n, dtype=bool)
+    configurations = np.zeros((0, solver.arm.n))
     for _ in range(20):
-        q = solver.starts(samples, np.zeros(solver.arm.n), everything, rng)
-        found = np.concatenate([found, q if clearance is None else q[clearance.room(q) >= margin]])
-        if len(found) >= samples:
+        q = solver.sample_configurations(samples, np.zeros(solver.arm.n), all_joints, rng)
+        configurations = np.concatenate([configurations, q if clearance is None else q[clearance.margin_left(q) >= margin]])
+        if len(configurations) >= samples:
             break
-    return found[:samples]
+    return configurations[:samples]
 
 
-def _drawn(region: Region, samples: int, seed: int) -> Array:
-    parts, count = [], 0
+def _sample_region(region: Region, samples: int, seed: int) -> Array:
+    blocks, count = [], 0
     for block in region.blocks(0, seed, count=samples):
-        parts.append(block.copy())
+        blocks.append(block.copy())
         count += len(block)
         if count >= samples:
             break
-    return np.concatenate(parts)[:samples]
+    return np.concatenate(blocks)[:samples]
 
 
-def _reached(
+def _find_reached(
     solver: RowSolver,
     poses: Array,
-    at: Array,
+    q_locked: Array,
     free: Flags,
     clearance: Clearance | None,
     margin: float,
     rng: np.random.Generator,
 ) -> Flags:
-    """(N,) True where one of the starts leads to a configuration of the pose that keeps limits and clearance."""
-    done = np.zeros(len(poses), dtype=bool)
-    used, wave = 0, 2
-    with Count("starts of each pose", STARTS, most=True) as tell:
-        while used < STARTS and not done.all():
-            left = np.flatnonzero(~done)
-            many = np.repeat(left, wave)
-            kept = np.ones((len(many), solver.rows.m))
-            q = solver.run(solver.starts(len(many), at, free, rng), poses[many], kept, free)
-            good = solver.meets(q, poses[many], kept, free)
+    """Return (N,) True where a random start leads to a configuration of the pose that respects limits and clearance."""
+    is_reached = np.zeros(len(poses), dtype=bool)
+    used_starts, batch_starts = 0, 2
+    with ProgressCount("starts of each pose", STARTS_PER_TARGET, most=True) as add_progress:
+        while used_starts < STARTS_PER_TARGET and not is_reached.all():
+            unreached = np.flatnonzero(~is_reached)
+            pose_indices = np.repeat(unreached, batch_starts)
+            row_masks = np.ones((len(pose_indices), solver.rows.m))
+            q = solver.solve(
+                solver.sample_configurations(len(pose_indices), q_locked, free, rng), poses[pose_indices], row_masks, free
+            )
+            is_valid = solver.meets_rows(q, poses[pose_indices], row_masks, free)
             if clearance is not None:
-                some = np.flatnonzero(good)
-                good[some] = clearance.room(q[some]) >= margin
-            done[many[good]] = True
-            used += wave
-            tell(wave)
-            wave = min(2 * wave, STARTS - used)
-    return done
+                indices = np.flatnonzero(is_valid)
+                is_valid[indices] = clearance.margin_left(q[indices]) >= margin
+            is_reached[pose_indices[is_valid]] = True
+            used_starts += batch_starts
+            add_progress(batch_starts)
+            batch_starts = min(2 * batch_starts, STARTS_PER_TARGET - used_starts)
+    return is_reached

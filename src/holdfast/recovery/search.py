@@ -1,4 +1,4 @@
-"""A joint is known to be locked: what the arm can still do, and a route home."""
+"""Find the remaining capabilities of an arm with a known locked joint, and a route to the goal."""
 
 from __future__ import annotations
 
@@ -10,33 +10,55 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.certainty import unknown_shape
-from holdfast.clearance.exact.sharper import sharpened
+from holdfast.clearance.exact.certainty import describe_unknown_shape
+from holdfast.clearance.exact.sharper import with_exact_distances
 from holdfast.errors import InputError
 from holdfast.failures import Locked, degraded_at
-from holdfast.keep.labels import KeepLike, all_kept
-from holdfast.notice import says
-from holdfast.recovery.completion import completed
-from holdfast.recovery.continuation import RestOfPath, along, continued, refined, rest_of_path, without_rows
-from holdfast.recovery.goals import configurations_of, rows_to_give_up, what_bars
-from holdfast.recovery.layers import shorter
-from holdfast.recovery.proofs.of_path import proved_of_path
-from holdfast.recovery.proofs.reach import ANY_ORIENTATION, Tolerance, every_clear, nothing_within, unreachable
-from holdfast.recovery.proofs.separation import separated
-from holdfast.recovery.question import SAME, Goal, broken_by, check_numbers, doubtful_contact, goal_of, task_of, trouble_of
-from holdfast.recovery.recovery import Ending, Leg, ProofKind, Recovery
-from holdfast.recovery.remainder import what_is_left
+from holdfast.keep.labels import KeepLike, anchor_constraints
+from holdfast.notice import reports_progress
+from holdfast.recovery.completion import complete_recovery
+from holdfast.recovery.continuation import (
+    RestOfPath,
+    add_motion,
+    continue_unfinished_path,
+    follow_rest_of_path,
+    refine_waypoints,
+    relax_fewest_rows,
+)
+from holdfast.recovery.goals import find_goal_configurations, find_rows_to_relax, name_blocking_pair
+from holdfast.recovery.layers import shorten_along_poses
+from holdfast.recovery.proofs.of_path import prove_path_infeasible
+from holdfast.recovery.proofs.reach import (
+    ANY_ORIENTATION,
+    Tolerance,
+    enumerate_collision_free,
+    prove_unreachable,
+    proves_no_solution,
+)
+from holdfast.recovery.proofs.separation import prove_separated
+from holdfast.recovery.question import (
+    LOCK_TOLERANCE,
+    RecoveryGoal,
+    check_numbers,
+    choose_task,
+    describe_doubtful_contact,
+    describe_goal_violation,
+    find_start_problem,
+    parse_goal,
+)
+from holdfast.recovery.recovery import Leg, ProofKind, Recovery, RecoveryOutcome
+from holdfast.recovery.remainder import remaining_workspace
 from holdfast.recovery.routes import Route, find_route
-from holdfast.recovery.rows import RowSolver, row_solver
-from holdfast.recovery.second_try import bolder
-from holdfast.recovery.space import Metric, MetricName, Space
-from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
+from holdfast.recovery.rows import RowSolver, make_row_solver
+from holdfast.recovery.second_try import retry_with_exact_distances
+from holdfast.recovery.space import FreeSpace, JointMetric, MetricName
+from holdfast.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
 from holdfast.regions.region import Region
 
 if TYPE_CHECKING:
@@ -46,8 +68,8 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
-@checked
-@says("planning the route")
+@check_arguments
+@reports_progress("planning the route")
 def recover(
     arm: Arm,
     locked: Locked,
@@ -73,7 +95,7 @@ def recover(
     period: float = 0.01,
     seed: int = 0,
 ) -> Recovery:
-    """Find a route home for an arm of which it is known what is locked or degraded, and say what it can still do.
+    """Find a route to the goal for an arm with known locked or degraded joints, and report what it can still do.
 
     The goal is first looked for as a whole: configurations that meet every row, within the limits, with the locks exactly where
     they are, and clear. The shortest motion found to any of them is returned. If none is found, sets of rows are given up,
@@ -130,268 +152,347 @@ def recover(
         raise InputError(f"at has shape {np.shape(at)}; give one configuration of {arm.n} numbers")
     counts = {"samples": (samples, 0), "starts": (starts, 1), "tries": (tries, 0), "seed": (seed, 0)}
     check_numbers(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin)
-    start = q[0]
-    degraded = degraded_at(arm, locked, start)
+    q_start = q[0]
+    degraded = degraded_at(arm, locked, q_start)
     if degraded is None:
         raise InputError(f"no joint is locked; name at least one, for example locked=['{arm.joint_names[0]}']")
     free, limited = degraded.moves, degraded.limited
     if not free.any():
         raise InputError(f"all {arm.n} joints of '{arm.name}' are locked, so nothing can move; leave one free")
-    most = None if accelerations is None else limits_by_joint(arm, accelerations, free)
-    kept = chosen_clearance(arm, clearance, cell)
-    if margin and kept is None:
+    max_accelerations = None if accelerations is None else parse_acceleration_limits(arm, accelerations, free)
+    clearance_model = chosen_clearance(arm, clearance, cell)
+    if margin and clearance_model is None:
         raise InputError("margin has nothing to keep: no clearance is looked at; give one")
-    length = Metric.of(limited, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
-    wanted = task_of(arm, task, path, within)
-    solver = row_solver(arm, wanted, within).within(limited)
-    made = Recovery(
+    length = JointMetric.for_arm(limited, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
+    task_rows = choose_task(arm, task, path, within)
+    solver = make_row_solver(arm, task_rows, within).with_limits(limited)
+    recovery = Recovery(
         degraded=degraded,
-        at=start,
+        at=q_start,
         goal="",
         goal_pose=None,
-        task=wanted,
+        task=task_rows,
         within=within,
         q=np.zeros((0, arm.n)),
         starts=starts,
         metric=metric,
         unit=length.unit,
-        clearance=kept,
+        clearance=clearance_model,
         margin=margin,
-        keep=all_kept(keep, arm.forward_kinematics(start)),
+        keep=anchor_constraints(keep, arm.forward_kinematics(q_start)),
         tolerance=None if tolerance is None else (float(tolerance[0]), float(tolerance[1])),
         seed=seed,
     )
-    standing = np.where(free, start, degraded.lo)
-    aim = goal_of(degraded, goal, within, task is not None, standing, sharpened(kept, margin) or kept, margin, path)
-    made = replace(
-        made, goal=aim.text if aim is not None else "the end of the tool path", goal_pose=None if aim is None else aim.poses[0]
+    standing = np.where(free, q_start, degraded.lo)
+    target = parse_goal(
+        degraded,
+        goal,
+        within,
+        task is not None,
+        standing,
+        with_exact_distances(clearance_model, margin) or clearance_model,
+        margin,
+        path,
+    )
+    recovery = replace(
+        recovery,
+        goal=target.description if target is not None else "the end of the tool path",
+        goal_pose=None if target is None else target.poses[0],
     )
     if samples:
-        made = replace(made, left=what_is_left(solver, degraded, kept, margin, region, samples, seed))
+        recovery = replace(recovery, left=remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed))
 
-    def attempt(kept: Clearance | None) -> Recovery:
-        asked = replace(made, clearance=kept)
-        trouble = trouble_of(degraded, start, kept, margin, made.keep)
+    def run_attempt(attempt_clearance: Clearance | None) -> Recovery:
+        request = replace(recovery, clearance=attempt_clearance)
+        trouble = find_start_problem(degraded, q_start, attempt_clearance, margin, recovery.keep)
         if trouble is not None:
-            known = {"proof_kind": "start"} if trouble.certain else {"unknown": trouble.reason}
-            return replace(asked, ending=trouble.ending, reason=trouble.reason, **known)  # type: ignore[arg-type]
-        around = np.stack([standing, *([] if aim is None or aim.q is None else [aim.q])])
-        space = Space(limited, free, kept, margin, around, keep=made.keep)
+            start_proof = {"proof_kind": "start"} if trouble.certain else {"unknown": trouble.reason}
+            return replace(request, ending=trouble.outcome, reason=trouble.reason, **start_proof)  # type: ignore[arg-type]
+        around = np.stack([standing, *([] if target is None or target.q is None else [target.q])])
+        space = FreeSpace(limited, free, attempt_clearance, margin, around, constraints=recovery.keep)
         if time_limit is not None:
             space.stop_after(time_limit - (monotonic() - began))
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
-        return _Search(asked, solver, space, length, tries, rng, pace=None if most is None else (most, period)).run(
-            standing, aim, path
-        )
+        return _RecoverySearch(
+            request,
+            solver,
+            space,
+            length,
+            tries,
+            rng,
+            timing_limits=None if max_accelerations is None else (max_accelerations, period),
+        ).run(standing, target, path)
 
     began = monotonic()
-    return bolder(attempt(kept), attempt)
+    return retry_with_exact_distances(run_attempt(clearance_model), run_attempt)
 
 
 # ---- the search ----------------------------------------------------------------------------------------------------------
 
 
-class _Search:
-    """One recovery, step by step."""
+class _RecoverySearch:
+    """State of one recovery, step by step."""
 
     def __init__(
         self,
-        made: Recovery,
+        recovery: Recovery,
         solver: RowSolver,
-        space: Space,
-        metric: Metric,
-        tries: int,
+        space: FreeSpace,
+        metric: JointMetric,
+        search_count: int,
         rng: np.random.Generator,
-        pace: tuple[Array, float] | None,
+        timing_limits: tuple[Array, float] | None,
     ) -> None:
-        self._pace = pace
-        self._few = max(1, tries // 4)  # of 385 searches that found a route in one of six, all did in the first
-        self.made, self.solver, self.space, self.metric, self.tries, self.rng = made, solver, space, metric, tries, rng
-        self._q: list[Array] = []
+        self._timing_limits = timing_limits
+        self._first_searches = max(
+            1, search_count // 4
+        )  # of 385 searches that found a route in one of six, all did in the first
+        self.recovery, self.solver, self.space, self.metric, self.search_count, self.rng = (
+            recovery,
+            solver,
+            space,
+            metric,
+            search_count,
+            rng,
+        )
+        self._motions: list[Array] = []
         self._legs: list[Leg] = []
-        self._stopped = ""
+        self._stopped_at = ""
 
-    def run(self, start: Array, aim: Goal | None, path: Path | None) -> Recovery:
-        here = start
+    def run(self, q_start: Array, target: RecoveryGoal | None, path: Path | None) -> Recovery:
+        q_current = q_start
         rest: RestOfPath | None = None
         if path is not None:
-            rest = self._finish(here, path)
-            here = self._q[-1][-1] if self._q else start
-            self.made = replace(self.made, rest=rest)
-        ended = self.made if aim is None else self._go(here, aim)
-        if rest is not None and ended.ending in (Ending.HOME, Ending.HOME_WITH_ROWS_GIVEN_UP) and not rest.finished:
-            lost = rest.given_up if len(rest.q) else None
-            if lost is None:
-                ended = replace(ended, ending=Ending.PATH_UNFINISHED)
+            rest = self._finish_path(q_current, path)
+            q_current = self._motions[-1][-1] if self._motions else q_start
+            self.recovery = replace(self.recovery, rest=rest)
+        recovery = self.recovery if target is None else self._move_to_goal(q_current, target)
+        if (
+            rest is not None
+            and recovery.ending in (RecoveryOutcome.GOAL_REACHED, RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS)
+            and not rest.finished
+        ):
+            path_relaxed = rest.given_up if len(rest.q) else None
+            if path_relaxed is None:
+                recovery = replace(recovery, ending=RecoveryOutcome.PATH_UNFINISHED)
             else:
-                both = lost if ended.given_up is None else lost + ended.given_up
-                ended = replace(ended, ending=Ending.HOME_WITH_ROWS_GIVEN_UP, given_up=both)
-        q = np.concatenate(self._q) if self._q else self.made.q
-        ended = replace(ended, q=q, legs=tuple(self._legs), stopped=self._stopped)
-        return completed(ended, self.space, self.solver.rows, aim, path, self._pace) if len(q) else ended
+                all_relaxed = path_relaxed if recovery.relaxed is None else path_relaxed + recovery.relaxed
+                recovery = replace(recovery, ending=RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS, relaxed=all_relaxed)
+        q = np.concatenate(self._motions) if self._motions else self.recovery.q
+        recovery = replace(recovery, q=q, legs=tuple(self._legs), stopped=self._stopped_at)
+        return (
+            complete_recovery(recovery, self.space, self.solver.rows, target, path, self._timing_limits) if len(q) else recovery
+        )
 
-    def _look(self, doing: str) -> None:
-        """The time limit may have been spent in what was just done."""
-        if self.space.spent and not self._stopped:
-            self._stopped = doing
+    def _note_time_over(self, step_name: str) -> None:
+        """Record the step during which the time limit was reached."""
+        if self.space.is_time_over and not self._stopped_at:
+            self._stopped_at = step_name
 
-    def _add(self, name: str, q: Array, lower_bound: float, straight: bool) -> None:
-        length = float(self.metric.along(q)[-1])
-        first = max(sum(len(x) for x in self._q) - 1, 0)
+    def _add_leg(self, name: str, q: Array, lower_bound: float, straight: bool) -> None:
+        length = float(self.metric.cumulative_length(q)[-1])
+        first = max(sum(len(motion) for motion in self._motions) - 1, 0)
         self._legs.append(
             Leg(name=name, first=first, last=first + len(q) - 1, length=length, lower_bound=lower_bound, straight=straight)
         )
-        self._q.append(q if not self._q else q[1:])
+        self._motions.append(q if not self._motions else q[1:])
 
-    def _finish(self, here: Array, path: Path) -> RestOfPath:
-        """Follow the path if that can be done; the first motion that can be reached, the shortest first."""
-        rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
-        self._look("following the tool path")
+    def _finish_path(self, q_current: Array, path: Path) -> RestOfPath:
+        """Follow the path if possible; return the first motion that can be reached, the shortest first."""
+        rest, motions = follow_rest_of_path(
+            self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
+        )
+        self._note_time_over("following the tool path")
         if not rest.finished:
-            rest, motions = self._continued(rest, path, here)
+            rest, motions = self._extend_path(rest, path, q_current)
         if not rest.finished:
-            self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
-            shape, lost = unknown_shape(self.space.clearance), rest.first_lost
-            first = path.pose(rest.share[:1] if lost is None else np.array([lost]))
-            if shape and (lost is None or what_bars(self.solver, self.space, first, here, self.made.seed)):
-                self.made = replace(self.made, unknown=f"{rest.why}; {shape}")
-            rest, motions = without_rows(rest, self.solver, self.space, path, here, self.rng)
-            self._look("looking for rows of the tool path to give up")
+            self.recovery = prove_path_infeasible(self.recovery, rest, path, solver=self.solver, space=self.space)
+            shape_doubt, first_lost = describe_unknown_shape(self.space.clearance), rest.first_lost
+            first_poses = path.pose(rest.share[:1] if first_lost is None else np.array([first_lost]))
+            if shape_doubt and (
+                first_lost is None or name_blocking_pair(self.solver, self.space, first_poses, q_current, self.recovery.seed)
+            ):
+                self.recovery = replace(self.recovery, unknown=f"{rest.why}; {shape_doubt}")
+            rest, motions = relax_fewest_rows(rest, self.solver, self.space, path, q_current, self.rng)
+            self._note_time_over("looking for rows of the tool path to give up")
         if not motions:
             return rest
-        reached = self._reach(here, path, rest, motions)
-        if not reached.cut_off or rest.given_up is not None:
-            return reached
-        rest, motions = self._continued(reached, path, here)
-        return self._reach(here, path, rest, motions) if motions else rest
+        joined_rest = self._join_path(q_current, path, rest, motions)
+        if not joined_rest.cut_off or rest.given_up is not None:
+            return joined_rest
+        rest, motions = self._extend_path(joined_rest, path, q_current)
+        return self._join_path(q_current, path, rest, motions) if motions else rest
 
-    def _continued(self, rest: RestOfPath, path: Path, here: Array) -> tuple[RestOfPath, list[Array]]:
-        """The same with the furthest place to which the arm can follow the path, and the motion if that is its end."""
-        return continued(rest, self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
+    def _extend_path(self, rest: RestOfPath, path: Path, q_current: Array) -> tuple[RestOfPath, list[Array]]:
+        """Extend the motion along the path as far as possible; also return the motion if it gets to the end."""
+        return continue_unfinished_path(
+            rest, self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
+        )
 
-    def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
-        """The first of the motions along the path that can be reached, and is near it all the way."""
-        route, proof = self._way(here, np.stack([m[0] for m in motions]), path.pose(rest.share[:1]))
-        self._look("looking for a route to the tool path")
+    def _join_path(self, q_current: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
+        """Join the first of the motions along the path that can be reached and is near the path everywhere."""
+        route, proof = self._find_route_or_proof(
+            q_current, np.stack([candidate[0] for candidate in motions]), path.pose(rest.share[:1])
+        )
+        self._note_time_over("looking for a route to the tool path")
         if route is None:
-            if proof is not None and not self.made.proof_kind:
-                why = f"at the beginning of the tool path: {proof[0]}"
-                self.made = replace(self.made, proof=why, proof_kind="disconnected", proved_within=proof[1])
-            return replace(rest, q=np.zeros((0, self.made.arm.n)), given_up=None, cut_off=True)
+            if proof is not None and not self.recovery.proof_kind:
+                reason = f"at the beginning of the tool path: {proof[0]}"
+                self.recovery = replace(self.recovery, proof=reason, proof_kind="disconnected", proved_within=proof[1])
+            return replace(rest, q=np.zeros((0, self.recovery.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
         if rest.graph:
-            motion = shorter(self.solver, self.space, self.metric, path.pose(rest.share), motion)
+            motion = shorten_along_poses(self.solver, self.space, self.metric, path.pose(rest.share), motion)
         if rest.given_up is None:
-            finer = refined(rest, self.solver, self.space, path, motion)
-            if finer is None and len(motions) > 1 and not self.space.spent:
-                return self._reach(here, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
-            rest, motion = finer or (along(rest, self.solver, path, motion), motion)
+            refinement = refine_waypoints(rest, self.solver, self.space, path, motion)
+            if refinement is None and len(motions) > 1 and not self.space.is_time_over:
+                return self._join_path(q_current, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
+            rest, motion = refinement or (add_motion(rest, self.solver, path, motion), motion)
         motion = motion + (route.q[-1] - motion[0])  # whole turns
-        if route.length > SAME:
-            self._add("to the path", route.q, route.lower_bound, route.straight)
+        if route.length > LOCK_TOLERANCE:
+            self._add_leg("to the path", route.q, route.lower_bound, route.straight)
         else:
-            motion[0] = here
-        self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
+            motion[0] = q_current
+        self._add_leg("along the path", motion, float(self.metric.measure_length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
-    def _route(self, here: Array, goals: Array, again: int = 0) -> Route | None:
-        tries, vain = (again, None) if again else (self.tries, self._few)
-        return find_route(self.space, self.metric, here, goals, tries, self.rng, vain=vain)
+    def _search_route(self, q_current: Array, goals: Array, repeat_count: int = 0) -> Route | None:
+        search_count, max_failures = (repeat_count, None) if repeat_count else (self.search_count, self._first_searches)
+        return find_route(self.space, self.metric, q_current, goals, search_count, self.rng, max_failures=max_failures)
 
-    def _way(
-        self, here: Array, goals: Array, poses: Array, q: Array | None = None
+    def _find_route_or_proof(
+        self, q_current: Array, goals: Array, poses: Array, q_goal: Array | None = None
     ) -> tuple[Route | None, tuple[str, bool] | None]:
-        """A route, or a proof that there is none; that is looked for after the first searches in vain, before the others."""
-        route = self._route(here, goals)
+        """Find a route, or a proof that there is none; the proof is tried after the first failed searches, before
+        the others.
+        """
+        route = self._search_route(q_current, goals)
         if route is not None:
             return route, None
-        proof = separated(self.made, self.solver.rows, self.space, start=here, known=goals, poses=poses, q=q)
-        if proof is None and self.space.manifold is None and self.tries > self._few:
-            route = self._route(here, goals, self.tries - self._few)
+        proof = prove_separated(
+            self.recovery, self.solver.rows, self.space, start=q_current, known_goals=goals, poses=poses, q_goal=q_goal
+        )
+        if proof is None and self.space.manifold is None and self.search_count > self._first_searches:
+            route = self._search_route(q_current, goals, self.search_count - self._first_searches)
         return route, proof
 
-    def _go(self, here: Array, aim: Goal) -> Recovery:
-        """To the goal, or as near as it gets."""
-        made = self.made
-        broken = [broken_by(made.keep, self.solver.rows if aim.q is None else None, pose) for pose in aim.poses]
-        if all(broken):
-            why = broken[0]
-            return replace(made, ending=Ending.PROVED_UNREACHABLE, proof=why, proof_kind="rows kept", reason=why)
-        seen = self.space.clearance
-        if aim.q is not None and seen is not None and float(seen.room(aim.q)) < made.margin:
-            why = f"at the goal {doubtful_contact(seen, aim.q, made.margin)}"
-            return replace(made, ending=Ending.NOTHING_FOUND, reason=why, unknown=why)
-        if aim.q is not None:
-            goals, owner = aim.q[None], np.zeros(1, dtype=np.int64)
+    def _move_to_goal(self, q_current: Array, target: RecoveryGoal) -> Recovery:
+        """Find a motion to the goal, or to a goal with relaxed rows."""
+        recovery = self.recovery
+        violations = [
+            describe_goal_violation(recovery.keep, self.solver.rows if target.q is None else None, pose)
+            for pose in target.poses
+        ]
+        if all(violations):
+            reason = violations[0]
+            return replace(
+                recovery, ending=RecoveryOutcome.PROVED_UNREACHABLE, proof=reason, proof_kind="rows kept", reason=reason
+            )
+        clearance = self.space.clearance
+        if target.q is not None and clearance is not None and float(clearance.margin_left(target.q)) < recovery.margin:
+            reason = f"at the goal {describe_doubtful_contact(clearance, target.q, recovery.margin)}"
+            return replace(recovery, ending=RecoveryOutcome.NOTHING_FOUND, reason=reason, unknown=reason)
+        if target.q is not None:
+            goals, pose_indices = target.q[None], np.zeros(1, dtype=np.int64)
         else:
-            each = [
-                configurations_of(self.solver, self.space, self.metric, pose, here, made.starts, self.rng) for pose in aim.poses
+            pose_configurations = [
+                find_goal_configurations(self.solver, self.space, self.metric, pose, q_current, recovery.starts, self.rng)
+                for pose in target.poses
             ]
-            goals, owner = np.concatenate(each), np.repeat(np.arange(len(each)), [len(x) for x in each])
-        none: list[str | None] = []
+            goals, pose_indices = (
+                np.concatenate(pose_configurations),
+                np.repeat(np.arange(len(pose_configurations)), [len(group) for group in pose_configurations]),
+            )
+        box_proofs: list[str | None] = []
         if not len(goals):
-            goals, owner, none = every_clear(made, self.solver, self.space, aim.poses)
-        self._look("looking for configurations of the goal")
-        made = replace(made, found=len(goals))
-        ending = Ending.HOME if aim.lost is None else Ending.HOME_WITH_ROWS_GIVEN_UP
+            goals, pose_indices, box_proofs = enumerate_collision_free(recovery, self.solver, self.space, target.poses)
+        self._note_time_over("looking for configurations of the goal")
+        recovery = replace(recovery, found=len(goals))
+        ending = (
+            RecoveryOutcome.GOAL_REACHED if target.mismatched_locks is None else RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS
+        )
         reasons = []
-        if aim.lost is not None:
-            names = " and ".join(aim.lost.names)
-            made = replace(made, given_up=aim.lost, proof=f"{names} cannot be where {aim.text} has it", proof_kind="limits")
-            reasons.append(f"{made.proof}; the end effector's pose there is aimed at")
+        if target.mismatched_locks is not None:
+            names = " and ".join(target.mismatched_locks.names)
+            recovery = replace(
+                recovery,
+                relaxed=target.mismatched_locks,
+                proof=f"{names} cannot be where {target.description} has it",
+                proof_kind="limits",
+            )
+            reasons.append(f"{recovery.proof}; the end effector's pose there is aimed at")
         if len(goals):
-            route, apart = self._way(here, goals, aim.poses, aim.q)
+            route, separation = self._find_route_or_proof(q_current, goals, target.poses, target.q)
             if route is not None:
-                self._add("to the goal", route.q, route.lower_bound, route.straight)
-                return replace(made, ending=ending, goal_pose=aim.poses[owner[route.goal]], reason="; ".join(reasons))
-            self._look("looking for a route to the goal")
-            counted = f"{self.tries} search{'es' * (self.tries != 1)}"
-            searches = "the searches" if self.space.spent or self.space.closed_in else counted
-            found = f"{len(goals)} configurations of the goal were found and {searches} led to none of them"
-            reasons.append(found + self.space.in_the_way(here, goals[0]))
-            if apart is not None and aim.lost is None:
-                made = replace(made, proof=apart[0], reason=apart[0], proved_within=apart[1], proof_kind="disconnected")
-                return replace(made, ending=Ending.PROVED_DISCONNECTED)
-            why, closed_in = "; ".join(reasons), self.space.closed_in if made.within is None else ""
-            unknown = f"configurations were found, but no motion to them; {shape}" if (shape := unknown_shape(seen)) else ""
-            ended = replace(made, given_up=None, reason=why, closed_in=closed_in, unknown=unknown)
-            return replace(ended, ending=Ending.NO_ROUTE_FOUND)
-        bounds = [unreachable(self.solver, self.space.free, here, pose) for pose in aim.poses]
-        proofs = [bound or box for bound, box in zip(bounds, none, strict=True)]
-        proof = None if None in proofs else f"{proofs[0]}{'' if made.within is None else ANY_ORIENTATION}"
-        pair = "" if proof else what_bars(self.solver, self.space, aim.poses, here, made.seed)
-        found = "no clear configuration" if pair else "no configuration"
-        bars = f"; what is most often in the way where it is met: {pair}" if pair else ""
-        reasons.append(proof or f"{found} of the goal was found in {made.starts} starts, which proves nothing{bars}")
+                self._add_leg("to the goal", route.q, route.lower_bound, route.straight)
+                return replace(
+                    recovery, ending=ending, goal_pose=target.poses[pose_indices[route.goal]], reason="; ".join(reasons)
+                )
+            self._note_time_over("looking for a route to the goal")
+            search_text = f"{self.search_count} search{'es' * (self.search_count != 1)}"
+            searches = "the searches" if self.space.is_time_over or self.space.closed_in else search_text
+            finding_text = f"{len(goals)} configurations of the goal were found and {searches} led to none of them"
+            reasons.append(finding_text + self.space.describe_obstruction(q_current, goals[0]))
+            if separation is not None and target.mismatched_locks is None:
+                recovery = replace(
+                    recovery, proof=separation[0], reason=separation[0], proved_within=separation[1], proof_kind="disconnected"
+                )
+                return replace(recovery, ending=RecoveryOutcome.PROVED_DISCONNECTED)
+            reason, closed_in = "; ".join(reasons), self.space.closed_in if recovery.within is None else ""
+            unknown = (
+                f"configurations were found, but no motion to them; {shape_doubt}"
+                if (shape_doubt := describe_unknown_shape(clearance))
+                else ""
+            )
+            failed = replace(recovery, relaxed=None, reason=reason, closed_in=closed_in, unknown=unknown)
+            return replace(failed, ending=RecoveryOutcome.NO_ROUTE_FOUND)
+        bounds = [prove_unreachable(self.solver, self.space.free, q_current, pose) for pose in target.poses]
+        proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(bounds, box_proofs, strict=True)]
+        proof = None if None in proofs else f"{proofs[0]}{'' if recovery.within is None else ANY_ORIENTATION}"
+        pair = "" if proof else name_blocking_pair(self.solver, self.space, target.poses, q_current, recovery.seed)
+        finding_text = "no clear configuration" if pair else "no configuration"
+        blocking_text = f"; what is most often in the way where it is met: {pair}" if pair else ""
+        reasons.append(
+            proof or f"{finding_text} of the goal was found in {recovery.starts} starts, which proves nothing{blocking_text}"
+        )
         if proof is not None:
             kind: ProofKind = "reach bound" if None not in bounds else "boxes"
-            within = made.tolerance is not None and all(
-                nothing_within(made.degraded, made.task, pose, self.space, made.tolerance) for pose in aim.poses
+            within = recovery.tolerance is not None and all(
+                proves_no_solution(recovery.degraded, recovery.task, pose, self.space, recovery.tolerance)
+                for pose in target.poses
             )
-            made = replace(made, proof=proof, proof_kind=kind, proved_within=within)
-        elif pair and (shape := unknown_shape(seen)):
-            made = replace(made, unknown=f"the goal is met where {pair} may be too close; {shape}")
-        elif made.within is not None:
-            made = replace(made, unknown=f"{reasons[-1]}; a proof would have to cover the whole cone, and there is none")
+            recovery = replace(recovery, proof=proof, proof_kind=kind, proved_within=within)
+        elif pair and (shape_doubt := describe_unknown_shape(clearance)):
+            recovery = replace(recovery, unknown=f"the goal is met where {pair} may be too close; {shape_doubt}")
+        elif recovery.within is not None:
+            recovery = replace(
+                recovery, unknown=f"{reasons[-1]}; a proof would have to cover the whole cone, and there is none"
+            )
         offers = [
             (choice, pose)
-            for pose in aim.poses
-            for choice in rows_to_give_up(self.solver, self.space, self.metric, pose, here, self.rng)
+            for pose in target.poses
+            for choice in find_rows_to_relax(self.solver, self.space, self.metric, pose, q_current, self.rng)
         ]
-        offers.sort(key=lambda offer: len(offer[0].rows.names))  # stable: of one pose they are in order
+        offers.sort(key=lambda offer: len(offer[0].relaxed_rows.names))  # stable: of one pose they are in order
         choices = [choice for choice, _ in offers]
-        self._look("looking for rows to give up")
+        self._note_time_over("looking for rows to give up")
         for choice, pose in offers:
-            route = self._route(here, choice.q)
+            route = self._search_route(q_current, choice.q)
             if route is not None:
-                self._add("to the goal", route.q, route.lower_bound, route.straight)
-                if not choice.rows.names:  # every row is met: what the search missed was found beside it
-                    return replace(made, ending=ending, goal_pose=pose, unknown="", reason="; ".join(reasons[:-1]))
-                rows = choice.rows if aim.lost is None else aim.lost + choice.rows
-                sets, ending, why = tuple(c.rows for c in choices), Ending.HOME_WITH_ROWS_GIVEN_UP, "; ".join(reasons)
-                return replace(made, goal_pose=pose, ending=ending, given_up=rows, choices=sets, reason=why)
-        nothing = Ending.PROVED_UNREACHABLE if proof else Ending.NOTHING_FOUND
+                self._add_leg("to the goal", route.q, route.lower_bound, route.straight)
+                if not choice.relaxed_rows.names:  # every row is met: what the search missed was found beside it
+                    return replace(recovery, ending=ending, goal_pose=pose, unknown="", reason="; ".join(reasons[:-1]))
+                relaxed = (
+                    choice.relaxed_rows if target.mismatched_locks is None else target.mismatched_locks + choice.relaxed_rows
+                )
+                relaxed_sets, ending, reason = (
+                    tuple(option.relaxed_rows for option in choices),
+                    RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS,
+                    "; ".join(reasons),
+                )
+                return replace(recovery, goal_pose=pose, ending=ending, relaxed=relaxed, choices=relaxed_sets, reason=reason)
+        failed_outcome = RecoveryOutcome.PROVED_UNREACHABLE if proof else RecoveryOutcome.NOTHING_FOUND
         if choices:
             reasons.append("rows could be given up, but no motion was found to a configuration without them")
-        everything = tuple(c.rows for c in choices if c.rows.names)
-        return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
+        nonempty_sets = tuple(option.relaxed_rows for option in choices if option.relaxed_rows.names)
+        return replace(recovery, ending=failed_outcome, relaxed=None, choices=nonempty_sets, reason="; ".join(reasons))

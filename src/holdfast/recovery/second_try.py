@@ -1,4 +1,4 @@
-"""A second try by exact distances where the bound of the clearance leaves no way: narrow gaps are passable only by them."""
+"""Repeat a search with exact distances where the conservative bound of the clearance leaves no route, as in narrow gaps."""
 
 from __future__ import annotations
 
@@ -6,40 +6,48 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.sharper import sharpened
-from holdfast.recovery.recovery import Ending, Recovery
+from holdfast.clearance.exact.sharper import with_exact_distances
+from holdfast.recovery.recovery import Recovery, RecoveryOutcome
 
-_IN_THE_WAY = (
-    Ending.HOME_WITH_ROWS_GIVEN_UP,
-    Ending.PATH_UNFINISHED,
-    Ending.NO_ROUTE_FOUND,
-    Ending.NOTHING_FOUND,
-    Ending.START_TOO_CLOSE,
+_RETRIED_OUTCOMES = (
+    RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS,
+    RecoveryOutcome.PATH_UNFINISHED,
+    RecoveryOutcome.NO_ROUTE_FOUND,
+    RecoveryOutcome.NOTHING_FOUND,
+    RecoveryOutcome.START_TOO_CLOSE,
 )
 
 
-def bolder(found: Recovery, again: Callable[[Clearance], Recovery]) -> Recovery:
-    """What was found by the bound, or what is found once more by exact distances where that is better.
+def retry_with_exact_distances(recovery: Recovery, search_again: Callable[[Clearance], Recovery]) -> Recovery:
+    """Return the recovery that was found, or that of a repeated search with exact distances where it is better.
 
     Not where the goal, or the tool path, is proved infeasible and a motion without some of its rows was found.
 
     Args:
-        found: By the bound.
-        again: The same search with another clearance.
+        recovery: By the bound.
+        search_again: The same search with another clearance.
     """
-    proved = found.proof_kind in ("reach bound", "boxes", "a pose of the path") and found.given_up is not None
-    settled = proved or found.proof_kind in ("start", "disconnected")
-    sharp = sharpened(found.clearance, found.margin) if found.ending in _IN_THE_WAY and not settled else None
-    if sharp is None:
-        return found
-    other = again(sharp)
-    if _lost(other) < _lost(found):
-        return other
-    return replace(found, reason=f"{found.reason}; nor is there more by exact distances ({sharp.exact_by})".lstrip("; "))
+    is_proved = recovery.proof_kind in ("reach bound", "boxes", "a pose of the path") and recovery.relaxed is not None
+    is_settled = is_proved or recovery.proof_kind in ("start", "disconnected")
+    exact_clearance = (
+        with_exact_distances(recovery.clearance, recovery.margin)
+        if recovery.ending in _RETRIED_OUTCOMES and not is_settled
+        else None
+    )
+    if exact_clearance is None:
+        return recovery
+    exact_recovery = search_again(exact_clearance)
+    if _rank_recovery(exact_recovery) < _rank_recovery(recovery):
+        return exact_recovery
+    return replace(
+        recovery, reason=f"{recovery.reason}; nor is there more by exact distances ({exact_clearance.exact_by})".lstrip("; ")
+    )
 
 
-def _lost(recovery: Recovery) -> tuple[float, int, float]:
-    """How much of what was asked for is not met: the ending, how many rows are given up, and how much of the path."""
-    rows, rest = recovery.given_up, recovery.rest
-    ending = Ending.NO_ROUTE_FOUND - 0.5 if recovery.ending == Ending.PROVED_DISCONNECTED else recovery.ending
-    return ending, 0 if rows is None else len(rows.names), 0.0 if rest is None else -rest.furthest
+def _rank_recovery(recovery: Recovery) -> tuple[float, int, float]:
+    """Return the unmet part of the request as a sort key: the outcome, the number of relaxed rows, and the missing path."""
+    relaxed, rest = recovery.relaxed, recovery.rest
+    outcome_rank = (
+        RecoveryOutcome.NO_ROUTE_FOUND - 0.5 if recovery.ending == RecoveryOutcome.PROVED_DISCONNECTED else recovery.ending
+    )
+    return outcome_rank, 0 if relaxed is None else len(relaxed.names), 0.0 if rest is None else -rest.furthest

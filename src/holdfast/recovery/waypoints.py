@@ -1,4 +1,4 @@
-"""Waypoints as CSV files, and a check that replays them through kinematics, limits and clearance.
+"""Waypoints as CSV files, and a check that replays them through kinematics, limits, and clearance.
 
 The first column is ``time_s`` (each straight piece at the velocity limit of its slowest joint, accelerations left aside) or,
 for an arm without velocity limits, ``travel_rad`` (length of the joints' motion so far, 1 m of a slide counted as 1 rad); the
@@ -16,36 +16,36 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import real_numbers
+from holdfast.arguments import require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.sharper import sharpened
+from holdfast.clearance.exact.sharper import with_exact_distances
 from holdfast.errors import InputError
 from holdfast.failures import Degraded, Locked, degraded_at
-from holdfast.files.output import writing
-from holdfast.files.spreadsheet import cell
-from holdfast.keep.labels import KeepLike, all_kept
+from holdfast.files.output import open_replacement
+from holdfast.files.spreadsheet import escape_cell
+from holdfast.keep.labels import KeepLike, anchor_constraints
 from holdfast.paths.joint_table import JointTable, joint_columns, motion_columns, read_joint_table
-from holdfast.recovery.timing.limits import AccelerationsLike, limits_by_joint
+from holdfast.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-FIRST = ("time_s", "travel_rad")
-_FINE = 2e-3  # rad and m between configurations looked at
-_CHUNK = 100_000
+FIRST_COLUMNS = ("time_s", "travel_rad")
+_MAX_JOINT_STEP = 2e-3  # rad and m between configurations looked at
+_CHUNK_ROWS = 100_000
 
 
-def parameter(arm: Arm, q: Array) -> tuple[str, Array]:
-    """Name and values (K,) of the first column for waypoints (K, n)."""
-    moved = np.abs(np.diff(q, axis=0))
-    speed = np.array([j.velocity for j in arm.joints])
-    moving = moved.max(axis=0, initial=0.0) > 0
-    if (np.isfinite(speed[moving]) & (speed[moving] > 0)).all():
-        steps = (moved[:, moving] / speed[moving]).max(axis=1, initial=0.0)
-        return FIRST[0], np.concatenate([[0.0], np.cumsum(steps)])[: len(q)]
-    return FIRST[1], np.concatenate([[0.0], np.cumsum(np.linalg.norm(moved, axis=1))])[: len(q)]
+def compute_first_column(arm: Arm, q: Array) -> tuple[str, Array]:
+    """Return the name and values (K,) of the first column for waypoints (K, n)."""
+    joint_steps = np.abs(np.diff(q, axis=0))
+    max_speeds = np.array([joint.velocity for joint in arm.joints])
+    moving = joint_steps.max(axis=0, initial=0.0) > 0
+    if (np.isfinite(max_speeds[moving]) & (max_speeds[moving] > 0)).all():
+        steps = (joint_steps[:, moving] / max_speeds[moving]).max(axis=1, initial=0.0)
+        return FIRST_COLUMNS[0], np.concatenate([[0.0], np.cumsum(steps)])[: len(q)]
+    return FIRST_COLUMNS[1], np.concatenate([[0.0], np.cumsum(np.linalg.norm(joint_steps, axis=1))])[: len(q)]
 
 
 def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
@@ -55,44 +55,49 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
         StoreError: The file cannot be written.
     """
     file = Path(path)
-    name, values = parameter(arm, q)
-    with writing(file, "waypoints") as stream:
+    column_name, values = compute_first_column(arm, q)
+    with open_replacement(file, "waypoints") as stream:
         writer = csv.writer(stream)
-        writer.writerow(map(cell, [name, *joint_columns(arm)]))
-        writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])
+        writer.writerow(map(escape_cell, [column_name, *joint_columns(arm)]))
+        writer.writerows([[repr(float(value)) for value in row] for row in np.column_stack([values, q])])
     return file
 
 
 def read_waypoints(arm: Arm, path: str | Path) -> Array:
-    """Waypoints (K, n), rad and m, that :func:`write_waypoints` wrote; of other columns none is needed.
+    """Read waypoints (K, n), rad and m, from a file of :func:`write_waypoints`; other columns are not needed.
 
     Raises:
         InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
     """
-    return _table(arm, path).numbers(joint_columns(arm))
+    return _read_table(arm, path).read_columns(joint_columns(arm))
 
 
 def read_times(arm: Arm, path: str | Path) -> Array | None:
-    """Times (K,) of such waypoints, s; None where the file has none.
+    """Read the times (K,) of such waypoints, s; None where the file has none.
 
     Raises:
         InputError: As for :func:`read_waypoints`.
     """
-    table = _table(arm, path)
-    return table.numbers(FIRST[:1])[:, 0] if FIRST[0] in table.head else None
+    table = _read_table(arm, path)
+    return table.read_columns(FIRST_COLUMNS[:1])[:, 0] if FIRST_COLUMNS[0] in table.header else None
 
 
-def _table(arm: Arm, path: str | Path) -> JointTable:
-    table, known = read_joint_table(arm, Path(path), "waypoints", FIRST[0]), motion_columns(arm)
-    odd = [name for name in table.head if name not in FIRST and not any(name in names for names in known)]
-    if odd:
-        raise InputError(f"{table.title}: column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *known[0]])}")
+def _read_table(arm: Arm, path: str | Path) -> JointTable:
+    table, known_columns = read_joint_table(arm, Path(path), "waypoints", FIRST_COLUMNS[0]), motion_columns(arm)
+    unknown_columns = [
+        name for name in table.header if name not in FIRST_COLUMNS and not any(name in names for names in known_columns)
+    ]
+    if unknown_columns:
+        raise InputError(
+            f"{table.title}: column '{unknown_columns[0]}' is not known; columns are "
+            f"{', '.join([FIRST_COLUMNS[0], *known_columns[0]])}"
+        )
     return table
 
 
 @dataclass(frozen=True, kw_only=True)
 class WaypointCheck(Result):
-    """What a motion through waypoints does, in small steps.
+    """Result of replaying a motion through waypoints in small steps.
 
     Attributes:
         q: (K, n) the waypoints, rad and m.
@@ -127,30 +132,30 @@ class WaypointCheck(Result):
 
     @property
     def ok(self) -> bool:
-        """True if limits, locks, rows, clearance, and speeds and accelerations where they were looked at, are kept."""
+        """True if limits, locks, constraints, clearance, and, where checked, speeds and accelerations are respected."""
         broken = self.beyond_limits or self.locks_moved or self.too_fast or self.too_hard or any(self.kept)
-        return self._clear and not broken
+        return self._is_collision_free and not broken
 
     @property
-    def _clear(self) -> bool:
+    def _is_collision_free(self) -> bool:
         return self.least_room is None or self.least_room >= self.margin
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the result in a few sentences."""
         lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
-        lines += [f"{name} leaves its limits by {miss:.4g}" for name, miss in self.beyond_limits.items()]
-        lines += [f"{name} should be locked and moves {miss:.4g} away" for name, miss in self.locks_moved.items()]
-        lines += [f"{name} is too fast: {rate:.4g} a second" for name, rate in self.too_fast.items()]
-        lines += [f"{name} accelerates by {rate:.4g} a second squared" for name, rate in self.too_hard.items()]
+        lines += [f"{name} leaves its limits by {excess:.4g}" for name, excess in self.beyond_limits.items()]
+        lines += [f"{name} should be locked and moves {excess:.4g} away" for name, excess in self.locks_moved.items()]
+        lines += [f"{name} is too fast: {excess_rate:.4g} a second" for name, excess_rate in self.too_fast.items()]
+        lines += [f"{name} accelerates by {excess_rate:.4g} a second squared" for name, excess_rate in self.too_hard.items()]
         lines += [f"the tool is {trouble}" for trouble in self.kept if trouble]
         if self.kept and not any(self.kept):
             lines.append("what is kept all the way is kept")
         if self.least_clearance is None:
             lines.append("clearance was not looked at")
         else:
-            where = f"{self.closest}, " if self.closest else ""
-            verdict = "kept" if self._clear else "NOT KEPT"
-            lines.append(f"least clearance {self.least_clearance:.4g} m ({where}margin {self.margin:g} m): {verdict}")
+            pair_text = f"{self.closest}, " if self.closest else ""
+            verdict = "kept" if self._is_collision_free else "NOT KEPT"
+            lines.append(f"least clearance {self.least_clearance:.4g} m ({pair_text}margin {self.margin:g} m): {verdict}")
         if not self.beyond_limits and not self.locks_moved:
             lines.append("limits and locks are kept")
         if self.paced and not self.too_fast and not self.too_hard:
@@ -170,7 +175,7 @@ def check_waypoints(
     time: ArrayLike | None = None,
     accelerations: AccelerationsLike | None = None,
 ) -> WaypointCheck:
-    """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by code that shares nothing with the planner.
+    """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, with code that is independent of the planner.
 
     Args:
         arm: The arm.
@@ -189,89 +194,97 @@ def check_waypoints(
         InputError: Invalid waypoints or times, an unknown joint, accelerations without times, or a cell that cannot be read or
             does not fit.
     """
-    a = np.atleast_2d(arm.check_configurations(q))
-    if not len(a) or not np.isfinite(a).all():
+    waypoints = np.atleast_2d(arm.check_configurations(q))
+    if not len(waypoints) or not np.isfinite(waypoints).all():
         raise InputError("waypoints must be one configuration or more of finite numbers")
-    fine = finely(a)
-    degraded = degraded_at(arm, locked, a[0])
+    fine_steps = subdivide_path(waypoints)
+    degraded = degraded_at(arm, locked, waypoints[0])
     limits = arm if degraded is None else degraded.limited
-    beyond = np.maximum(np.maximum(limits.lower - fine, fine - limits.upper).max(axis=0), 0.0)
-    locks = {} if degraded is None else degraded.locked
-    moved = {
-        name: float(np.abs(fine[:, arm.joint_index(name)] - value).max()) for name, value in locks.items() if value is not None
+    excesses = np.maximum(np.maximum(limits.lower - fine_steps, fine_steps - limits.upper).max(axis=0), 0.0)
+    locked_values = {} if degraded is None else degraded.locked
+    lock_errors = {
+        name: float(np.abs(fine_steps[:, arm.joint_index(name)] - value).max())
+        for name, value in locked_values.items()
+        if value is not None
     }
-    seen = chosen_clearance(arm, clearance, cell, looks=False)
-    least = room = None
+    checked_clearance = chosen_clearance(arm, clearance, cell, looks=False)
+    least_clearance = least_margin = None
     closest = ""
-    if seen is not None:
-        least, room, closest = _nearest(seen, fine)
-        sharp = sharpened(seen, margin) if room < margin else None
-        if sharp is not None:
-            least, room, closest = _nearest(sharp, fine)
-    poses = arm.forward_kinematics(a)
-    rows = all_kept(keep, poses[0])
-    too_fast, too_hard = _paced(arm, degraded, a, time, accelerations)
+    if checked_clearance is not None:
+        least_clearance, least_margin, closest = _find_closest(checked_clearance, fine_steps)
+        exact_clearance = with_exact_distances(checked_clearance, margin) if least_margin < margin else None
+        if exact_clearance is not None:
+            least_clearance, least_margin, closest = _find_closest(exact_clearance, fine_steps)
+    poses = arm.forward_kinematics(waypoints)
+    constraints = anchor_constraints(keep, poses[0])
+    too_fast, too_hard = _check_pace(arm, degraded, waypoints, time, accelerations)
     return WaypointCheck(
         too_fast=too_fast,
         too_hard=too_hard,
         paced="" if time is None else "speeds" if accelerations is None else "speeds and accelerations",
-        q=a,
+        q=waypoints,
         poses=poses,
-        kept=tuple(one.trouble(arm.forward_kinematics(fine)) for one in rows),
-        looked_at=len(fine),
-        beyond_limits={arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
-        locks_moved={name: miss for name, miss in moved.items() if miss > 1e-12},
-        least_clearance=least,
-        least_room=room,
+        kept=tuple(constraint.trouble(arm.forward_kinematics(fine_steps)) for constraint in constraints),
+        looked_at=len(fine_steps),
+        beyond_limits={
+            arm.joint_names[joint_index]: float(excesses[joint_index]) for joint_index in np.flatnonzero(excesses > 1e-12)
+        },
+        locks_moved={name: lock_error for name, lock_error in lock_errors.items() if lock_error > 1e-12},
+        least_clearance=least_clearance,
+        least_room=least_margin,
         closest=closest,
         margin=margin,
     )
 
 
-def _paced(
+def _check_pace(
     arm: Arm, degraded: Degraded | None, q: Array, time: ArrayLike | None, accelerations: AccelerationsLike | None
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Joints that are too fast and those that accelerate too hard, by name, with means that some instant has at least."""
+    """Return the joints that are too fast and those that accelerate too hard, by name, with means that some instant attains."""
     if time is None:
         if accelerations is not None:
             raise InputError("accelerations need times; give the time of each waypoint, or a file with a column time_s")
         return {}, {}
-    t = real_numbers(time, "time", "a number for each waypoint, s")
-    if t.shape != (len(q),) or not np.isfinite(t).all() or (np.diff(t) < 0).any():
+    times = require_real_numbers(time, "time", "a number for each waypoint, s")
+    if times.shape != (len(q),) or not np.isfinite(times).all() or (np.diff(times) < 0).any():
         raise InputError(f"time must be {len(q)} finite numbers that never fall, one for each waypoint, s")
-    step = np.maximum(np.diff(t), 1e-12)[:, None]
-    rates = np.diff(q, axis=0) / step
-    speed = np.array([j.velocity for j in (arm if degraded is None else degraded.limited).joints])
-    noise = 8 * np.finfo(float).eps * np.abs(q).max(initial=1.0)
-    fastest = (np.abs(rates) - noise / step).max(axis=0, initial=0.0)
-    known = np.isfinite(speed) & (speed > 0)
-    found = fastest > np.where(known, speed * (1 + 1e-9), np.inf)
-    too_fast = {arm.joint_names[k]: float(fastest[k]) for k in np.flatnonzero(found)}
+    time_steps = np.maximum(np.diff(times), 1e-12)[:, None]
+    rates = np.diff(q, axis=0) / time_steps
+    max_speeds = np.array([joint.velocity for joint in (arm if degraded is None else degraded.limited).joints])
+    rounding_error = 8 * np.finfo(float).eps * np.abs(q).max(initial=1.0)
+    peak_speeds = (np.abs(rates) - rounding_error / time_steps).max(axis=0, initial=0.0)
+    is_limited = np.isfinite(max_speeds) & (max_speeds > 0)
+    is_exceeded = peak_speeds > np.where(is_limited, max_speeds * (1 + 1e-9), np.inf)
+    too_fast = {arm.joint_names[joint_index]: float(peak_speeds[joint_index]) for joint_index in np.flatnonzero(is_exceeded)}
     if accelerations is None or len(q) < 2:
         return too_fast, {}
-    still = np.zeros((1, arm.n))
-    apart = np.concatenate([step[:1], step[:-1] + step[1:], step[-1:]]) / 2
-    change = np.diff(np.concatenate([still, rates, still]), axis=0) / apart
-    hardest = (np.abs(change) - 2 * noise / apart**2).max(axis=0)
-    most = limits_by_joint(arm, accelerations, np.ones(arm.n, dtype=bool) if degraded is None else degraded.moves)
-    found = hardest > np.where(most > 0, most * (1 + 1e-9), np.inf)
-    return too_fast, {arm.joint_names[k]: float(hardest[k]) for k in np.flatnonzero(found)}
+    standstill = np.zeros((1, arm.n))
+    instant_spacing = np.concatenate([time_steps[:1], time_steps[:-1] + time_steps[1:], time_steps[-1:]]) / 2
+    joint_accelerations = np.diff(np.concatenate([standstill, rates, standstill]), axis=0) / instant_spacing
+    peak_accelerations = (np.abs(joint_accelerations) - 2 * rounding_error / instant_spacing**2).max(axis=0)
+    max_accelerations = parse_acceleration_limits(
+        arm, accelerations, np.ones(arm.n, dtype=bool) if degraded is None else degraded.moves
+    )
+    is_exceeded = peak_accelerations > np.where(max_accelerations > 0, max_accelerations * (1 + 1e-9), np.inf)
+    return too_fast, {
+        arm.joint_names[joint_index]: float(peak_accelerations[joint_index]) for joint_index in np.flatnonzero(is_exceeded)
+    }
 
 
-def _nearest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
-    """The least clearance and room of configurations (N, n), m, and the pair with the least room."""
-    parts = [q[i : i + _CHUNK] for i in range(0, len(q), _CHUNK)]
-    rooms = np.concatenate([clearance.room(part) for part in parts])
-    k = int(clearance.closest_pair(q[rooms.argmin()]))
-    least = min(float(clearance(part).min()) for part in parts)
-    return least, float(rooms.min()), clearance.pair_names[k] if k >= 0 else ""
+def _find_closest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
+    """Return the least clearance and margin of configurations (N, n), m, and the pair with the least margin."""
+    parts = [q[first : first + _CHUNK_ROWS] for first in range(0, len(q), _CHUNK_ROWS)]
+    margins = np.concatenate([clearance.margin_left(part) for part in parts])
+    pair_index = int(clearance.closest_pair(q[margins.argmin()]))
+    least_clearance = min(float(clearance(part).min()) for part in parts)
+    return least_clearance, float(margins.min()), clearance.pair_names[pair_index] if pair_index >= 0 else ""
 
 
-def finely(q: Array) -> Array:
-    """Configurations along the way through q (K, n), at most 2 mrad or 2 mm of a joint apart, the waypoints among them."""
+def subdivide_path(q: Array) -> Array:
+    """Return configurations along the path through q (K, n), at most 2 mrad or 2 mm of a joint apart, with the waypoints."""
     parts = [q[:1]]
-    for a, b in pairwise(q):
-        count = max(int(np.ceil(float(np.abs(b - a).max()) / _FINE)), 1)
-        parts.append(a + (np.arange(1, count + 1) / count)[:, None] * (b - a))
-        parts[-1][-1] = b
+    for start, end in pairwise(q):
+        count = max(int(np.ceil(float(np.abs(end - start).max()) / _MAX_JOINT_STEP)), 1)
+        parts.append(start + (np.arange(1, count + 1) / count)[:, None] * (end - start))
+        parts[-1][-1] = end
     return np.concatenate(parts)

@@ -1,4 +1,4 @@
-"""Which poses matter: regions of the workspace, lists of poses and their weights."""
+"""Distributions of poses: regions of the workspace, and lists of poses with their weights."""
 
 from holdfast._lazy import offer
 

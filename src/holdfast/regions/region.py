@@ -1,4 +1,4 @@
-"""Regions: which poses matter, and how often."""
+"""Regions: which poses count in an assessment, and how often they are sampled."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.regions.pose_list import PoseList
 from holdfast.regions.weights import Density, check_weights, swap_angles
-from holdfast.result import Shown
+from holdfast.result import Presentable
 
 Array = NDArray[np.float64]
 Sampling = Literal["random", "sobol"]
@@ -25,12 +25,12 @@ Draw = Callable[[np.random.Generator, int], ArrayLike | tuple[ArrayLike, ArrayLi
 Weight = Callable[[Array], ArrayLike]
 Order = Literal["urdf", "abdi"]
 
-_POSE_BLOCK = 1024
-_JOINT_BLOCK = 16384
+_POSES_PER_BLOCK = 1024
+_CONFIGURATIONS_PER_BLOCK = 16384
 
 
 def rotation_from_rpy(rpy: ArrayLike) -> Array:
-    """Rotation matrices (..., 3, 3) from (roll, pitch, yaw), rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+    """Return rotation matrices (..., 3, 3) from (roll, pitch, yaw), rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
 
     This is the order of the paper's toolbox, *not* the one of URDF and ROS, ``Rz(yaw) Ry(pitch) Rx(roll)``: the two swap
     the names of the first and the last angle. Convert at the edge by reversing the three numbers.
@@ -43,7 +43,7 @@ def rotation_from_rpy(rpy: ArrayLike) -> Array:
 
 
 def rpy_from_rotation(rotation: ArrayLike) -> Array:
-    """One (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
+    """Return one (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
     from scipy.spatial.transform import Rotation
 
     with warnings.catch_warnings():
@@ -52,7 +52,7 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
 
 
 def rotations_in_cone(axis: Array, samples: Array) -> Array:
-    """Rotations (N, 3, 3) whose z axes are on a spherical cap.
+    """Return rotations (N, 3, 3) whose z axes are on a spherical cap.
 
     Args:
         axis: (3,) unit vector in the middle of the cap.
@@ -64,15 +64,15 @@ def rotations_in_cone(axis: Array, samples: Array) -> Array:
     angle = np.arccos(np.clip(samples[:, 0], -1.0, 1.0))
     tilted = Rotation.from_euler("ZYZ", np.column_stack([samples[:, 1], angle, samples[:, 2] - samples[:, 1]]))
     if axis[2] < -1 + 1e-12:  # half a turn about x: the formula below has no direction
-        onto = Rotation.from_quat([1.0, 0.0, 0.0, 0.0])
+        z_to_axis = Rotation.from_quat([1.0, 0.0, 0.0, 0.0])
     else:
-        onto = Rotation.from_quat([-axis[1], axis[0], 0.0, 1 + axis[2]])
-    return np.asarray((onto * tilted).as_matrix())
+        z_to_axis = Rotation.from_quat([-axis[1], axis[0], 0.0, 1 + axis[2]])
+    return np.asarray((z_to_axis * tilted).as_matrix())
 
 
 @dataclass(frozen=True)
-class Region(Shown):
-    """A distribution of poses (a box, a cone, a list, a function) or of configurations (a box in the joints).
+class Region(Presentable):
+    """Distribution of poses (a box, a cone, a list, a function) or of configurations (a box in joint space).
 
     Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its
     own seed,
@@ -102,7 +102,7 @@ class Region(Shown):
     axis: tuple[float, ...] = ()
 
     @classmethod
-    @checked
+    @check_arguments
     def box(
         cls,
         center: ArrayLike,
@@ -114,7 +114,7 @@ class Region(Shown):
         *,
         order: Order = "urdf",
     ) -> Region:
-        """Poses uniform in a box of positions and, independently, a box of angles; with weights if some count more.
+        """Return a region of poses uniform in a box of positions and, independently, a box of angles, with optional weights.
 
         Args:
             center: (3,) middle in the world, m.
@@ -137,33 +137,33 @@ class Region(Shown):
         if order not in ("urdf", "abdi"):
             raise InputError(f"region: order is {order!r}; use urdf or abdi")
         parts = []
-        for what, value, scalar in (
+        for label, value, scalar in (
             ("center", center, False),
             ("size", size, True),
             ("rpy_center", rpy_center, False),
             ("rpy_size", rpy_size, True),
         ):
             try:
-                a = np.asarray(value, dtype=np.float64)
+                array = np.asarray(value, dtype=np.float64)
             except (TypeError, ValueError):
-                a = np.zeros(0)
-            if scalar and a.ndim == 0:
-                a = np.full(3, float(a))
-            if a.shape != (3,) or not np.isfinite(a).all():
-                raise InputError(f"region: {what} is {value!r}; it must be 3 finite numbers")
-            if scalar and (a < 0).any():
-                raise InputError(f"region: {what} is {a.tolist()}; sizes must not be negative")
-            parts.append(a)
-        turn = slice(None, None, -1 if order == "urdf" else 1)
-        middle, edges = np.r_[parts[0], parts[2][turn]], np.r_[parts[1], parts[3][turn]]
+                array = np.zeros(0)
+            if scalar and array.ndim == 0:
+                array = np.full(3, float(array))
+            if array.shape != (3,) or not np.isfinite(array).all():
+                raise InputError(f"region: {label} is {value!r}; it must be 3 finite numbers")
+            if scalar and (array < 0).any():
+                raise InputError(f"region: {label} is {array.tolist()}; sizes must not be negative")
+            parts.append(array)
+        angle_order = slice(None, None, -1 if order == "urdf" else 1)
+        middle, edge_lengths = np.r_[parts[0], parts[2][angle_order]], np.r_[parts[1], parts[3][angle_order]]
         if weight is not None and not callable(weight):
             if not isinstance(weight, Mapping):
                 raise InputError("region: weight must be a function of samples (N, 6), or points by coordinate")
-            weight = Density.of(weight if order == "abdi" else swap_angles(weight))
-        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name=name, weight=weight)
+            weight = Density.from_points(weight if order == "abdi" else swap_angles(weight))
+        return cls("box", tuple(middle.tolist()), tuple(edge_lengths.tolist()), name=name, weight=weight)
 
     @classmethod
-    @checked
+    @check_arguments
     def cone(
         cls,
         center: ArrayLike,
@@ -174,7 +174,8 @@ class Region(Shown):
         name: str = "region",
         weight: Weight | Mapping[str, Sequence[Sequence[float]]] | None = None,
     ) -> Region:
-        """Poses uniform in a box of positions, with the tool's z axis uniform on a spherical cap, and any turn about it.
+        """Return a region of poses uniform in a box of positions, with the tool's z axis uniform on a spherical cap and any
+        rotation about it.
 
         Args:
             center: (3,) middle of the positions in the world, m.
@@ -189,19 +190,21 @@ class Region(Shown):
         """
         box = cls.box(center, size, name=name, weight=weight)
         try:
-            a = np.asarray(axis, dtype=np.float64)
+            direction = np.asarray(axis, dtype=np.float64)
         except (TypeError, ValueError):
-            a = np.zeros(0)
-        if a.shape != (3,) or not np.isfinite(a).all() or not np.linalg.norm(a) > 1e-9:
+            direction = np.zeros(0)
+        if direction.shape != (3,) or not np.isfinite(direction).all() or not np.linalg.norm(direction) > 1e-9:
             raise InputError(f"region: axis of the cone is {axis!r}; it must be 3 finite numbers, not all 0")
         if not (np.isfinite(within) and 0 <= within <= np.pi):
             raise InputError(f"region: within is {np.rad2deg(within):g} degrees; it must be between 0 and 180")
-        if isinstance(box.weight, Density) and (unknown := {n for n, _ in box.weight.pieces} - {"x", "y", "z"}):
+        if isinstance(box.weight, Density) and (
+            unknown := {coordinate for coordinate, _ in box.weight.pieces} - {"x", "y", "z"}
+        ):
             raise InputError(f"region: density of {min(unknown)} does not go with a cone; use x, y, z")
         lowest = float(np.cos(within))
-        middle, edges = (*box.center[:3], (1 + lowest) / 2, 0.0, 0.0), (*box.size[:3], 1 - lowest, 2 * np.pi, 2 * np.pi)
-        unit = tuple((a / np.linalg.norm(a)).tolist())
-        return cls("cone", middle, edges, name=name, weight=box.weight, axis=unit)
+        middle, edge_lengths = (*box.center[:3], (1 + lowest) / 2, 0.0, 0.0), (*box.size[:3], 1 - lowest, 2 * np.pi, 2 * np.pi)
+        unit = tuple((direction / np.linalg.norm(direction)).tolist())
+        return cls("cone", middle, edge_lengths, name=name, weight=box.weight, axis=unit)
 
     @property
     def within(self) -> float:
@@ -209,9 +212,9 @@ class Region(Shown):
         return float(np.arccos(np.clip(1 - self.size[3], -1.0, 1.0)))
 
     @classmethod
-    @checked
+    @check_arguments
     def from_poses(cls, poses: ArrayLike, weights: ArrayLike | None = None, name: str = "list of poses") -> Region:
-        """A list of poses: a recorded job, waypoints.
+        """Return the region of a list of poses, for example a recorded job or waypoints.
 
         An assessment of as many poses as the list has (which is what it does if not told how many) uses each once, in
         order and with its weight. Any other number is drawn from the list at random, with replacement and in proportion to
@@ -225,11 +228,11 @@ class Region(Shown):
         Raises:
             InputError: Poses that are not transforms, not finite or none, or weights that are not one per pose.
         """
-        return cls("poses", (), (), name=name, listed=PoseList.of(poses, weights))
+        return cls("poses", (), (), name=name, listed=PoseList.from_matrices(poses, weights))
 
     @classmethod
     def sampler(cls, draw: Draw, name: str = "own sampler") -> Region:
-        """Poses drawn by a function of your own; a results folder cannot hold it.
+        """Return a region of poses that a custom function samples; a results folder cannot hold it.
 
         Args:
             draw: ``draw(generator, count)`` gives poses (count, 4, 4) in the world, m, or a pair of poses and weights
@@ -242,36 +245,48 @@ class Region(Shown):
         """
         if not callable(draw):
             raise InputError("region: a sampler must be a function draw(generator, count)")
-        found = draw(np.random.default_rng(0), 2)
-        region = cls("sampler", (), (), name=name, draw=(draw, isinstance(found, tuple)))
-        region._checked(found, 2)
+        sampled = draw(np.random.default_rng(0), 2)
+        region = cls("sampler", (), (), name=name, draw=(draw, isinstance(sampled, tuple)))
+        region._check_sampled(sampled, 2)
         return region
 
     @classmethod
-    @checked
+    @check_arguments
     def joints(cls, lower: ArrayLike, upper: ArrayLike, name: str = "joint range") -> Region:
-        """Configurations uniform between (n,) lower and upper joint values, rad and m: no inverse kinematics.
+        """Return a region of configurations uniform between (n,) lower and upper joint values, rad and m, without inverse
+        kinematics.
 
         Raises:
             InputError: Limits that are infinite, reversed or of different length.
         """
         try:
-            low, high = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
+            lower_values, upper_values = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InputError("region of joints: lower and upper must be lists of numbers") from error
-        if low.ndim != 1 or low.shape != high.shape:
-            raise InputError(f"region of joints: lower has shape {low.shape} and upper {high.shape}; both must be (n,)")
-        if not (np.isfinite(low).all() and np.isfinite(high).all()):
+        if lower_values.ndim != 1 or lower_values.shape != upper_values.shape:
+            raise InputError(
+                f"region of joints: lower has shape {lower_values.shape} and upper {upper_values.shape}; both must be (n,)"
+            )
+        if not (np.isfinite(lower_values).all() and np.isfinite(upper_values).all()):
             raise InputError("region of joints: a limit is infinite; give finite ranges, for example -pi to pi")
-        if (low > high).any():
-            k = int(np.flatnonzero(low > high)[0])
-            raise InputError(f"region of joints: lower {low[k]:g} of joint {k + 1} is above upper {high[k]:g}; swap them")
-        return cls("joints", tuple(((low + high) / 2).tolist()), tuple((high - low).tolist()), name=name)
+        if (lower_values > upper_values).any():
+            index = int(np.flatnonzero(lower_values > upper_values)[0])
+            raise InputError(
+                f"region of joints: lower {lower_values[index]:g} of joint {index + 1} is above upper "
+                f"{upper_values[index]:g}; swap them"
+            )
+        return cls(
+            "joints",
+            tuple(((lower_values + upper_values) / 2).tolist()),
+            tuple((upper_values - lower_values).tolist()),
+            name=name,
+        )
 
     @classmethod
-    @checked
+    @check_arguments
     def around(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
-        """The region where none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
+        """Return the default region: a cube about the tool at ``q``, with edges that are the fraction ``share`` of the arm's
+        reach.
 
         Angles range 90 degrees about the pose at ``q``; for an arm that moves in a plane, positions stay in that plane and
         the angle is free. ``q``, if not given, is the configuration farthest from a singularity of 256 in the middle halves
@@ -279,9 +294,11 @@ class Region(Shown):
         """
         from holdfast.arm.task import plane_normal
 
-        reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
+        reach = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:]) + float(
+            np.linalg.norm(arm.tool[:3, 3])
+        )
         reach = max(reach, 1e-3)
-        home = _far_from_singular(arm, reach) if q is None else arm.check_configurations(q)
+        home = _well_conditioned_configuration(arm, reach) if q is None else arm.check_configurations(q)
         if home.ndim != 1 or not np.isfinite(home).all():
             raise InputError(f"q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
         pose = arm.forward_kinematics(home)
@@ -289,25 +306,25 @@ class Region(Shown):
         angles = rpy_from_rotation(pose[:3, :3])
         normal = plane_normal(arm)
         if normal is not None and abs(normal[2]) > 1 - 1e-9:
-            turns = [2 * np.pi, 0.0, 0.0]
-            return cls.box(pose[:3, 3], [edge, edge, 0.0], angles, turns, name="default region", order="abdi")
+            angle_ranges = [2 * np.pi, 0.0, 0.0]
+            return cls.box(pose[:3, 3], [edge, edge, 0.0], angles, angle_ranges, name="default region", order="abdi")
         return cls.box(pose[:3, 3], edge, angles, np.pi / 2, name="default region", order="abdi")
 
     # ---- sampling --------------------------------------------------------------------------------------------------
 
     @property
     def block(self) -> int:
-        """Samples per block: the unit that has its own seed."""
-        return _JOINT_BLOCK if self.kind == "joints" else _POSE_BLOCK
+        """Number of samples per block, the unit that has its own seed."""
+        return _CONFIGURATIONS_PER_BLOCK if self.kind == "joints" else _POSES_PER_BLOCK
 
     def weighted(self, count: int) -> bool:
-        """True if ``count`` samples carry weights: those drawn from a list in proportion to its weights do not."""
+        """Return whether ``count`` samples carry weights; samples drawn from a list in proportion to its weights carry none."""
         if self.listed is not None:
             return self.listed.weights is not None and count == len(self.listed)
         return self.weight is not None or (self.draw is not None and self.draw[1])
 
     def blocks(self, first: int, seed: int, sampling: Sampling = "random", *, count: int | None = None) -> Iterator[Array]:
-        """Blocks of samples, in order, from block number ``first`` on.
+        """Yield blocks of samples, in order, from block number ``first`` on.
 
         A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), of a sampler the first
         three rows of the pose and its weight (13,).
@@ -319,21 +336,22 @@ class Region(Shown):
             count: Samples asked for in all; matters for a list only, see :meth:`from_poses`.
         """
         if self.draw is not None:
-            yield from self._drawn(first, seed)
+            yield from self._sampler_blocks(first, seed)
         elif self.listed is not None and count == len(self.listed):
             for start in range(first * self.block, count, self.block):
                 yield np.arange(start, min(start + self.block, count), dtype=np.float64)[:, None]
         elif self.listed is not None:
-            for unit in self._unit(first, seed, sampling, 1):
-                yield self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
+            for unit in self._uniform_blocks(first, seed, sampling, 1):
+                yield self.listed.sample_indices(unit[:, 0])[:, None].astype(np.float64)
         else:
-            for unit in self._unit(first, seed, sampling, len(self.center)):
-                yield self._placed(unit)
+            for unit in self._uniform_blocks(first, seed, sampling, len(self.center)):
+                yield self._scale_to_box(unit)
 
     def samples(
         self, start: int, stop: int, block: int, *, seed: int, sampling: Sampling, count: int, out: Array | None = None
     ) -> Array:
-        """Samples ``start`` up to ``stop`` of ``count``, at most a block of them, from the random numbers of one block.
+        """Return samples ``start`` up to ``stop`` of ``count``, at most one block of them, from the random numbers of one
+        block.
 
         Of a box also more of them, from those of the blocks after it.
 
@@ -352,39 +370,39 @@ class Region(Shown):
         if self.listed is not None and count == len(self.listed):
             return np.arange(start, stop, dtype=np.float64)[:, None]
         if self.listed is None and self.draw is None:
-            return self._of_box(
+            return self._sample_box(
                 np.empty((stop - start, len(self.center))) if out is None else out, start, block, seed, sampling
             )
         if sampling == "random":
             return next(self.blocks(block, seed, sampling, count=count))[: stop - start]
         assert self.listed is not None
-        unit = self._sobol(seed, 1, start).random(stop - start)
-        return self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
+        unit = self._sobol_engine(seed, 1, start).random(stop - start)
+        return self.listed.sample_indices(unit[:, 0])[:, None].astype(np.float64)
 
-    def _of_box(self, out: Array, start: int, block: int, seed: int, sampling: Sampling) -> Array:
-        """Write samples of a box from number ``start`` on, which is in a block, into ``out`` (N, w)."""
+    def _sample_box(self, out: Array, start: int, block: int, seed: int, sampling: Sampling) -> Array:
+        """Write samples of a box from number ``start`` on, which lies in ``block``, into ``out`` (N, w)."""
         if sampling == "sobol":
-            out[:] = self._placed(self._sobol(seed, out.shape[1], start).random(len(out)))
+            out[:] = self._scale_to_box(self._sobol_engine(seed, out.shape[1], start).random(len(out)))
             return out
-        for k in range(0, len(out), self.block):
-            part = out[k : k + self.block]
-            self._generator(seed, block + k // self.block).random(out=part)
-            self._placed(part)
+        for offset in range(0, len(out), self.block):
+            part = out[offset : offset + self.block]
+            self._block_generator(seed, block + offset // self.block).random(out=part)
+            self._scale_to_box(part)
         return out
 
-    def _placed(self, unit: Array) -> Array:
-        """Samples of a box from points (N, w) of the unit cube, which they replace if it is contiguous."""
-        size, low = np.array(self.size), np.array(self.center) - np.array(self.size) / 2
+    def _scale_to_box(self, unit: Array) -> Array:
+        """Return samples of a box from points (N, w) of the unit cube, which they overwrite if it is contiguous."""
+        size, lower = np.array(self.size), np.array(self.center) - np.array(self.size) / 2
         # Many samples side by side: numpy is half as fast on rows of a few numbers.
-        side = math.gcd(len(unit), 64)
-        many = unit.reshape(-1, side * unit.shape[1])
-        many *= np.tile(size, side)
-        many += np.tile(low, side)
-        return many.reshape(unit.shape)
+        group = math.gcd(len(unit), 64)
+        grouped = unit.reshape(-1, group * unit.shape[1])
+        grouped *= np.tile(size, group)
+        grouped += np.tile(lower, group)
+        return grouped.reshape(unit.shape)
 
     @staticmethod
-    def _sobol(seed: int, width: int, start: int) -> Any:
-        """Scrambled low-discrepancy points (width,) from number ``start`` on."""
+    def _sobol_engine(seed: int, width: int, start: int) -> Any:
+        """Return the generator of scrambled low-discrepancy points (width,) from number ``start`` on."""
         from scipy.stats import qmc
 
         engine = qmc.Sobol(width, scramble=True, rng=np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))))
@@ -392,61 +410,61 @@ class Region(Shown):
             engine.fast_forward(start)
         return engine
 
-    def _unit(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[Array]:
-        """Blocks (block, width) uniform in the unit cube."""
-        engine = self._sobol(seed, width, number * self.block) if sampling == "sobol" else None
+    def _uniform_blocks(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[Array]:
+        """Yield blocks (block, width) of points uniform in the unit cube."""
+        engine = self._sobol_engine(seed, width, number * self.block) if sampling == "sobol" else None
         while True:
             if engine is not None:
                 yield engine.random(self.block)
             else:
-                yield self._generator(seed, number).random((self.block, width))
+                yield self._block_generator(seed, number).random((self.block, width))
             number += 1
 
-    def _drawn(self, number: int, seed: int) -> Iterator[Array]:
+    def _sampler_blocks(self, number: int, seed: int) -> Iterator[Array]:
         assert self.draw is not None
         while True:
-            yield self._checked(self.draw[0](self._generator(seed, number), self.block), self.block)
+            yield self._check_sampled(self.draw[0](self._block_generator(seed, number), self.block), self.block)
             number += 1
 
     @staticmethod
-    def _generator(seed: int, number: int) -> np.random.Generator:
+    def _block_generator(seed: int, number: int) -> np.random.Generator:
         return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
 
-    def _checked(self, found: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> Array:
-        """What a sampler drew as samples (count, 13)."""
+    def _check_sampled(self, sampled: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> Array:
+        """Return the poses of a sampler as samples (count, 13)."""
         from holdfast.arm.poses import check_poses
 
         assert self.draw is not None
-        what = f"region '{self.name}': its sampler"
-        if isinstance(found, tuple) != self.draw[1] or (isinstance(found, tuple) and len(found) != 2):
-            raise InputError(f"{what} must give poses, or always a pair of poses and weights")
-        poses, weights = found if isinstance(found, tuple) else (found, np.ones(count))
+        label = f"region '{self.name}': its sampler"
+        if isinstance(sampled, tuple) != self.draw[1] or (isinstance(sampled, tuple) and len(sampled) != 2):
+            raise InputError(f"{label} must give poses, or always a pair of poses and weights")
+        poses, weights = sampled if isinstance(sampled, tuple) else (sampled, np.ones(count))
         try:
-            t = check_poses(poses)
+            matrices = check_poses(poses)
         except (InputError, TypeError, ValueError) as error:
-            raise InputError(f"{what}: {error}") from error
-        if t.shape[0] != count or not np.isfinite(t).all():
-            raise InputError(f"{what} gave {len(t)} poses, asked were {count} of finite numbers")
-        return np.concatenate([t[:, :3].reshape(count, 12), check_weights(weights, count, what)[:, None]], axis=1)
+            raise InputError(f"{label}: {error}") from error
+        if matrices.shape[0] != count or not np.isfinite(matrices).all():
+            raise InputError(f"{label} gave {len(matrices)} poses, asked were {count} of finite numbers")
+        return np.concatenate([matrices[:, :3].reshape(count, 12), check_weights(weights, count, label)[:, None]], axis=1)
 
     def poses(self, samples: Array) -> Array:
-        """Poses (N, 4, 4) of samples (N, 6) of a box, (N, 1) of a list or (N, 13) of a sampler."""
+        """Return the poses (N, 4, 4) of samples (N, 6) of a box, (N, 1) of a list, or (N, 13) of a sampler."""
         if self.listed is not None:
-            return self.listed.poses(samples[:, 0].astype(np.int64))
-        t = np.zeros((len(samples), 4, 4))
-        t[:, 3, 3] = 1.0
+            return self.listed.pose_matrices(samples[:, 0].astype(np.int64))
+        matrices = np.zeros((len(samples), 4, 4))
+        matrices[:, 3, 3] = 1.0
         if self.draw is not None:
-            t[:, :3] = samples[:, :12].reshape(-1, 3, 4)
-            return t
-        t[:, :3, 3] = samples[:, :3]
+            matrices[:, :3] = samples[:, :12].reshape(-1, 3, 4)
+            return matrices
+        matrices[:, :3, 3] = samples[:, :3]
         if self.kind == "cone":
-            t[:, :3, :3] = rotations_in_cone(np.array(self.axis), samples[:, 3:])
+            matrices[:, :3, :3] = rotations_in_cone(np.array(self.axis), samples[:, 3:])
         else:
-            t[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
-        return t
+            matrices[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
+        return matrices
 
     def weights(self, samples: Array) -> Array:
-        """Weights (N,) of samples, 1 where none are given."""
+        """Return the weights (N,) of samples, 1 where none are given."""
         if self.listed is not None and self.listed.weights is not None:
             return self.listed.weights[samples[:, 0].astype(np.int64)]
         if self.draw is not None:
@@ -457,7 +475,7 @@ class Region(Shown):
 
     @property
     def heaviest(self) -> float:
-        """The largest weight that a sample can have; 0 where only a function of your own knows."""
+        """Largest weight that a sample can have; 0 where only a custom function determines it."""
         if self.listed is not None and self.listed.weights is not None:
             return float(self.listed.weights.max())
         return self.weight.heaviest if isinstance(self.weight, Density) else 0.0
@@ -466,25 +484,25 @@ class Region(Shown):
 
     @property
     def storable(self) -> bool:
-        """False for a function of your own, which a folder cannot hold."""
+        """True if a results folder can hold the region; False if it uses a custom function."""
         return self.draw is None and (self.weight is None or isinstance(self.weight, Density))
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data of the region; complete if it is :attr:`storable`."""
+        """Return the JSON data of the region, complete if it is :attr:`storable`."""
         if self.listed is not None:
             return {"kind": self.kind, "name": self.name, **self.listed.to_dict()}
         if self.draw is not None:
             return {"kind": self.kind, "name": self.name}
-        found: dict[str, Any] = {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
+        data: dict[str, Any] = {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
         if self.axis:
-            found["axis"] = list(self.axis)
+            data["axis"] = list(self.axis)
         if self.weight is not None:
-            found["density"] = self.weight.to_dict() if isinstance(self.weight, Density) else "a function of your own"
-        return found
+            data["density"] = self.weight.to_dict() if isinstance(self.weight, Density) else "a function of your own"
+        return data
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Region:
-        """The region :meth:`to_dict` wrote."""
+        """Return the region of :meth:`to_dict`."""
         if data["kind"] == "poses":
             return cls("poses", (), (), name=data["name"], listed=PoseList.from_dict(data))
         if data["kind"] not in ("box", "cone", "joints"):
@@ -493,42 +511,45 @@ class Region(Shown):
         if "density" in data:
             if not isinstance(data["density"], dict):
                 raise InputError(f"region: density is {data['density']!r}; it must be points by coordinate")
-            weight = Density.of(data["density"])
+            weight = Density.from_points(data["density"])
         axis = tuple(data.get("axis", ()))
         return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), name=data["name"], weight=weight, axis=axis)
 
     @classmethod
-    @checked
+    @check_arguments
     def load(cls, path: str | Path) -> Region:
-        """A region from a YAML file; see ``docs/files``.
+        """Return a region from a YAML file; see ``docs/files``.
 
         Raises:
             InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
         """
-        from holdfast.regions.region_file import read
+        from holdfast.regions.region_file import read_region_file
 
-        kind, given = read(file := Path(path))
+        kind, arguments = read_region_file(file := Path(path))
         try:
             if kind == "poses":
-                return cls(kind, (), (), **given)
+                return cls(kind, (), (), **arguments)
             if kind == "cone":
-                return cls.cone(**given)
-            return cls.box(**given) if kind == "box" else cls.joints(**given)
+                return cls.cone(**arguments)
+            return cls.box(**arguments) if kind == "box" else cls.joints(**arguments)
         except InputError as error:
             raise InputError(f"region file '{file}': {error}") from error
 
     def describe(self) -> str:
-        """One sentence for people, degrees and metres."""
+        """Describe the region in one sentence, in degrees and meters."""
         if self.kind == "joints":
             return f"configurations uniform in a box of {len(self.center)} joints"
         if self.listed is not None:
             return f"a list of {len(self.listed):,} poses{', with weights' if self.listed.weights is not None else ''}"
         if self.draw is not None:
             return f"poses drawn by a function of your own{', with weights' if self.draw[1] else ''}"
-        own = "; weighted by a function of your own" if self.weight is not None else ""
-        weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else own
-        c, s = np.round(self.center, 12) + 0.0, np.round(self.size, 12)
-        positions = f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
+        weight_note = "; weighted by a function of your own" if self.weight is not None else ""
+        weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else weight_note
+        rounded_center, rounded_size = np.round(self.center, 12) + 0.0, np.round(self.size, 12)
+        positions = (
+            f"positions in {rounded_size[0]:.3g} x {rounded_size[1]:.3g} x {rounded_size[2]:.3g} m about "
+            f"({rounded_center[0]:.4g}, {rounded_center[1]:.4g}, {rounded_center[2]:.4g}) m; "
+        )
         if self.kind == "cone":
             x, y, z = np.round(self.axis, 12) + 0.0
             return (
@@ -537,14 +558,16 @@ class Region(Shown):
             )
         return (
             f"{positions}roll, pitch, yaw in "
-            f"{np.rad2deg(s[5]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[3]):.4g} deg about "
-            f"({np.rad2deg(c[5]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[3]):.4g}) deg, R = Rz(yaw) Ry(pitch) Rx(roll)"
+            f"{np.rad2deg(rounded_size[5]):.4g} x {np.rad2deg(rounded_size[4]):.4g} x "
+            f"{np.rad2deg(rounded_size[3]):.4g} deg about "
+            f"({np.rad2deg(rounded_center[5]):.4g}, {np.rad2deg(rounded_center[4]):.4g}, "
+            f"{np.rad2deg(rounded_center[3]):.4g}) deg, R = Rz(yaw) Ry(pitch) Rx(roll)"
             f"{weight}"
         )
 
 
 def builtin_region(arm: str) -> Region | None:
-    """The region that a paper gives for a built-in arm; None if none does.
+    """Return the region that a paper gives for a built-in arm; None if none does.
 
     Args:
         arm: Name of the arm: ``pa10-9dof`` has one.
@@ -557,19 +580,21 @@ def builtin_region(arm: str) -> Region | None:
     return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
 
 
-def _far_from_singular(arm: Arm, reach: float) -> Array:
-    """(n,) of 256 about the middle of the joint ranges; lengths count by the arm's reach, m."""
-    low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
-    high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
-    away = np.random.default_rng(0).random((256, arm.n)) - 0.5
-    q = (low + high) / 2 + away * (high - low) / 2
+def _well_conditioned_configuration(arm: Arm, reach: float) -> Array:
+    """Return the best conditioned of 256 configurations (n,) about the middle of the joint ranges; lengths are divided by the
+    arm's reach, m.
+    """
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+    offsets = np.random.default_rng(0).random((256, arm.n)) - 0.5
+    q = (lower + upper) / 2 + offsets * (upper - lower) / 2
     values = np.linalg.svd(arm.jacobian(q) / np.repeat([reach, 1.0], 3)[:, None], compute_uv=False)
     rank = int((values.max(axis=0) > 1e-9).sum())  # an arm that moves in a plane has three at most
     return np.asarray(q[values[:, max(rank, 1) - 1].argmax()])
 
 
 def default_region(arm: Arm, spec: str | None = None) -> Region:
-    """The region of an arm for which none is given: the paper's for the paper's arm, else around its home.
+    """Return the default region of an arm: the paper's region for the paper's arm, else a region around its home.
 
     Args:
         arm: The arm.

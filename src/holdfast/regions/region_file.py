@@ -1,4 +1,4 @@
-"""Region files: YAML, validated.
+"""Read and validate region files in YAML.
 
 .. code-block:: yaml
 
@@ -35,102 +35,113 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from holdfast.errors import InputError
-from holdfast.files.yaml import content
+from holdfast.files.yaml import read_mapping
 from holdfast.regions.pose_list import PoseList
 
 
-def read(file: Path) -> tuple[Literal["box", "cone", "joints", "poses"], dict[str, Any]]:
-    """The kind of region in a file, and the arguments that make it; see :meth:`holdfast.Region.load`."""
+def read_region_file(file: Path) -> tuple[Literal["box", "cone", "joints", "poses"], dict[str, Any]]:
+    """Return the kind of region in a file, and the arguments that construct it; see :meth:`holdfast.Region.load`."""
     try:
-        data = content(file, "holdfast.regions.region_file", "box, joints or poses")
+        data = read_mapping(file, "holdfast.regions.region_file", "box, joints or poses")
     except InputError as error:
         raise InputError(f"region file '{file}': {error}") from error
     try:
         model = _RegionFile.model_validate(data)
     except ValidationError as error:
-        raise InputError(f"region file '{file}': {_first(error)}") from error
+        raise InputError(f"region file '{file}': {_first_error_message(error)}") from error
     if [model.box, model.joints, model.poses].count(None) != 2:
         raise InputError(f"region file '{file}' must hold either 'box:' or 'joints:' or 'poses:'")
     if model.box is None and model.angles == "deg":
         raise InputError(f"region file '{file}': 'angles: deg' goes with 'box:'; joint values are in rad and m")
     name = model.name or file.stem
-    unit = np.pi / 180 if model.angles == "deg" else 1.0
+    radians_per_unit = np.pi / 180 if model.angles == "deg" else 1.0
     if model.box is not None:
-        b = model.box
-        scale = {"roll": unit, "pitch": unit, "yaw": unit}
-        density = {c: [(x * scale.get(c, 1.0), w) for x, w in points] for c, points in (b.density or {}).items()}
-        size, turn = np.broadcast_to(b.size, 3), np.broadcast_to(0.0 if b.rpy_size is None else b.rpy_size, 3) * unit
-        if b.cone is not None:
-            if b.rpy_center is not None or b.rpy_size is not None:
+        box = model.box
+        units_by_angle = {"roll": radians_per_unit, "pitch": radians_per_unit, "yaw": radians_per_unit}
+        density = {
+            coordinate: [(value * units_by_angle.get(coordinate, 1.0), weight_value) for value, weight_value in points]
+            for coordinate, points in (box.density or {}).items()
+        }
+        size, angle_size = (
+            np.broadcast_to(box.size, 3),
+            np.broadcast_to(0.0 if box.rpy_size is None else box.rpy_size, 3) * radians_per_unit,
+        )
+        if box.cone is not None:
+            if box.rpy_center is not None or box.rpy_size is not None:
                 raise InputError(f"region file '{file}': box.cone takes the place of rpy_center and rpy_size; leave them out")
-            cone = {"axis": b.cone.axis, "within": float(np.deg2rad(b.cone.within))}
-            return "cone", {"center": b.center, "size": size, **cone, "name": name, "weight": density or None}
+            cone = {"axis": box.cone.axis, "within": float(np.deg2rad(box.cone.within))}
+            return "cone", {"center": box.center, "size": size, **cone, "name": name, "weight": density or None}
         if model.format == 1 and model.order == "urdf":
             raise InputError(f"region file '{file}': 'order: urdf' needs 'format: 2'; add that line")
         order = model.order or ("urdf" if model.format == 2 else "abdi")
-        given = {"center": b.center, "size": size, "rpy_center": np.multiply(b.rpy_center or (0, 0, 0), unit), "rpy_size": turn}
-        return "box", {**given, "name": name, "weight": density or None, "order": order}
+        common_arguments = {
+            "center": box.center,
+            "size": size,
+            "rpy_center": np.multiply(box.rpy_center or (0, 0, 0), radians_per_unit),
+            "rpy_size": angle_size,
+        }
+        return "box", {**common_arguments, "name": name, "weight": density or None, "order": order}
     if model.poses is not None:
         try:
-            return "poses", {"name": name, "listed": PoseList.read(file.parent / model.poses)}
+            return "poses", {"name": name, "listed": PoseList.read_csv(file.parent / model.poses)}
         except InputError as error:
             raise InputError(f"region file '{file}': {error}") from error
     assert model.joints is not None
     return "joints", {"lower": model.joints.lower, "upper": model.joints.upper, "name": name}
 
 
-class _Strict(BaseModel):
+class _StrictModel(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-class _Cone(_Strict):
+class _ConeEntry(_StrictModel):
     axis: tuple[float, float, float]
     within: float
 
 
-class _Box(_Strict):
+class _BoxEntry(_StrictModel):
     center: tuple[float, float, float]
     size: float | tuple[float, float, float]
     rpy_center: tuple[float, float, float] | None = None
     rpy_size: float | tuple[float, float, float] | None = None
-    cone: _Cone | None = None
+    cone: _ConeEntry | None = None
     density: dict[str, list[tuple[float, float]]] | None = None
 
 
-class _Joints(_Strict):
+class _JointsEntry(_StrictModel):
     lower: list[float]
     upper: list[float]
 
 
-class _RegionFile(_Strict):
+class _RegionFile(_StrictModel):
     format: Literal[1, 2] = 1
     order: Literal["urdf", "abdi"] | None = None
     name: str | None = None
     angles: Literal["deg", "rad"] = "rad"
-    box: _Box | None = None
-    joints: _Joints | None = None
+    box: _BoxEntry | None = None
+    joints: _JointsEntry | None = None
     poses: str | None = None
 
 
-def _first(error: ValidationError) -> str:
+def _first_error_message(error: ValidationError) -> str:
     entry = error.errors()[0]
-    place = _place([x for x in entry["loc"] if x not in ("float", "tuple[float, float, float]")])
+    location = _join_location([key for key in entry["loc"] if key not in ("float", "tuple[float, float, float]")])
     if entry["loc"][-1:] == ("float",) and isinstance(entry.get("input"), (list, tuple)):
-        return f"{place}: must be one number or 3, got {reprlib.repr(entry['input'])}"
+        return f"{location}: must be one number or 3, got {reprlib.repr(entry['input'])}"
     if entry["type"] == "extra_forbidden":
-        known = _known_keys(entry["loc"][:-1])
-        return f"key '{place}' is not known; keys there are {', '.join(known)}"
+        known_keys = _known_keys(entry["loc"][:-1])
+        return f"key '{location}' is not known; keys there are {', '.join(known_keys)}"
     if entry["type"] == "missing":
-        return f"key '{place}' is missing"
-    return f"{place}: {entry['msg'].lower()}, got {reprlib.repr(entry.get('input'))}"
+        return f"key '{location}' is missing"
+    return f"{location}: {entry['msg'].lower()}, got {reprlib.repr(entry.get('input'))}"
 
 
-def _place(loc: Sequence[int | str]) -> str:
-    return ".".join(str(x) for x in loc)
+def _join_location(loc: Sequence[int | str]) -> str:
+    return ".".join(str(key) for key in loc)
 
 
 def _known_keys(loc: Sequence[int | str]) -> list[str]:
     model: type[BaseModel] = _RegionFile
     if loc:
-        model = _Cone if "cone" in loc else _Box if loc[0] == "box" else _Joints
+        model = _ConeEntry if "cone" in loc else _BoxEntry if loc[0] == "box" else _JointsEntry
     return list(model.model_fields)

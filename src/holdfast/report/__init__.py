@@ -1,4 +1,4 @@
-"""Figures and one-file HTML reports; knows no robots."""
+"""Figures and one-file HTML reports, independent of any robot model."""
 
 from holdfast._lazy import offer
 

@@ -44,4 +44,4 @@ from holdfast.report.scenes import Scale as Scale
 from holdfast.report.scenes import Scene as Scene
 from holdfast.report.scenes import view_figure as view_figure
 from holdfast.report.views import View as View
-from holdfast.words import together as together
+from holdfast.words import join_units as join_units

@@ -1,6 +1,6 @@
-"""Figures in one quiet style, without pyplot: distributions and bars; as SVG text or PNG files.
+"""Distributions and bars in one plain style, without pyplot, as SVG text or PNG files.
 
-Text that comes from files (names) goes through :func:`plain`, so that a dollar sign does not start a formula.
+Text that comes from files (names) goes through :func:`format_label`, so that a dollar sign does not start a formula.
 """
 
 from __future__ import annotations
@@ -27,29 +27,29 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
-from holdfast.files.output import replaced
-from holdfast.notice import another
+from holdfast.files.output import replace_file
+from holdfast.notice import count_one
 from holdfast.report.palette import AMBER as AMBER
 from holdfast.report.palette import BLUE as BLUE
+from holdfast.report.palette import EMPTY_COLOR as EMPTY_COLOR
 from holdfast.report.palette import FAINT as FAINT
 from holdfast.report.palette import GREEN as GREEN
 from holdfast.report.palette import INK as INK
 from holdfast.report.palette import LIGHT_BLUE as LIGHT_BLUE
 from holdfast.report.palette import ORANGE as ORANGE
-from holdfast.report.palette import PALE as PALE
 from holdfast.report.palette import PURPLE as PURPLE
 from holdfast.report.palette import SKY as SKY
 from holdfast.report.palette import SOFT as SOFT
-from holdfast.words import on_one_line, percent
+from holdfast.words import format_percent, on_one_line
 
 Array = NDArray[np.float64]
 
 # Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
-COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
-_LINES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))
+CURVE_COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
+_CURVE_DASHES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))
 WIDTH = 10.0  # inches: 960 px in a page
 
-_STYLE: dict[str, Any] = {
+_FIGURE_STYLE: dict[str, Any] = {
     "font.family": "sans-serif",
     "font.sans-serif": ["Arial", "Helvetica", "Liberation Sans", "DejaVu Sans"],
     "font.size": 9.5,
@@ -85,78 +85,84 @@ _lock = threading.RLock()
 
 @contextmanager
 def style() -> Iterator[None]:
-    """The house style for figures made inside, whatever the caller's matplotlib settings are; they come back afterwards."""
-    with _lock, matplotlib.style.context(["default", _STYLE]), warnings.catch_warnings():
+    """Apply the figure style inside the block, independent of the caller's matplotlib settings, and restore these
+    afterwards.
+    """
+    with _lock, matplotlib.style.context(["default", _FIGURE_STYLE]), warnings.catch_warnings():
         # A browser finds the letters of a name that the fonts here lack.
         warnings.filterwarnings("ignore", message="Glyph .* missing", category=UserWarning)
         yield
 
 
-def plain(text: str, most: int = 60) -> str:
-    """Text that matplotlib draws as it is, on one line, shortened to ``most`` characters."""
-    return on_one_line(text, most).replace("$", r"\$")
+def format_label(text: str, max_letters: int = 60) -> str:
+    """Return text that matplotlib draws literally: on one line, shortened to ``max_letters`` characters."""
+    return on_one_line(text, max_letters).replace("$", r"\$")
 
 
 # ---- out -----------------------------------------------------------------------------------------------------------------
 
 
 def svg(figure: Figure, name: str, about: str) -> Markup:
-    """The figure as an ``<svg>`` element to put in a page.
+    """Convert the figure to an ``<svg>`` element for an HTML page.
 
     Args:
         figure: The figure.
         name: Unique in the page; ids inside begin with it.
         about: What it shows, for people who cannot see it.
     """
-    out = io.StringIO()
+    buffer = io.StringIO()
     with style():
-        empty = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-        FigureCanvasSVG(figure).print_svg(out, metadata=empty)
-    text = out.getvalue()
+        no_metadata = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+        FigureCanvasSVG(figure).print_svg(buffer, metadata=no_metadata)
+    text = buffer.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<style type=\"text/css\">.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
-    old = re.findall(r'\bid="([^"]+)"', text)
-    new = {x: f"{name}-{k}" for k, x in reversed(list(enumerate(old)))}  # equal ids have equal content: refer to the first
+    old_ids = re.findall(r'\bid="([^"]+)"', text)
+    new_ids = {
+        old_id: f"{name}-{number}" for number, old_id in reversed(list(enumerate(old_ids)))
+    }  # equal ids have equal content: refer to the first
     numbers = itertools.count()
     text = re.sub(r'\bid="[^"]+"', lambda m: f'id="{name}-{next(numbers)}"', text)
-    text = re.sub(r'(href="#|url\(#)([^")]+)', lambda m: m[1] + new.get(m[2], m[2]), text)
-    another("figure")
+    text = re.sub(r'(href="#|url\(#)([^")]+)', lambda m: m[1] + new_ids.get(m[2], m[2]), text)
+    count_one("figure")
     return Markup(text.replace("<svg ", f'<svg role="img" aria-label="{escape(about)}" ', 1).strip())
 
 
-def frame(axes: Axes) -> dict[str, Any]:
-    """Where the axes of a finished figure are in its ``<svg>``, for scripts that draw on it.
+def locate_axes(axes: Axes) -> dict[str, Any]:
+    """Locate the axes of a finished figure in its ``<svg>``, for scripts that draw on it.
 
     Returns:
-        ``box``: left, top, right and bottom in units of the SVG; ``x`` and ``y``: both ends; ``log``: the x axis is.
+        ``box``: left, top, right and bottom in units of the SVG; ``edge`` and ``limit``: both ends; ``log``: the x axis is.
     """
     figure = axes.get_figure(root=True)
     assert figure is not None
     box = axes.get_window_extent().transformed(figure.dpi_scale_trans.inverted())
-    tall = 72 * figure.get_figheight()
+    figure_height = 72 * figure.get_figheight()
     return {
-        "box": [round(x, 2) for x in (72 * box.x0, tall - 72 * box.y1, 72 * box.x1, tall - 72 * box.y0)],
-        "x": [float(x) for x in axes.get_xlim()],
-        "y": [float(y) for y in axes.get_ylim()],
+        "box": [
+            round(edge, 2) for edge in (72 * box.x0, figure_height - 72 * box.y1, 72 * box.x1, figure_height - 72 * box.y0)
+        ],
+        "x": [float(edge) for edge in axes.get_xlim()],
+        "y": [float(limit) for limit in axes.get_ylim()],
         "log": axes.get_xscale() == "log",
     }
 
 
 def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
-    """Write the figure as PNG.
+    """Write the figure as a PNG file.
 
     Raises:
         StoreError: The file cannot be written.
     """
     file = Path(path)
-    data, before = io.BytesIO(), figure.dpi
+    data, previous_dpi = io.BytesIO(), figure.dpi
     with style():
         figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
         FigureCanvasAgg(figure).print_png(data)
-        figure.dpi = before  # of what is rasterised if it is drawn as SVG next
-    replaced(file, data.getvalue(), "picture")
-    another("figure")
+        figure.dpi = previous_dpi  # of what is rasterised if it is drawn as SVG next
+    replace_file(file, data.getvalue(), "picture")
+    count_one("figure")
     return file
 
 
@@ -165,7 +171,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
 
 @dataclass(frozen=True)
 class Curve:
-    """A cumulative distribution: ``share`` at ``x``, with a band of half width ``band`` if that is above 0."""
+    """Cumulative distribution: ``share`` at ``x``, with a band of half width ``band`` if that is above 0."""
 
     x: Array
     share: Array
@@ -177,7 +183,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Mark:
-    """A vertical line at ``x``: a threshold that is asked for, or a bound that cannot be passed."""
+    """Vertical line at ``x``: a requested threshold, or a bound that cannot be exceeded."""
 
     x: float
     label: str
@@ -186,7 +192,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Bin:
-    """A histogram: edges (B + 1,) and heights (B,)."""
+    """Histogram: edges (B + 1,) and heights (B,)."""
 
     edges: Array
     heights: Array
@@ -198,45 +204,47 @@ class Bin:
 def draw_cdf(
     axes: Axes, curves: Sequence[Curve], marks: Sequence[Mark], *, xlabel: str, ylabel: str, log: bool = False
 ) -> None:
-    """Cumulative distributions with their bands, and marks."""
-    for c in curves:
-        color = ORANGE if c.second else BLUE
-        if c.band > 0:
-            low, high = np.clip(c.share - c.band, 0, 1), np.clip(c.share + c.band, 0, 1)
-            axes.fill_between(c.x, low, high, color=color, alpha=0.16, linewidth=0)
-        line = (0, (4.5, 2)) if c.second else "-"
-        axes.plot(c.x, c.share, color=color, linewidth=1.5 if c.second else 1.9, linestyle=line, label=c.label)
-    _marks(axes, marks)
+    """Draw cumulative distributions with their bands, and marks."""
+    for curve in curves:
+        color = ORANGE if curve.second else BLUE
+        if curve.band > 0:
+            lower, upper = np.clip(curve.share - curve.band, 0, 1), np.clip(curve.share + curve.band, 0, 1)
+            axes.fill_between(curve.x, lower, upper, color=color, alpha=0.16, linewidth=0)
+        dashes = (0, (4.5, 2)) if curve.second else "-"
+        axes.plot(
+            curve.x, curve.share, color=color, linewidth=1.5 if curve.second else 1.9, linestyle=dashes, label=curve.label
+        )
+    _draw_marks(axes, marks)
     axes.set(xlabel=xlabel, ylabel=ylabel, ylim=(0, 1.02))
-    _x_axis(axes, curves[0].x, log)
+    _set_x_axis(axes, curves[0].x, log)
 
 
-def draw_histogram(axes: Axes, bins: Bin, marks: Sequence[Mark], xlabel: str, log: bool = False) -> None:
-    """A histogram, and marks."""
-    axes.stairs(bins.heights, bins.edges, fill=True, color=SKY, label=bins.label)
-    axes.stairs(bins.heights, bins.edges, color=BLUE, linewidth=0.8)
-    _marks(axes, marks)
-    top = float(bins.heights.max(initial=0.0))
-    axes.set(xlabel=xlabel, ylabel=bins.ylabel, ylim=(0, 1.05 * top if top > 0 else 1))
-    _x_axis(axes, bins.edges, log)
+def draw_histogram(axes: Axes, histogram: Bin, marks: Sequence[Mark], xlabel: str, log: bool = False) -> None:
+    """Draw a histogram, and marks."""
+    axes.stairs(histogram.heights, histogram.edges, fill=True, color=SKY, label=histogram.label)
+    axes.stairs(histogram.heights, histogram.edges, color=BLUE, linewidth=0.8)
+    _draw_marks(axes, marks)
+    max_height = float(histogram.heights.max(initial=0.0))
+    axes.set(xlabel=xlabel, ylabel=histogram.ylabel, ylim=(0, 1.05 * max_height if max_height > 0 else 1))
+    _set_x_axis(axes, histogram.edges, log)
 
 
-def _x_axis(axes: Axes, x: Array, log: bool) -> None:
+def _set_x_axis(axes: Axes, x: Array, log: bool) -> None:
     if log:
         axes.set_xscale("log")
     axes.set_xlim(float(x[0]), float(x[-1]))
     axes.grid(axis="x", visible=False)
 
 
-def _marks(axes: Axes, marks: Sequence[Mark]) -> None:
-    for m in marks:
-        line = (0, (1.2, 1.6)) if m.kind == "bound" else "-"
+def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
+    for mark in marks:
+        dashes = (0, (1.2, 1.6)) if mark.kind == "bound" else "-"
         axes.axvline(
-            m.x,
-            color=SOFT if m.kind == "bound" else INK,
-            linewidth=1.3 if m.kind == "bound" else 1.0,
-            linestyle=line,
-            label=m.label,
+            mark.x,
+            color=SOFT if mark.kind == "bound" else INK,
+            linewidth=1.3 if mark.kind == "bound" else 1.0,
+            linestyle=dashes,
+            label=mark.label,
         )
 
 
@@ -250,7 +258,7 @@ def cdf_figure(
     log: bool = False,
     width: float = 5.4,
 ) -> Figure:
-    """Cumulative distributions alone."""
+    """Plot cumulative distributions in one panel."""
     with style():
         figure = Figure(figsize=(width, 3.9))
         axes = figure.add_subplot()
@@ -270,15 +278,15 @@ def distribution_figure(
     titles: tuple[str, str],
     log: bool = False,
 ) -> Figure:
-    """A histogram on the left and cumulative distributions on the right, over the same axis."""
+    """Plot a histogram on the left and cumulative distributions on the right, over the same axis."""
     with style():
         figure = Figure(figsize=(WIDTH, 3.9))
-        left, right = figure.subplots(1, 2)
-        draw_histogram(left, bins, marks, xlabel, log)
-        draw_cdf(right, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
-        left.set_title(titles[0])
-        right.set_title(titles[1])
-        legend_below(figure, right)
+        histogram_axes, cdf_axes = figure.subplots(1, 2)
+        draw_histogram(histogram_axes, bins, marks, xlabel, log)
+        draw_cdf(cdf_axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
+        histogram_axes.set_title(titles[0])
+        cdf_axes.set_title(titles[1])
+        legend_below(figure, cdf_axes)
         return finished(figure)
 
 
@@ -290,29 +298,31 @@ def compare_cdf_figure(
     ylabel: str,
     log: bool = False,
 ) -> Figure:
-    """Many cumulative distributions without their bands, a panel per title.
+    """Plot many cumulative distributions without their bands, with one panel per title.
 
     A curve looks the same in every panel that has its label.
     """
-    labels = list(dict.fromkeys(c.label for _, curves in panels for c in curves))
+    labels = list(dict.fromkeys(curve.label for _, curves in panels for curve in curves))
     with style():
-        rows = -(-(len(labels) + len(marks)) // 3)
-        figure = Figure(figsize=(WIDTH if len(panels) > 1 else 0.75 * WIDTH, 3.9 + 0.2 * rows))
-        every = figure.subplots(1, len(panels), squeeze=False)[0]
-        for axes, (title, curves) in zip(every, panels, strict=True):
-            for c in curves:
-                k = labels.index(c.label)
-                color, line = COLORS[k % len(COLORS)], _LINES[k % len(_LINES)]
-                axes.plot(c.x, c.share, color=color, linestyle=line, linewidth=1.7, label=plain(c.label, 40))
-            _marks(axes, marks)
+        legend_rows = -(-(len(labels) + len(marks)) // 3)
+        figure = Figure(figsize=(WIDTH if len(panels) > 1 else 0.75 * WIDTH, 3.9 + 0.2 * legend_rows))
+        all_axes = figure.subplots(1, len(panels), squeeze=False)[0]
+        for axes, (title, curves) in zip(all_axes, panels, strict=True):
+            for curve in curves:
+                style_index = labels.index(curve.label)
+                color, dashes = CURVE_COLORS[style_index % len(CURVE_COLORS)], _CURVE_DASHES[style_index % len(_CURVE_DASHES)]
+                axes.plot(
+                    curve.x, curve.share, color=color, linestyle=dashes, linewidth=1.7, label=format_label(curve.label, 40)
+                )
+            _draw_marks(axes, marks)
             axes.set(xlabel=xlabel, ylabel=ylabel, ylim=(0, 1.02), title=title)
-            _x_axis(axes, curves[0].x, log)
-        legend_below(figure, every[0], 3)
+            _set_x_axis(axes, curves[0].x, log)
+        legend_below(figure, all_axes[0], 3)
         return finished(figure)
 
 
 def legend_below(figure: Figure, axes: Axes, columns: int = 2) -> None:
-    """What the lines of the axes are, under the figure."""
+    """Draw the legend of the axes under the figure."""
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=columns, columnspacing=2.5)
 
@@ -328,7 +338,7 @@ def bar_figure(
     total: float | None = None,
     stress: Literal["most", "least"] = "most",
 ) -> Figure:
-    """Horizontal bars, first one on top, each with its count and share.
+    """Plot horizontal bars, the first one on top, each with its count and fraction.
 
     Args:
         names: One per bar.
@@ -337,28 +347,28 @@ def bar_figure(
         total: What the shares are of; the sum of the counts if not given.
         stress: Which bar is drawn darker.
     """
-    whole = sum(counts) if total is None else total
-    most = max(counts, default=0) or 1
-    dark = most if stress == "most" else min(counts)
+    denominator = sum(counts) if total is None else total
+    max_count = max(counts, default=0) or 1
+    stressed_count = max_count if stress == "most" else min(counts)
     with style():
         figure = Figure(figsize=(WIDTH * 0.8, 0.75 + 0.27 * len(names)))
         axes = figure.add_subplot()
-        rows = np.arange(len(names))
-        axes.barh(rows, counts, height=0.64, color=[BLUE if c == dark else SKY for c in counts])
-        for row, count in zip(rows, counts, strict=True):
-            share = f" ({percent(count / whole)})" if whole else ""
+        positions = np.arange(len(names))
+        axes.barh(positions, counts, height=0.64, color=[BLUE if bar_count == stressed_count else SKY for bar_count in counts])
+        for position, count in zip(positions, counts, strict=True):
+            fraction_text = f" ({format_percent(count / denominator)})" if denominator else ""
             axes.annotate(
-                f"{count:{',' if isinstance(count, int) else ',.4g'}}{share}",
-                (count, row),
+                f"{count:{',' if isinstance(count, int) else ',.4g'}}{fraction_text}",
+                (count, position),
                 (4, 0),
                 textcoords="offset points",
                 va="center",
                 fontsize=9,
                 color=INK,
             )
-        axes.set_yticks(rows, [plain(n, 40) for n in names])
-        axes.set(xlabel=xlabel, xlim=(0, most * 1.18), ylim=(len(names) - 0.45, -0.55))
-        if all(isinstance(c, int) for c in counts):
+        axes.set_yticks(positions, [format_label(name, 40) for name in names])
+        axes.set(xlabel=xlabel, xlim=(0, max_count * 1.18), ylim=(len(names) - 0.45, -0.55))
+        if all(isinstance(bar_count, int) for bar_count in counts):
             axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
             axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
         axes.grid(axis="y", visible=False)
@@ -368,7 +378,7 @@ def bar_figure(
 
 
 def finished(figure: Figure) -> Figure:
-    """With its layout settled and every tick made while the style holds."""
+    """Settle the layout of a figure and create its ticks while the figure style is active."""
     FigureCanvasAgg(figure)
     engine = figure.get_layout_engine()
     if engine is not None:

@@ -1,4 +1,4 @@
-"""Figures of what an arm reaches: joint values along self-motion manifolds, and maps of a region of the workspace."""
+"""Figures of the reach of an arm: joint values along self-motion manifolds, and maps of a region of the workspace."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, PALE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT, WIDTH, finished, format_label, style
 from holdfast.report.views import View
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_GAP = 0.04  # of the whole length, between two curves
+_CURVE_GAP_FRACTION = 0.04  # of the whole length, between two curves
 
 
 @dataclass(frozen=True)
 class JointPanel:
-    """One joint.
+    """Joint of a self-motion figure.
 
     Attributes:
         label: Name and unit.
         arcs: The values that it takes.
-        whole: The values between which it can be.
+        value_range: The values between which it can be.
     """
 
     label: str
     arcs: Sequence[tuple[float, float]]
-    whole: tuple[float, float]
+    value_range: tuple[float, float]
 
 
 def self_motion_figure(
@@ -44,7 +44,7 @@ def self_motion_figure(
     views: Sequence[View],
     caption: str,
 ) -> Figure:
-    """A row for each joint: its values along the curves one after the other, and its arcs as bands; beside it the arm.
+    """Plot the arm next to one row per joint, with its values along the consecutive curves and its arcs as bands.
 
     Args:
         joints: From base to tip.
@@ -56,51 +56,57 @@ def self_motion_figure(
     with style():
         height = max(0.86 * len(joints) + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
         figure = Figure(figsize=(WIDTH, height))
-        left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1.25, 1.0)))
-        rows = np.atleast_1d(left.subplots(len(joints), 1, sharex=True))
-        total = sum(float(s[-1]) for s, _ in curves) or 1.0
-        for k, (axes, panel) in enumerate(zip(rows, joints, strict=True)):
-            _draw_joint(axes, panel, k, curves, total)
+        joint_figure, arm_figure = np.asarray(figure.subfigures(1, 2, width_ratios=(1.25, 1.0)))
+        joint_axes = np.atleast_1d(joint_figure.subplots(len(joints), 1, sharex=True))
+        total_length = sum(float(lengths[-1]) for lengths, _ in curves) or 1.0
+        for joint, (axes, panel) in enumerate(zip(joint_axes, joints, strict=True)):
+            _draw_joint(axes, panel, joint, curves, total_length)
         if not len(curves):
-            rows[-1].set_xticks([])
-        rows[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "")
-        rows[0].set_title("Values that keep the target within reach" if not len(curves) else "Along the self-motion manifold")
-        panels = np.atleast_1d(right.subplots(len(views), 1)) if views else ()
+            joint_axes[-1].set_xticks([])
+        joint_axes[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "")
+        joint_axes[0].set_title(
+            "Values that keep the target within reach" if not len(curves) else "Along the self-motion manifold"
+        )
+        panels = np.atleast_1d(arm_figure.subplots(len(views), 1)) if views else ()
         for axes, view in zip(panels, views, strict=True):
             _draw_arm(axes, chains @ np.stack([view.right, view.up]).T, view)
-        banded = any(panel.arcs for panel in joints)
+        has_bands = any(panel.arcs for panel in joints)
         handles = [
-            *([Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target")] if banded else []),
+            *([Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target")] if has_bands else []),
             *([Line2D([], [], color=BLUE, linewidth=1.6, label="on the curve")] if len(curves) else []),
         ]
         figure.legend(handles=handles, loc="outside upper right", ncols=2)
-        figure.supxlabel(plain(caption, 220), fontsize=9, color=SOFT)
+        figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
         return finished(figure)
 
 
-def _draw_joint(axes: Axes, panel: JointPanel, k: int, curves: Sequence[tuple[Array, Array]], total: float) -> None:
-    low, high = panel.whole
-    turn = high - low
-    for a, b in panel.arcs:
+def _draw_joint(axes: Axes, panel: JointPanel, joint: int, curves: Sequence[tuple[Array, Array]], total_length: float) -> None:
+    lower, upper = panel.value_range
+    period = upper - lower
+    for arc_start, arc_end in panel.arcs:
         # An arc that runs on beyond the end of a circle goes on at its beginning.
-        for shift in (0.0, -turn):
-            top, bottom = min(b + shift, high), max(a + shift, low)
-            if top >= bottom:
-                axes.axhspan(bottom - 0.004 * turn, top + 0.004 * turn, color=SKY, alpha=0.55, linewidth=0)
-    at = 0.0
+        for shift in (0.0, -period):
+            band_top, band_bottom = min(arc_end + shift, upper), max(arc_start + shift, lower)
+            if band_top >= band_bottom:
+                axes.axhspan(band_bottom - 0.004 * period, band_top + 0.004 * period, color=SKY, alpha=0.55, linewidth=0)
+    curve_start = 0.0
     for length, values in curves:
-        x, y = at + length, values[:, k]
-        wrapped = (y - low) % turn + low if (y < low - 1e-6 * turn).any() or (y > high + 1e-6 * turn).any() else y
-        jumps = np.flatnonzero(np.abs(np.diff(wrapped)) > turn / 2) + 1
-        for part in np.split(np.arange(x.size), jumps):
-            axes.plot(x[part], wrapped[part], color=BLUE, linewidth=1.6)
-        at += float(length[-1]) + _GAP * total
-    axes.set_ylim(low - 0.03 * turn, high + 0.03 * turn)
-    axes.set_ylabel(plain(panel.label, 26), rotation=0, ha="right", va="center")
-    axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 3, 6, 9, 10] if turn > 100 else None))
+        arc_length, joint_values = curve_start + length, values[:, joint]
+        wrapped = (
+            (joint_values - lower) % period + lower
+            if (joint_values < lower - 1e-6 * period).any() or (joint_values > upper + 1e-6 * period).any()
+            else joint_values
+        )
+        jumps = np.flatnonzero(np.abs(np.diff(wrapped)) > period / 2) + 1
+        for piece in np.split(np.arange(arc_length.size), jumps):
+            axes.plot(arc_length[piece], wrapped[piece], color=BLUE, linewidth=1.6)
+        curve_start += float(length[-1]) + _CURVE_GAP_FRACTION * total_length
+    axes.set_ylim(lower - 0.03 * period, upper + 0.03 * period)
+    axes.set_ylabel(format_label(panel.label, 26), rotation=0, ha="right", va="center")
+    axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 3, 6, 9, 10] if period > 100 else None))
     axes.grid(axis="x", visible=False)
     if curves:
-        axes.set_xlim(-0.01 * total, at - _GAP * total + 0.01 * total)
+        axes.set_xlim(-0.01 * total_length, curve_start - _CURVE_GAP_FRACTION * total_length + 0.01 * total_length)
 
 
 def _draw_arm(axes: Axes, chains: Array, view: View) -> None:
@@ -121,22 +127,23 @@ class RegionMap:
     Attributes:
         points: Where.
         view: How they are seen.
-        healthy, within, inside: (N,) reached by the healthy arm; within its artificial limits; and after any lock.
-        grid: Points along each edge, if they are a square grid, row by row from below; None for a sample.
+        healthy_reach, limited_reach, lock_tolerant: (N,) reached by the healthy arm; within its artificial limits; and after
+            any lock.
+        grid_size: Points along each edge, if they are a square grid, row by row from below; None for a sample.
     """
 
     points: Array
     view: View
-    healthy: Bools
-    within: Bools
-    inside: Bools
-    grid: int | None
+    healthy_reach: Bools
+    limited_reach: Bools
+    lock_tolerant: Bools
+    grid_size: int | None
 
 
 def region_figure(
     maps: Sequence[RegionMap], bars: Sequence[tuple[str, float]], unit: str, error: Array, caption: str
 ) -> Figure:
-    """Maps of a region inside what the healthy arm reaches, and bars of the sizes.
+    """Plot maps of a region inside the reach of the healthy arm, and bars of the sizes.
 
     Args:
         maps: One panel each.
@@ -148,38 +155,44 @@ def region_figure(
     with style():
         figure = Figure(figsize=(WIDTH, 4.6))
         panels = figure.subplots(1, len(maps) + 1, width_ratios=[1.0] * len(maps) + [0.9 if len(maps) > 1 else 1.1])
-        for axes, view in zip(panels, maps, strict=False):
-            _draw_map(axes, view)
+        for axes, region_map in zip(panels, maps, strict=False):
+            _draw_map(axes, region_map)
         axes = panels[-1]
-        rows = np.arange(len(bars))
-        colors = [PALE, *[SKY] * (len(bars) - 2), BLUE]
+        positions = np.arange(len(bars))
+        colors = [EMPTY_COLOR, *[SKY] * (len(bars) - 2), BLUE]
         sizes = [size for _, size in bars]
-        axes.barh(rows, sizes, height=0.64, color=colors)
-        axes.errorbar(sizes[-1], rows[-1], xerr=error.reshape(2, 1), color=INK, capsize=3, linewidth=1)
-        for row, size in zip(rows, sizes, strict=True):
-            shift = error[1] if row == rows[-1] else 0.0
-            axes.annotate(f"{size:.3g}", (size + shift, row), (4, 0), textcoords="offset points", va="center", fontsize=9)
-        axes.set_yticks(rows, [plain(name, 30) for name, _ in bars])
+        axes.barh(positions, sizes, height=0.64, color=colors)
+        axes.errorbar(sizes[-1], positions[-1], xerr=error.reshape(2, 1), color=INK, capsize=3, linewidth=1)
+        for position, size in zip(positions, sizes, strict=True):
+            error_width = error[1] if position == positions[-1] else 0.0
+            axes.annotate(
+                f"{size:.3g}", (size + error_width, position), (4, 0), textcoords="offset points", va="center", fontsize=9
+            )
+        axes.set_yticks(positions, [format_label(name, 30) for name, _ in bars])
         axes.set(xlabel=unit, xlim=(0, max(sizes) * 1.2 or 1.0), ylim=(len(bars) - 0.45, -0.55), title="Size")
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
-        keys = ((PALE, "healthy, its own limits"), (SKY, "healthy, artificial limits"), (BLUE, "also after any lock"))
-        handles = [Patch(facecolor=c, label=t) for c, t in keys]
+        legend_entries = (
+            (EMPTY_COLOR, "healthy, its own limits"),
+            (SKY, "healthy, artificial limits"),
+            (BLUE, "also after any lock"),
+        )
+        handles = [Patch(facecolor=color, label=legend_text) for color, legend_text in legend_entries]
         figure.legend(handles=handles, loc="outside upper left", ncols=3)
-        figure.supxlabel(plain(caption, 220), fontsize=9, color=SOFT)
+        figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
         return finished(figure)
 
 
 def _draw_map(axes: Axes, region: RegionMap) -> None:
-    sets = ((region.healthy, PALE), (region.within, SKY), (region.inside, BLUE))
-    if region.grid is not None:
-        size = (region.grid, region.grid)
-        x, y = (region.points[:, k].reshape(size) for k in (0, 1))
-        for chosen, color in sets:
+    colored_sets = ((region.healthy_reach, EMPTY_COLOR), (region.limited_reach, SKY), (region.lock_tolerant, BLUE))
+    if region.grid_size is not None:
+        grid_shape = (region.grid_size, region.grid_size)
+        x, y = (region.points[:, axis].reshape(grid_shape) for axis in (0, 1))
+        for chosen, color in colored_sets:
             if chosen.any():
-                axes.contourf(x, y, chosen.reshape(size).astype(float), levels=[0.5, 1.5], colors=[color])
+                axes.contourf(x, y, chosen.reshape(grid_shape).astype(float), levels=[0.5, 1.5], colors=[color])
     else:
-        for chosen, color in sets:
+        for chosen, color in colored_sets:
             axes.scatter(region.points[chosen, 0], region.points[chosen, 1], s=9, c=color, linewidths=0)
     axes.plot(0, 0, marker="s", color=INK, markersize=6)
     axes.set_aspect("equal", adjustable="datalim")

@@ -1,4 +1,4 @@
-"""Maps over a projection: cells coloured by the average, or the share, of the points in them."""
+"""Maps over a projection: each cell has the colour of the average, or the fraction, of its points."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.report.figures import INK, WIDTH, finished, style
-from holdfast.report.scenes import Scale, finish_bar
+from holdfast.report.scenes import Scale, label_color_bar
 from holdfast.report.views import View
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ def map_figure(
     bins: int = 6,
     weights: Array | None = None,
 ) -> Figure:
-    """The value over a projection: per cell the mean (the median if smaller is better), and how many points have one.
+    """Map a value over a projection: per cell the mean (the median if smaller is better), and how many points have a value.
 
     Args:
         points: (N, 3) m.
@@ -42,32 +42,33 @@ def map_figure(
         bins: Cells along the longer edge.
         weights: (N,) of the points, 0 or more; all count alike if not given.
     """
-    low, high = points.min(axis=0), points.max(axis=0)
+    lower, upper = points.min(axis=0), points.max(axis=0)
     grids = [
-        [_grid(points, values, v, low, high, bins, smaller_is_better, weights) for v in views] for values in samples.values()
+        [_average_cells(points, values, grid_view, lower, upper, bins, smaller_is_better, weights) for grid_view in views]
+        for values in samples.values()
     ]
-    cells = np.concatenate([g[2].ravel() for row in grids for g in row])
-    lost = any(bool(np.isnan(values).any()) for values in samples.values())
-    scale = replace(Scale.of(cells[~np.isnan(cells)], log, smaller_is_better), pale=True)
+    averages = np.concatenate([grid[2].ravel() for grid_row in grids for grid in grid_row])
+    has_missing = any(bool(np.isnan(values).any()) for values in samples.values())
+    scale = replace(Scale.of(averages[~np.isnan(averages)], log, smaller_is_better), pale=True)
     with style():
-        tall = max(float(up / right) for right, up in (view.of(high - low) for view in views))
-        height = float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8
+        aspect = max(float(view_height / view_width) for view_width, view_height in (view.of(upper - lower) for view in views))
+        height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
         figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, height * len(samples)))
         panels = figure.subplots(len(samples), len(views), squeeze=False)
-        for name, line, row in zip(samples, panels, grids, strict=True):
-            for axes, view, (x, y, mean, reached, drawn) in zip(line, views, row, strict=True):
-                _draw_cells(axes, x, y, mean, reached, drawn, scale, lost)
+        for name, axes_row, grid_row in zip(samples, panels, grids, strict=True):
+            for axes, view, (x_edges, y_edges, mean, value_counts, point_counts) in zip(axes_row, views, grid_row, strict=True):
+                _draw_cells(axes, x_edges, y_edges, mean, value_counts, point_counts, scale, has_missing)
                 title = f"{view.title}, {name}" if len(samples) > 1 else view.title
                 axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
-        b = figure.colorbar(
+        colorbar = figure.colorbar(
             scale.mappable,
             ax=list(panels.ravel()),
             shrink=0.85,
             aspect=26 * len(samples),
             pad=0.015,
-            extend=scale.extend(cells),
+            extend=scale.extend(averages),
         )
-        finish_bar(b, label, scale)
+        label_color_bar(colorbar, label, scale)
         return finished(figure)
 
 
@@ -80,7 +81,7 @@ def share_figure(
     bins: int = 6,
     weights: Array | None = None,
 ) -> Figure:
-    """The fraction of points with a property over one projection, a panel for each property, all on one scale from 0 to 1.
+    """Map the fraction of points with a property over a projection, one panel per property, all on one scale from 0 to 1.
 
     Args:
         points: (N, 3) m.
@@ -90,92 +91,122 @@ def share_figure(
         bins: Cells along the longer edge.
         weights: (N,) of the points, 0 or more; all count alike if not given.
     """
-    low, high = points.min(axis=0), points.max(axis=0)
+    lower, upper = points.min(axis=0), points.max(axis=0)
     scale = Scale(0.0, 1.0, pale=True)
     with style():
-        right, up = view.of(high - low)
-        tall = float(up / right)
-        figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
+        view_width, view_height = view.of(upper - lower)
+        aspect = float(view_height / view_width)
+        figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8))
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
-        for a, (title, having) in zip(axes, panels, strict=True):
-            x, y, share, count, _ = _grid(points, having.astype(np.float64), view, low, high, bins, False, weights)
-            _draw_cells(a, x, y, share, count, count, scale, False)
-            a.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
-        finish_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
+        for panel_axes, (title, has_property) in zip(axes, panels, strict=True):
+            x_edges, y_edges, fractions, point_counts, _ = _average_cells(
+                points, has_property.astype(np.float64), view, lower, upper, bins, False, weights
+            )
+            _draw_cells(panel_axes, x_edges, y_edges, fractions, point_counts, point_counts, scale, False)
+            panel_axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
+        label_color_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
         return finished(figure)
 
 
-def _grid(
-    points: Array, values: Array, view: View, low: Array, high: Array, bins: int, median: bool, weights: Array | None = None
+def _average_cells(
+    points: Array,
+    values: Array,
+    view: View,
+    lower: Array,
+    upper: Array,
+    longest_cells: int,
+    median: bool,
+    weights: Array | None = None,
 ) -> tuple[Array, Array, Array, Array, Array]:
-    low, size = view.of(low), view.of(high - low)
-    count = np.maximum(np.round(bins * size / size.max()), 1).astype(int)
-    x, y = (np.linspace(a, a + s, n + 1) for a, s, n in zip(low, size, count, strict=True))
+    lower, size = view.of(lower), view.of(upper - lower)
+    count = np.maximum(np.round(longest_cells * size / size.max()), 1).astype(int)
+    x_edges, y_edges = (
+        np.linspace(axis_start, axis_start + axis_size, axis_count + 1)
+        for axis_start, axis_size, axis_count in zip(lower, size, count, strict=True)
+    )
 
-    def place(p: Array) -> NDArray[np.int64]:
-        at = np.minimum(((view.of(p) - low) / size * count).astype(np.int64), count - 1)
-        return np.asarray(at[:, 1] * count[0] + at[:, 0])
+    def cell_index(located_points: Array) -> NDArray[np.int64]:
+        columns_rows = np.minimum(((view.of(located_points) - lower) / size * count).astype(np.int64), count - 1)
+        return np.asarray(columns_rows[:, 1] * count[0] + columns_rows[:, 0])
 
-    there = ~np.isnan(values)
-    cell = place(points)
-    total = int(count.prod())
-    drawn = np.bincount(cell, minlength=total)
-    cell = cell[there]
-    reached = np.bincount(cell, minlength=total)
-    order = np.argsort(cell, kind="stable")
-    ends = np.cumsum(reached)[:-1]
-    groups = np.split(values[there][order], ends)
+    has_value = ~np.isnan(values)
+    cells = cell_index(points)
+    cell_count = int(count.prod())
+    point_counts = np.bincount(cells, minlength=cell_count)
+    cells = cells[has_value]
+    value_counts = np.bincount(cells, minlength=cell_count)
+    order = np.argsort(cells, kind="stable")
+    ends = np.cumsum(value_counts)[:-1]
+    groups = np.split(values[has_value][order], ends)
     if weights is None:
-        average = np.array([np.nan if not len(g) else float(np.median(g) if median else np.mean(g)) for g in groups])
+        average = np.array(
+            [np.nan if not len(group) else float(np.median(group) if median else np.mean(group)) for group in groups]
+        )
     else:
-        shares = np.split(weights[there][order], ends)
-        average = np.array([_weighted(g, w, median) for g, w in zip(groups, shares, strict=True)])
+        weight_groups = np.split(weights[has_value][order], ends)
+        average = np.array(
+            [
+                _weighted_average(group, group_weights, median)
+                for group, group_weights in zip(groups, weight_groups, strict=True)
+            ]
+        )
     shape = (count[1], count[0])
-    return x, y, average.reshape(shape), reached.reshape(shape), drawn.reshape(shape)
+    return x_edges, y_edges, average.reshape(shape), value_counts.reshape(shape), point_counts.reshape(shape)
 
 
-def _weighted(values: Array, weights: Array, median: bool) -> float:
-    """The mean, or the smallest value up to which lies half of the weight; NaN where nothing has weight."""
+def _weighted_average(values: Array, weights: Array, median: bool) -> float:
+    """Return the weighted mean, or the weighted median as the smallest value with half of the weight at or below; NaN without
+    weight.
+    """
     if not weights.sum() > 0:
         return np.nan
     if not median:
         return float(np.average(values, weights=weights))
     order = np.argsort(values, kind="stable")
-    below = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(below, below[-1] / 2)])
+    cumulative_weights = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(cumulative_weights, cumulative_weights[-1] / 2)])
 
 
-def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, drawn: Array, scale: Scale, lost: bool) -> None:
+def _draw_cells(
+    axes: Axes,
+    x_edges: Array,
+    y_edges: Array,
+    mean: Array,
+    value_counts: Array,
+    point_counts: Array,
+    scale: Scale,
+    has_missing: bool,
+) -> None:
     colors = scale.colors(np.nan_to_num(mean, nan=scale.low, posinf=scale.high))
     colors[np.isnan(mean)] = (0.93, 0.94, 0.95, 1)
-    axes.pcolormesh(x, y, colors, edgecolors="white", linewidth=1.2)
+    axes.pcolormesh(x_edges, y_edges, colors, edgecolors="white", linewidth=1.2)
     axes.set_aspect("equal")
     axes.grid(visible=False)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    axes.set_xticks(x, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in x])
-    axes.set_yticks(y, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in y])
+    axes.set_xticks(x_edges, [f"{round(edge, 2) + 0.0:.2f}".replace("-", "−") for edge in x_edges])
+    axes.set_yticks(y_edges, [f"{round(edge, 2) + 0.0:.2f}".replace("-", "−") for edge in y_edges])
     axes.tick_params(length=0, pad=6)
-    inside: dict[str, Any] = {
+    text_style: dict[str, Any] = {
         "textcoords": "offset points",
         "ha": "center",
         "va": "center",
         "annotation_clip": False,
         "in_layout": False,
     }
-    for i, j in np.ndindex(mean.shape):
-        middle = ((x[j] + x[j + 1]) / 2, (y[i] + y[i + 1]) / 2)
-        luminance = float(colors[i, j, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722])
+    for row, column in np.ndindex(mean.shape):
+        middle = ((x_edges[column] + x_edges[column + 1]) / 2, (y_edges[row] + y_edges[row + 1]) / 2)
+        luminance = float(colors[row, column, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722])
         color = INK if luminance > 0.18 else "white"
-        if not np.isnan(mean[i, j]):
-            text = "∞" if np.isinf(mean[i, j]) else _short(float(mean[i, j]))
-            axes.annotate(text, middle, (0, 5), fontsize=9, color=color, **inside)
-        if drawn[i, j]:
-            text = f"{reached[i, j]}/{drawn[i, j]}" if lost else f"{drawn[i, j]}"
-            axes.annotate(text, middle, (0, -6), fontsize=7, color=color, **inside)
+        if not np.isnan(mean[row, column]):
+            text = "∞" if np.isinf(mean[row, column]) else _format_cell_value(float(mean[row, column]))
+            axes.annotate(text, middle, (0, 5), fontsize=9, color=color, **text_style)
+        if point_counts[row, column]:
+            text = f"{value_counts[row, column]}/{point_counts[row, column]}" if has_missing else f"{point_counts[row, column]}"
+            axes.annotate(text, middle, (0, -6), fontsize=7, color=color, **text_style)
 
 
-def _short(value: float) -> str:
+def _format_cell_value(value: float) -> str:
     if abs(value) < 1e-9:
         return "0"
     return (

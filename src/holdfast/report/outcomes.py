@@ -1,4 +1,4 @@
-"""Figures of how many trials ended how: stacked bars, quantiles, and paired differences with their intervals."""
+"""Figures of the outcomes of trials: stacked bars, quantiles, and paired differences with their intervals."""
 
 from __future__ import annotations
 
@@ -13,18 +13,31 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, COLORS, FAINT, INK, ORANGE, PURPLE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import (
+    BLUE,
+    CURVE_COLORS,
+    FAINT,
+    INK,
+    ORANGE,
+    PURPLE,
+    SKY,
+    SOFT,
+    WIDTH,
+    finished,
+    format_label,
+    style,
+)
 
 Array = NDArray[np.float64]
 
 # Light to dark as well as by hue, and hatched where two neighbours would print alike.
-FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""), (PURPLE, ".."))
-MARKERS = ("o", "s", "D", "^", "v", "P", "X")
+OUTCOME_FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""), (PURPLE, ".."))
+CASE_MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stack:
-    """Bars of one group, one below the other, each stacked from shares.
+    """Bars of one group, one below another, each stacked from fractions.
 
     Attributes:
         name: Of the group.
@@ -45,7 +58,7 @@ class Stack:
 def stack_figure(
     stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, *, level: str = "", caption: str = ""
 ) -> Figure:
-    """Groups of stacked bars with the interval of the first outcome.
+    """Plot groups of stacked bars with the interval of the first outcome.
 
     Args:
         stacks: From the top.
@@ -54,56 +67,65 @@ def stack_figure(
         level: What the mark of a group says.
         caption: What was computed, a few lines.
     """
-    total = sum(len(s.bars) for s in stacks)
+    bar_count = sum(len(stack.bars) for stack in stacks)
     with style():
-        figure = Figure(figsize=(WIDTH, 1.2 + 0.215 * total + 0.12 * len(stacks)))
+        figure = Figure(figsize=(WIDTH, 1.2 + 0.215 * bar_count + 0.12 * len(stacks)))
         axes = figure.add_subplot()
-        y, ticks, labels, middles = 0.0, [], [], []
-        for s in stacks:
-            places = y + np.arange(len(s.bars))
-            left = np.zeros(len(s.bars))
-            for k in range(len(outcomes)):
-                color, hatch = FILLS[k]
+        next_position, ticks, labels, middles = 0.0, [], [], []
+        for stack in stacks:
+            positions = next_position + np.arange(len(stack.bars))
+            bar_starts = np.zeros(len(stack.bars))
+            for outcome in range(len(outcomes)):
+                color, hatch = OUTCOME_FILLS[outcome]
                 axes.barh(
-                    places, s.shares[:, k], left=left, height=0.8, color=color, hatch=hatch, edgecolor="white", linewidth=0.4
+                    positions,
+                    stack.shares[:, outcome],
+                    left=bar_starts,
+                    height=0.8,
+                    color=color,
+                    hatch=hatch,
+                    edgecolor="white",
+                    linewidth=0.4,
                 )
-                left = left + s.shares[:, k]
+                bar_starts = bar_starts + stack.shares[:, outcome]
             for outline, width in (("white", 3.2), (INK, 1.4)):  # seen on light and on dark
-                axes.hlines(places, s.low, s.high, color=outline, linewidth=width)
-            if s.level is not None:
-                axes.vlines(s.level, places[0] - 0.55, places[-1] + 0.55, color=INK, linewidth=1.4, linestyle=(0, (2, 1)))
-            ticks += places.tolist()
-            labels += [plain(name, 34) for name in s.bars]
-            middles.append(float(places.mean()))
-            y = float(places[-1]) + 1.7
+                axes.hlines(positions, stack.low, stack.high, color=outline, linewidth=width)
+            if stack.level is not None:
+                axes.vlines(
+                    stack.level, positions[0] - 0.55, positions[-1] + 0.55, color=INK, linewidth=1.4, linestyle=(0, (2, 1))
+                )
+            ticks += positions.tolist()
+            labels += [format_label(name, 34) for name in stack.bars]
+            middles.append(float(positions.mean()))
+            next_position = float(positions[-1]) + 1.7
         axes.set_yticks(ticks, labels)
-        axes.set(xlabel=xlabel, xlim=(0, 1), ylim=(y - 1.0, -0.7))
+        axes.set(xlabel=xlabel, xlim=(0, 1), ylim=(next_position - 1.0, -0.7))
         groups = axes.secondary_yaxis("right")
-        groups.set_yticks(middles, [plain(s.name, 24) for s in stacks], fontweight="bold")
+        groups.set_yticks(middles, [format_label(stack.name, 24) for stack in stacks], fontweight="bold")
         groups.tick_params(axis="y", length=0)
         groups.spines["right"].set_visible(False)
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        keys: list[Patch | Line2D] = [
+        legend_handles: list[Patch | Line2D] = [
             Patch(facecolor=color, hatch=hatch, edgecolor="white", label=name)
-            for (color, hatch), name in zip(FILLS, outcomes, strict=False)
+            for (color, hatch), name in zip(OUTCOME_FILLS, outcomes, strict=False)
         ]
-        keys.append(Line2D([], [], color=INK, linewidth=1.4, label=f"95 % interval of {outcomes[0]}"))
+        legend_handles.append(Line2D([], [], color=INK, linewidth=1.4, label=f"95 % interval of {outcomes[0]}"))
         if level:
-            keys.append(Line2D([], [], color=INK, linewidth=1.4, linestyle=(0, (2, 1)), label=level))
-        place: Literal["outside upper center", "outside lower center"] = (
+            legend_handles.append(Line2D([], [], color=INK, linewidth=1.4, linestyle=(0, (2, 1)), label=level))
+        legend_location: Literal["outside upper center", "outside lower center"] = (
             "outside upper center" if caption else "outside lower center"
         )
-        figure.legend(handles=keys, loc=place, ncols=3, columnspacing=2.0)
+        figure.legend(handles=legend_handles, loc=legend_location, ncols=3, columnspacing=2.0)
         if caption:
-            figure.supxlabel("\n".join(plain(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
+            figure.supxlabel("\n".join(format_label(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
         return finished(figure)
 
 
 @dataclass(frozen=True)
 class Spread:
-    """A quantity of several things: its name with the unit, and quantiles (B, 5), 5, 25, 50, 75 and 95 %."""
+    """Quantity of several cases: its name with the unit, and quantiles (B, 5), 5, 25, 50, 75 and 95 %."""
 
     label: str
     quantiles: Array
@@ -111,41 +133,41 @@ class Spread:
 
 
 def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
-    """Quantiles side by side: a thin line from 5 to 95 %, a thick one from 25 to 75 %, a dot at the median."""
+    """Plot quantiles side by side: a thin line from 5 to 95 %, a thick one from 25 to 75 %, a dot at the median."""
     with style():
         figure = Figure(figsize=(WIDTH, 1.25 + 0.3 * len(names)))
-        every = figure.subplots(1, len(spreads), squeeze=False, sharey=True)[0]
-        for axes, s in zip(every, spreads, strict=True):
-            _draw_spread(axes, s)
-            axes.set_yticks(range(len(names)), [plain(n, 34) for n in names])
+        all_axes = figure.subplots(1, len(spreads), squeeze=False, sharey=True)[0]
+        for axes, spread in zip(all_axes, spreads, strict=True):
+            _draw_spread(axes, spread)
+            axes.set_yticks(range(len(names)), [format_label(name, 34) for name in names])
             axes.set_ylim(len(names) - 0.5, -0.5)
             axes.grid(axis="y", visible=False)
             axes.tick_params(axis="y", length=0)
-        keys = [
+        legend_handles = [
             Line2D([], [], color=BLUE, linewidth=1.2, label="5 to 95 %"),
             Line2D([], [], color=SKY, linewidth=6, label="25 to 75 %"),
             Line2D([], [], color=BLUE, marker="o", linestyle="", label="median"),
         ]
-        figure.legend(handles=keys, loc="outside lower center", ncols=3, columnspacing=2.0)
+        figure.legend(handles=legend_handles, loc="outside lower center", ncols=3, columnspacing=2.0)
         return finished(figure)
 
 
-def _draw_spread(axes: Axes, s: Spread) -> None:
-    for row, (q05, q25, q50, q75, q95) in enumerate(s.quantiles):
+def _draw_spread(axes: Axes, spread: Spread) -> None:
+    for row, (q05, q25, q50, q75, q95) in enumerate(spread.quantiles):
         axes.hlines(row, q25, q75, color=SKY, linewidth=9)
         axes.hlines(row, q05, q95, color=BLUE, linewidth=1.2)
         axes.plot(q50, row, "o", color=BLUE, markersize=5)
-    axes.set_xlabel(s.label)
-    top = float(np.nanmax(s.quantiles, initial=0.0))
-    if s.log:
+    axes.set_xlabel(spread.label)
+    max_quantile = float(np.nanmax(spread.quantiles, initial=0.0))
+    if spread.log:
         axes.set_xscale("log")
     else:
-        axes.set_xlim(0, 1.08 * top if top > 1e-9 else 1.0)
+        axes.set_xlim(0, 1.08 * max_quantile if max_quantile > 1e-9 else 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Gains:
-    """Differences or shares of one thing over several cases: values, and ends of their intervals, (C,) each."""
+    """Differences or fractions of one method over several cases: values, and ends of their intervals, (C,) each."""
 
     label: str
     value: Array
@@ -154,47 +176,54 @@ class Gains:
 
 
 def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains]]]) -> Figure:
-    """Differences as dots with their intervals, a panel per quantity; its name with the unit is under the axis."""
-    most = max(len(gains) for _, gains in panels)
+    """Plot differences as dots with their intervals, one panel per quantity, whose name and unit are under the axis."""
+    max_gains = max(len(gains) for _, gains in panels)
     with style():
-        figure = Figure(figsize=(WIDTH, 1.3 + (0.16 + 0.19 * most) * len(cases)))
-        every = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
-        for axes, (label, gains) in zip(every, panels, strict=True):
+        figure = Figure(figsize=(WIDTH, 1.3 + (0.16 + 0.19 * max_gains) * len(cases)))
+        all_axes = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
+        for axes, (label, gains) in zip(all_axes, panels, strict=True):
             axes.axvline(0, color=SOFT, linewidth=1.0)
-            _dots(axes, gains)
+            _draw_interval_dots(axes, gains)
             axes.set_xlabel(label)
-            _rows(axes, cases, 30)
-        handles, labels = every[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(most, 3), columnspacing=2.0)
+            _label_cases(axes, cases, 30)
+        handles, labels = all_axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(max_gains, 3), columnspacing=2.0)
         return finished(figure)
 
 
-def share_figure(cases: Sequence[str], shares: Sequence[Gains], xlabel: str) -> Figure:
-    """Shares of several things over several cases, from 0 to 1: dots with their intervals, one colour and shape per thing."""
+def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: str) -> Figure:
+    """Plot fractions over several cases, from 0 to 1: dots with their intervals, one colour and marker per method."""
     with style():
-        figure = Figure(figsize=(WIDTH, 1.1 + (0.16 + 0.1 * len(shares)) * len(cases)))
+        figure = Figure(figsize=(WIDTH, 1.1 + (0.16 + 0.1 * len(fractions)) * len(cases)))
         axes = figure.add_subplot()
         for row in range(1, len(cases), 2):
             axes.axhspan(row - 0.5, row + 0.5, color=FAINT, alpha=0.25, linewidth=0)
-        _dots(axes, shares)
+        _draw_interval_dots(axes, fractions)
         axes.set(xlabel=xlabel, xlim=(-0.01, 1.01))
-        _rows(axes, cases, 60)
+        _label_cases(axes, cases, 60)
         axes.grid(axis="y", visible=False)
         handles, labels = axes.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(shares), 5), columnspacing=2.0)
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(fractions), 5), columnspacing=2.0)
         return finished(figure)
 
 
-def _dots(axes: Axes, shown: Sequence[Gains]) -> None:
-    """The things of a case one below the other."""
-    for k, g in enumerate(shown):
-        places = np.arange(len(g.value)) + (k - (len(shown) - 1) / 2) * 0.6 / max(len(shown), 1)
-        color = COLORS[k % len(COLORS)]
-        axes.hlines(places, g.low, g.high, color=color, linewidth=1.6)
-        axes.plot(g.value, places, MARKERS[k % len(MARKERS)], color=color, markersize=5, label=plain(g.label, 40))
+def _draw_interval_dots(axes: Axes, gains: Sequence[Gains]) -> None:
+    """Draw dots with intervals, with the methods of a case one below another."""
+    for gain_index, gain in enumerate(gains):
+        positions = np.arange(len(gain.value)) + (gain_index - (len(gains) - 1) / 2) * 0.6 / max(len(gains), 1)
+        color = CURVE_COLORS[gain_index % len(CURVE_COLORS)]
+        axes.hlines(positions, gain.low, gain.high, color=color, linewidth=1.6)
+        axes.plot(
+            gain.value,
+            positions,
+            CASE_MARKERS[gain_index % len(CASE_MARKERS)],
+            color=color,
+            markersize=5,
+            label=format_label(gain.label, 40),
+        )
 
 
-def _rows(axes: Axes, cases: Sequence[str], most: int) -> None:
-    axes.set_yticks(range(len(cases)), [plain(c, most) for c in cases])
+def _label_cases(axes: Axes, cases: Sequence[str], max_letters: int) -> None:
+    axes.set_yticks(range(len(cases)), [format_label(case, max_letters) for case in cases])
     axes.set_ylim(len(cases) - 0.5, -0.5)
     axes.tick_params(axis="y", length=0)

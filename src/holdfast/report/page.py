@@ -1,4 +1,4 @@
-"""One-file HTML pages from a few kinds of blocks; every text is escaped unless it is ``Markup``.
+"""One-file HTML pages built from a few kinds of blocks; every text is escaped unless it is ``Markup``.
 
 All pages have one skeleton: the answer, its evidence, how it was computed, the same run again. Without JavaScript everything
 is there to be read; with it tables are sorted, the theme is chosen, and :class:`Extra` answers back.
@@ -17,19 +17,19 @@ from typing import Any, ClassVar, Literal
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from holdfast.files.output import replaced
-from holdfast.report.viewer import scripted, template, with_library
-from holdfast.words import together
+from holdfast.files.output import replace_file
+from holdfast.report.viewer import embed_viewer_library, read_template, to_script_json
+from holdfast.words import join_units
 
 Cell = str | Markup
 FOOTER = "Written by holdfast. This file needs no network and no other file."
-_LONG = 15  # letters of a cell that is broken where need be
-_SHORT = 16  # rows of a table that is kept on one sheet of paper
+_BREAKABLE_LETTERS = 15  # letters of a cell that is broken where need be
+_UNBROKEN_TABLE_ROWS = 16  # rows of a table that is kept on one sheet of paper
 
 
 @dataclass(frozen=True)
 class Text:
-    """A paragraph."""
+    """Paragraph."""
 
     text: Cell
     quiet: bool = False
@@ -38,7 +38,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Callout:
-    """A paragraph that must not be missed."""
+    """Highlighted paragraph."""
 
     text: Cell
     tone: Literal["bad", "warn", "good", "note"] = "note"
@@ -48,7 +48,7 @@ class Callout:
 
 @dataclass(frozen=True)
 class Table:
-    """A table.
+    """Table of cells.
 
     Attributes:
         rows: Cells; the first of a row is its name.
@@ -71,26 +71,26 @@ class Table:
     kind: ClassVar[str] = "table"
 
     def look(self, column: int) -> str:
-        """Class of the cells of a column."""
+        """Return the CSS class of the cells of a column."""
         return "number" if column in self.numbers else "mark" if column in self.marks else ""
 
     @property
     def classes(self) -> str:
-        """Classes of the table."""
-        named = bool(self.head) and len(self.rows) > 2 and all(row[0] for row in self.rows)
-        looks = {
+        """CSS classes of the table."""
+        rows_are_named = bool(self.head) and len(self.rows) > 2 and all(row[0] for row in self.rows)
+        class_flags = {
             "wide": self.wide,
             "keys": not self.head,
             "many": len(self.head) > 7,
-            "short": len(self.rows) < _SHORT,
-            "sortable": named if self.sortable is None else self.sortable,
+            "short": len(self.rows) < _UNBROKEN_TABLE_ROWS,
+            "sortable": rows_are_named if self.sortable is None else self.sortable,
         }
-        return " ".join(name for name, has in looks.items() if has)
+        return " ".join(name for name, applies in class_flags.items() if applies)
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure with what it shows; one for the screen alone is not printed."""
+    """Figure with its caption; one for the screen only is not printed."""
 
     image: Markup
     caption: Cell
@@ -110,7 +110,7 @@ class Code:
 
 @dataclass(frozen=True)
 class Extra:
-    """Controls that answer back; without JavaScript, and on paper, they are not seen.
+    """Interactive controls, which are hidden without JavaScript and on paper.
 
     Attributes:
         script: ``templates/SCRIPT.js``, which sets ``extras.SCRIPT = function (box, data) {...}``.
@@ -132,7 +132,7 @@ Block = Text | Callout | Table | Picture | Code | Extra
 
 @dataclass(frozen=True)
 class Section:
-    """Blocks under a heading; a sheet begins a new page when it is printed.
+    """Blocks under a heading; a sheet begins a new page in print.
 
     Attributes:
         title: The heading, and its entry in the contents.
@@ -150,7 +150,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Page:
-    """A report: the answer first, then why, then how.
+    """HTML report: the answer, its evidence, and the method.
 
     Attributes:
         title, subtitle: At the top.
@@ -176,68 +176,70 @@ class Page:
 
     @property
     def parts(self) -> list[tuple[str, Section]]:
-        """The sections that hold something, each with an anchor of its own."""
-        again = self.again
-        if isinstance(again, str):
-            again = [Code(again)] if again else []
-        last = [
+        """Sections with content, each with a unique anchor."""
+        repeat_blocks = self.again
+        if isinstance(repeat_blocks, str):
+            repeat_blocks = [Code(repeat_blocks)] if repeat_blocks else []
+        closing_sections = [
             Section("How it was computed", self.method, anchor="method"),
-            Section("The same run again", again, anchor="again"),
+            Section("The same run again", repeat_blocks, anchor="again"),
         ]
-        found: list[tuple[str, Section]] = []
-        seen: Counter[str] = Counter()
-        for section in (s for s in [*self.sections, *last] if s.blocks):
-            name = section.anchor or re.sub(r"[^a-z0-9]+", "-", section.title.lower()).strip("-") or "part"
-            seen[name] += 1
-            found.append((name if seen[name] == 1 else f"{name}--{seen[name]}", section))
-        return found
+        anchored_sections: list[tuple[str, Section]] = []
+        anchor_counts: Counter[str] = Counter()
+        for section in (candidate for candidate in [*self.sections, *closing_sections] if candidate.blocks):
+            anchor = section.anchor or re.sub(r"[^a-z0-9]+", "-", section.title.lower()).strip("-") or "part"
+            anchor_counts[anchor] += 1
+            anchored_sections.append((anchor if anchor_counts[anchor] == 1 else f"{anchor}--{anchor_counts[anchor]}", section))
+        return anchored_sections
 
     @property
     def scripts(self) -> list[str]:
-        """Names of the scripts of its extras."""
-        extras = [b.script for _, section in self.parts for b in section.blocks if isinstance(b, Extra)]
+        """Names of the scripts of the page's extras."""
+        extras = [block.script for _, section in self.parts for block in section.blocks if isinstance(block, Extra)]
         return list(dict.fromkeys(extras))
 
 
-def _together(text: Cell) -> Cell:
-    """A text in which no line ends between a number and its unit."""
-    return Markup(together(text, html=True)) if isinstance(text, Markup) else together(text)
+def _join_numbers_to_units(text: Cell) -> Cell:
+    """Replace the spaces between numbers and their units by non-breaking ones."""
+    return Markup(join_units(text, html=True)) if isinstance(text, Markup) else join_units(text)
 
 
-def _breakable(cell: Cell) -> Cell:
-    """A cell whose long names may be broken behind an underscore, so that those of a file do not push a table off the page."""
-    whole = _together(cell)
-    return whole if isinstance(whole, Markup) or len(whole) < _LONG else Markup("_<wbr>").join(whole.split("_"))
+def _allow_breaks(cell: Cell) -> Cell:
+    """Allow line breaks behind the underscores of long names, so that names from files do not push a table off the page."""
+    joined = _join_numbers_to_units(cell)
+    return (
+        joined if isinstance(joined, Markup) or len(joined) < _BREAKABLE_LETTERS else Markup("_<wbr>").join(joined.split("_"))
+    )
 
 
 @cache
-def environment() -> Environment:
-    """Where the templates are."""
-    made = Environment(
+def create_template_environment() -> Environment:
+    """Create the environment of the HTML templates, with their filters."""
+    templates = Environment(
         loader=PackageLoader("holdfast.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters["breakable"] = _breakable
-    made.filters["together"] = _together
-    made.filters["scripted"] = lambda data: Markup(scripted(data))
-    made.globals["source"] = lambda file: Markup(template(file))
-    return made
+    templates.filters["breakable"] = _allow_breaks
+    templates.filters["together"] = _join_numbers_to_units
+    templates.filters["scripted"] = lambda data: Markup(to_script_json(data))
+    templates.globals["source"] = lambda file: Markup(read_template(file))
+    return templates
 
 
 def render(page: Page) -> str:
-    """The page as HTML that needs nothing else: no files, no network."""
-    return with_library(environment().get_template("page.html").render(page=page))
+    """Render the page as HTML that needs no other files and no network."""
+    return embed_viewer_library(create_template_environment().get_template("page.html").render(page=page))
 
 
 def write(page: Page, path: str | Path) -> Path:
-    """Write the page, all of it or nothing.
+    """Write the page to a file, completely or not at all.
 
     Raises:
         StoreError: The file cannot be written; what was there before is as it was.
     """
     file = Path(path)
-    replaced(file, render(page), "report", errors="replace")
+    replace_file(file, render(page), "report", errors="replace")
     return file

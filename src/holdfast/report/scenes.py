@@ -1,4 +1,4 @@
-"""Things in space, in projection: a chain with numbered nodes and coloured points."""
+"""Projections of a chain with numbered nodes and coloured points."""
 
 from __future__ import annotations
 
@@ -39,37 +39,39 @@ class Scale:
 
     @classmethod
     def of(cls, values: Array, log: bool = False, smaller_is_better: bool = False) -> Scale:
-        """The range of the finite values, without the outermost 1 % at either end."""
+        """Fit the scale to the range of the finite values, without the outermost 1 % at either end."""
         finite = values[np.isfinite(values)]
-        low, high = np.quantile(finite, [0.01, 0.99]).tolist() if finite.size else (0.0, 1.0)
-        log = log and low > 0 and high > 10 * low
-        if high - low <= 1e-9 * max(abs(high), 1e-3):
-            low, high = (low / 2, low * 2) if log else (low, low + max(abs(low), 1.0))
-        return cls(low=low, high=high, log=log, smaller_is_better=smaller_is_better)
+        lower, upper = np.quantile(finite, [0.01, 0.99]).tolist() if finite.size else (0.0, 1.0)
+        log = log and lower > 0 and upper > 10 * lower
+        if upper - lower <= 1e-9 * max(abs(upper), 1e-3):
+            lower, upper = (lower / 2, lower * 2) if log else (lower, lower + max(abs(lower), 1.0))
+        return cls(low=lower, high=upper, log=log, smaller_is_better=smaller_is_better)
 
     @property
     def mappable(self) -> ScalarMappable:
-        """For colour bars and colours."""
+        """Matplotlib mappable of the scale, for colour bars and colours."""
         colors = mpl.colormaps["viridis_r" if self.smaller_is_better else "viridis"](np.linspace(0, 1, 256))
         if self.pale:
             colors = 0.68 * colors + 0.32
-        cmap = ListedColormap(colors)
+        colormap = ListedColormap(colors)
         norm = LogNorm(self.low, self.high) if self.log else Normalize(self.low, self.high)
-        return ScalarMappable(norm, cmap)
+        return ScalarMappable(norm, colormap)
 
     def colors(self, values: Array) -> Array:
-        """(N, 4) RGBA."""
+        """Return the RGBA colours (N, 4) of values."""
         return np.asarray(self.mappable.to_rgba(np.clip(values, self.low, self.high)))
 
     def extend(self, values: Array) -> Literal["neither", "min", "max", "both"]:
-        """Which ends of a colour bar have values beyond."""
-        below, above = bool((values < self.low * (1 - 1e-9)).any()), bool((values > self.high * (1 + 1e-9)).any())
-        return {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[below, above]  # type: ignore[return-value]
+        """Return the ends of a colour bar beyond which there are values."""
+        has_below, has_above = bool((values < self.low * (1 - 1e-9)).any()), bool((values > self.high * (1 + 1e-9)).any())
+        return {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[
+            has_below, has_above
+        ]  # type: ignore[return-value]
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Things in space, m.
+    """Points, values, and a chain in space, m.
 
     Attributes:
         points: (N, 3) with a value each.
@@ -92,7 +94,7 @@ class Scene:
 
     @property
     def extent(self) -> Array:
-        """(2, 3) lowest and highest coordinates of everything."""
+        """Lowest and highest coordinates (2, 3) of all elements."""
         parts = [self.points, self.missing, self.chain, self.nodes, *([] if self.box is None else [self.box])]
         everything = np.concatenate(parts)
         if not len(everything):
@@ -101,29 +103,38 @@ class Scene:
 
 
 def draw_view(
-    axes: Axes, scene: Scene, view: View, scale: Scale, size: float, spans: tuple[float, float], width: float
+    axes: Axes, scene: Scene, view: View, scale: Scale, dot_area: float, spans: tuple[float, float], width: float
 ) -> None:
-    """A scene in projection, axes equal.
+    """Draw a scene in projection, with equal axes.
 
     Args:
         axes: Where to draw.
         scene: What.
         view: From where.
         scale: Colours of the values.
-        size: Of a dot, points squared.
+        dot_area: Of a dot, points squared.
         spans: Lengths of the two axes, m.
         width: Of the panel, inches, about.
     """
     if len(scene.missing):
         x, y = view.of(scene.missing).T
-        axes.scatter(x, y, s=size * 1.3, marker="x", c="#9aa1a8", linewidths=0.7, rasterized=True, zorder=2)
+        axes.scatter(x, y, s=dot_area * 1.3, marker="x", c="#9aa1a8", linewidths=0.7, rasterized=True, zorder=2)
     if len(scene.points):
         x, y = view.of(scene.points).T
-        axes.scatter(x, y, s=size, c=scale.colors(scene.values), linewidths=0, alpha=0.85, rasterized=True, zorder=2.1)
+        axes.scatter(x, y, s=dot_area, c=scale.colors(scene.values), linewidths=0, alpha=0.85, rasterized=True, zorder=2.1)
     if scene.box is not None:
-        (x0, y0), (x1, y1) = view.of(scene.box)
+        (box_left, box_bottom), (box_right, box_top) = view.of(scene.box)
         axes.add_patch(
-            Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=SOFT, linewidth=0.9, linestyle=(0, (4, 2)), zorder=2.2)
+            Rectangle(
+                (box_left, box_bottom),
+                box_right - box_left,
+                box_top - box_bottom,
+                fill=False,
+                edgecolor=SOFT,
+                linewidth=0.9,
+                linestyle=(0, (4, 2)),
+                zorder=2.2,
+            )
         )
     _draw_chain(axes, scene, view, 72 * width / spans[0])
     middle = view.of(scene.extent.mean(axis=0))
@@ -136,14 +147,14 @@ def draw_view(
 
 
 def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
-    """The polyline with numbered nodes; ``scale`` is points per metre."""
+    """Draw the polyline with numbered nodes; ``scale`` is in points per metre."""
     if not len(scene.chain):
         return
-    line = view.of(scene.chain)
+    projected_chain = view.of(scene.chain)
     halo = [withStroke(linewidth=5.4, foreground="white")]
     axes.plot(
-        line[:, 0],
-        line[:, 1],
+        projected_chain[:, 0],
+        projected_chain[:, 1],
         color=INK,
         linewidth=2.8,
         solid_capstyle="round",
@@ -151,28 +162,28 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
         zorder=3,
         path_effects=halo,
     )
-    axes.plot(*line[0], marker="s", color=INK, markersize=8.5, zorder=3.1)
-    axes.plot(*line[-1], marker="D", color=ORANGE, markeredgecolor="white", markersize=6, zorder=3.5)
+    axes.plot(*projected_chain[0], marker="s", color=INK, markersize=8.5, zorder=3.1)
+    axes.plot(*projected_chain[-1], marker="D", color=ORANGE, markeredgecolor="white", markersize=6, zorder=3.5)
     nodes = view.of(scene.nodes)
-    for shape, chosen in (("o", ~scene.square), ("s", scene.square)):
+    for marker, chosen in (("o", ~scene.square), ("s", scene.square)):
         axes.plot(
             nodes[chosen, 0],
             nodes[chosen, 1],
-            shape,
+            marker,
             color="white",
             markeredgecolor=INK,
             markeredgewidth=1.4,
             markersize=6,
             zorder=3.2,
         )
-    taken = np.zeros((0, 2))
-    for numbers, place in _clusters(nodes * scale, 6.0):
-        text = _ranges(numbers)
-        offset = _aside(line * scale, taken, place, text)
-        taken = np.vstack([taken, place + offset])
+    occupied = np.zeros((0, 2))
+    for numbers, position in _group_near_nodes(nodes * scale, 6.0):
+        text = _format_ranges(numbers)
+        offset = _place_label(projected_chain * scale, occupied, position, text)
+        occupied = np.vstack([occupied, position + offset])
         axes.annotate(
             text,
-            tuple(place / scale),
+            tuple(position / scale),
             tuple(offset),
             textcoords="offset points",
             ha="center",
@@ -184,53 +195,55 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
         )
 
 
-def _clusters(nodes: Array, near: float) -> list[tuple[list[int], Array]]:
-    """Numbers from 1 of nodes that fall together, and where."""
-    found: list[tuple[list[int], Array]] = []
-    for k, p in enumerate(nodes):
-        for numbers, place in found:
-            if np.linalg.norm(p - place) < near:
-                numbers.append(k + 1)
+def _group_near_nodes(nodes: Array, max_distance: float) -> list[tuple[list[int], Array]]:
+    """Group nodes that are close together; return their numbers from 1 and their positions."""
+    clusters: list[tuple[list[int], Array]] = []
+    for index, node in enumerate(nodes):
+        for numbers, position in clusters:
+            if np.linalg.norm(node - position) < max_distance:
+                numbers.append(index + 1)
                 break
         else:
-            found.append(([k + 1], p))
-    return found
+            clusters.append(([index + 1], node))
+    return clusters
 
 
-def _ranges(numbers: list[int]) -> str:
-    """``[1, 2, 3, 5]`` as ``1-3, 5``."""
-    parts: list[list[int]] = []
-    for k in numbers:
-        if parts and k == parts[-1][-1] + 1:
-            parts[-1].append(k)
+def _format_ranges(numbers: list[int]) -> str:
+    """Format ``[1, 2, 3, 5]`` as ``1-3, 5``."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
         else:
-            parts.append([k])
-    return ", ".join(str(p[0]) if len(p) == 1 else f"{p[0]}{', ' if len(p) == 2 else '–'}{p[-1]}" for p in parts)
+            runs.append([number])
+    return ", ".join(str(run[0]) if len(run) == 1 else f"{run[0]}{', ' if len(run) == 2 else '–'}{run[-1]}" for run in runs)
 
 
-def _aside(line: Array, taken: Array, place: Array, text: str) -> Array:
-    """Offset, points, of a text next to a place: of sixteen directions the one with most room, above rather than below."""
+def _place_label(line: Array, occupied: Array, position: Array, text: str) -> Array:
+    """Choose the offset of a text, in points, next to a position: the freest of sixteen directions, above rather than below."""
     steps = np.linspace(0, 1, 41)[:, None]
-    ink = np.concatenate([a + steps * (b - a) for a, b in pairwise(line)]) if len(line) > 1 else line
-    half = np.array([2.6 * len(text) + 1, 5.0])
-    best, offset = -np.inf, np.zeros(2)
+    line_points = np.concatenate([start + steps * (end - start) for start, end in pairwise(line)]) if len(line) > 1 else line
+    half_size = np.array([2.6 * len(text) + 1, 5.0])
+    best_score, offset = -np.inf, np.zeros(2)
     for angle in np.arange(16) * np.pi / 8 + np.pi / 2:
-        towards = np.array([np.cos(angle), np.sin(angle)])
+        direction = np.array([np.cos(angle), np.sin(angle)])
         # Far enough for the box of the text to clear the node.
-        reach = 7.0 + float(np.abs(towards * half).max() if len(text) < 2 else np.abs(towards) @ half)
-        at = place + reach * towards
-        gap = np.maximum(np.abs(ink - at) - half, 0)
-        room = min(float(np.hypot(*gap.T).min()), 6.0)
-        if len(taken):
-            room = min(room, float(np.maximum(np.abs(taken - at) - 2 * half, 0).sum(axis=1).min()))
-        score = room + 0.3 * towards[1] - 0.02 * reach
-        if score > best:
-            best, offset = score, reach * towards
+        distance = 7.0 + float(np.abs(direction * half_size).max() if len(text) < 2 else np.abs(direction) @ half_size)
+        label_center = position + distance * direction
+        gap = np.maximum(np.abs(line_points - label_center) - half_size, 0)
+        free_distance = min(float(np.hypot(*gap.T).min()), 6.0)
+        if len(occupied):
+            free_distance = min(
+                free_distance, float(np.maximum(np.abs(occupied - label_center) - 2 * half_size, 0).sum(axis=1).min())
+            )
+        score = free_distance + 0.3 * direction[1] - 0.02 * distance
+        if score > best_score:
+            best_score, offset = score, distance * direction
     return offset
 
 
 def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str, legend: Sequence[tuple[str, str]]) -> Figure:
-    """Projections side by side, all to one scale, with a colour bar if there are values.
+    """Plot projections side by side, all on one scale, with a colour bar if there are values.
 
     Args:
         scene: What is seen.
@@ -240,37 +253,40 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str
         legend: Pairs of a kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and its text.
     """
     with style():
-        panel = 4.1 if len(views) > 1 else 5.0
-        spans, height = view_spans(scene, views, panel, 2.0, 4.6 if len(views) > 1 else 5.0)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel + 2.2, height + 1.5))
+        panel_width = 4.1 if len(views) > 1 else 5.0
+        spans, height = fit_view_spans(scene, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
+        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel_width + 2.2, height + 1.5))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(panels, views, strict=True):
-            draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
+            draw_view(axes, scene, view, scale, choose_dot_area(scene, views, panel_width / spans[0]), spans, panel_width)
         if np.isfinite(scene.values).any():
-            color_bar(figure, scene, scale, list(panels), label)
+            add_color_bar(figure, scene, scale, list(panels), label)
         figure.legend(
-            handles=[_key(k, t) for k, t in legend], loc="outside lower center", ncols=min(len(legend), 4), columnspacing=2.0
+            handles=[_legend_entry(kind, legend_text) for kind, legend_text in legend],
+            loc="outside lower center",
+            ncols=min(len(legend), 4),
+            columnspacing=2.0,
         )
         return finished(figure)
 
 
-def color_bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str) -> None:
-    """A colour bar to the right of the axes."""
-    b = figure.colorbar(scale.mappable, ax=axes, extend=scale.extend(scene.values), shrink=0.85, aspect=26, pad=0.015)
-    finish_bar(b, label, scale)
+def add_color_bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str) -> None:
+    """Add a colour bar to the right of the axes."""
+    colorbar = figure.colorbar(scale.mappable, ax=axes, extend=scale.extend(scene.values), shrink=0.85, aspect=26, pad=0.015)
+    label_color_bar(colorbar, label, scale)
 
 
-def finish_bar(b: Colorbar, label: str, scale: Scale) -> None:
-    """Label and ticks of a colour bar."""
-    b.set_label(label)
-    b.outline.set_visible(False)
+def label_color_bar(colorbar: Colorbar, label: str, scale: Scale) -> None:
+    """Set the label and ticks of a colour bar."""
+    colorbar.set_label(label)
+    colorbar.outline.set_visible(False)
     if scale.log:
-        b.ax.yaxis.set_major_formatter(LogFormatter())
-        b.ax.yaxis.set_minor_formatter(NullFormatter())
+        colorbar.ax.yaxis.set_major_formatter(LogFormatter())
+        colorbar.ax.yaxis.set_minor_formatter(NullFormatter())
 
 
-def dot_size(scene: Scene, views: Sequence[View], scale: float) -> float:
-    """Area of a dot, points squared, so that dots cover about two thirds of where they are.
+def choose_dot_area(scene: Scene, views: Sequence[View], scale: float) -> float:
+    """Choose the area of a dot, in points squared, so that the dots cover about two thirds of their region.
 
     Args:
         scene: With the dots.
@@ -285,13 +301,13 @@ def dot_size(scene: Scene, views: Sequence[View], scale: float) -> float:
     return float(np.clip(0.85 * area / len(dots), 1.2, 28))
 
 
-def view_spans(
-    scene: Scene, views: Sequence[View], width: float, least: float, most: float
+def fit_view_spans(
+    scene: Scene, views: Sequence[View], width: float, min_height: float, max_height: float
 ) -> tuple[tuple[float, float], float]:
-    """Lengths of the axes, m, that hold the scene in every view, and the height of a panel, inches."""
+    """Return the lengths of the axes, m, that contain the scene in every view, and the height of a panel, inches."""
     across, upward = 1.2 * np.max([np.ptp(view.of(scene.extent), axis=0) for view in views], axis=0)
     across, upward = max(across, 0.1 * upward, 1e-6), max(upward, 0.1 * across, 1e-6)
-    height = float(np.clip(width * upward / across, least, most))
+    height = float(np.clip(width * upward / across, min_height, max_height))
     if height / width < upward / across:
         across = upward * width / height
     else:
@@ -299,8 +315,8 @@ def view_spans(
     return (across, upward), height
 
 
-def _key(kind: str, text: str) -> Any:
-    looks: dict[str, dict[str, Any]] = {
+def _legend_entry(kind: str, text: str) -> Any:
+    entry_styles: dict[str, dict[str, Any]] = {
         "dot": {"marker": "o", "color": "#21918c", "linestyle": "", "markersize": 5},
         "cross": {"marker": "x", "color": "#9aa1a8", "linestyle": "", "markersize": 5},
         "box": {"color": SOFT, "linewidth": 0.9, "linestyle": (0, (4, 2))},
@@ -323,4 +339,4 @@ def _key(kind: str, text: str) -> Any:
         "tool": {"marker": "D", "color": ORANGE, "linestyle": "", "markeredgecolor": "white", "markersize": 6.5},
         "base": {"marker": "s", "color": INK, "linestyle": "", "markersize": 7.5},
     }
-    return Line2D([], [], label=text, **looks[kind])
+    return Line2D([], [], label=text, **entry_styles[kind])

@@ -1,4 +1,4 @@
-"""Figures of quantities over the time of a motion: panels below each other, and small ones side by side."""
+"""Figures of quantities over the time of a motion: large panels one below another, and small panels side by side."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from holdfast.notice import another
-from holdfast.report.page import environment
+from holdfast.notice import count_one
+from holdfast.report.page import create_template_environment
 from holdfast.report.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.report.scales import AxisScale, Kind
 from holdfast.words import on_one_line
@@ -20,24 +20,24 @@ Array = NDArray[np.float64]
 Look = Literal["first", "second", "third", "compared", "level"]
 
 # After Okabe and Ito, darkened for thin lines; dashes tell apart what prints alike.
-COLORS = (BLUE, ORANGE, "#1b7f5c", "#8a3d82", "#8f6a00", "#2a93c0", SOFT, "#a32638", INK)
-_DASHES: tuple[tuple[float, ...], ...] = ((), (5, 1.5), (1.5, 1.2))  # in widths of the line
-_LOOKS: dict[Look, tuple[str, float, tuple[float, ...]]] = {
+LINE_COLORS = (BLUE, ORANGE, "#1b7f5c", "#8a3d82", "#8f6a00", "#2a93c0", SOFT, "#a32638", INK)
+_LINE_DASHES: tuple[tuple[float, ...], ...] = ((), (5, 1.5), (1.5, 1.2))  # in widths of the line
+_LOOK_STYLES: dict[Look, tuple[str, float, tuple[float, ...]]] = {
     "first": (BLUE, 2.1, ()),
     "second": (ORANGE, 1.9, (5, 1.5)),
     "third": ("#1b7f5c", 1.9, (1.5, 1.2)),
     "compared": (INK, 1.6, (4.5, 2)),
     "level": (SOFT, 1.5, (1.2, 1.6)),
 }
-_MOMENT = {"color": ORANGE, "width": 1.3, "dashes": "", "label": "algorithmic singularity"}
-_WIDE = 960  # pixels of a page
-_LETTER = 7.2  # pixels at most of an ordinary letter, on average
-_ENTRY = 17  # pixels of a line of a legend
+_MOMENT_STYLE = {"color": ORANGE, "width": 1.3, "dashes": "", "label": "algorithmic singularity"}
+_PAGE_WIDTH_PX = 960  # pixels of a page
+_LETTER_WIDTH_PX = 7.2  # pixels at most of an ordinary letter, on average
+_LEGEND_ROW_PX = 17  # pixels of a line of a legend
 
 
 @dataclass(frozen=True)
-class Line:
-    """One quantity over time: values (T,), what it is, and how it looks; without a look it has a colour of its own."""
+class TimelineLine:
+    """Quantity over time: values (T,), its label, and its style; without a style the line has a colour of its own."""
 
     values: Array
     label: str
@@ -46,7 +46,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Timeline:
-    """Lines over one axis of time.
+    """Lines over one time axis.
 
     Attributes:
         lines: What is drawn.
@@ -57,7 +57,7 @@ class Timeline:
         small: See scale.
     """
 
-    lines: Sequence[Line]
+    lines: Sequence[TimelineLine]
     ylabel: str
     title: str
     moments: Sequence[float] = ()
@@ -65,30 +65,44 @@ class Timeline:
     small: float = 1.0
 
 
-def stacked_panels(time: Array, panels: Sequence[Timeline], about: str) -> Markup:
-    """Panels below each other over one time (T,), s, each with a legend to its right if it has several lines.
+def draw_stacked_panels(time: Array, panels: Sequence[Timeline], about: str) -> Markup:
+    """Draw panels one below another over one time (T,), s, each with a legend to its right if it has several lines.
 
     Args:
         time: Of all lines.
         panels: From the top.
         about: What they show, for people who cannot see it.
     """
-    drawn = [_Panel(time, p, 190, 8) for p in panels]
-    named = [d.legend if len(p.lines) > 1 or p.moments else [] for d, p in zip(drawn, panels, strict=True)]
-    beside = max((_written([e["label"] for e in entries]) + 60 for entries in named), default=0)
-    left = 28 + max(d.ticks_wide for d in drawn)
-    wide, y, placed = _WIDE - left - 12 - beside, 0.0, []
-    for k, (panel, d, entries) in enumerate(zip(panels, drawn, named, strict=True)):
-        y += 26
-        legend = [{**e, "x": left + wide + 14, "y": y + 12 + _ENTRY * i} for i, e in enumerate(entries)]
-        xlabel = "time, s" if k == len(panels) - 1 else ""
-        placed.append({**d.at(left, y, wide), "left": 14, "ylabel": panel.ylabel, "xlabel": xlabel, "legend": legend})
-        y += max(190, _ENTRY * len(legend)) + 12
-    return _page(placed, y + 28, [], about)
+    layouts = [_PanelLayout(time, timeline, 190, 8) for timeline in panels]
+    legends = [
+        layout.legend if len(timeline.lines) > 1 or timeline.moments else []
+        for layout, timeline in zip(layouts, panels, strict=True)
+    ]
+    legend_width = max((_label_width_px([entry["label"] for entry in entries]) + 60 for entries in legends), default=0)
+    left_margin = 28 + max(layout.tick_label_width for layout in layouts)
+    axes_width, panel_top, placed_panels = _PAGE_WIDTH_PX - left_margin - 12 - legend_width, 0.0, []
+    for panel_index, (panel, layout, entries) in enumerate(zip(panels, layouts, legends, strict=True)):
+        panel_top += 26
+        legend = [
+            {**entry, "x": left_margin + axes_width + 14, "y": panel_top + 12 + _LEGEND_ROW_PX * entry_row}
+            for entry_row, entry in enumerate(entries)
+        ]
+        xlabel = "time, s" if panel_index == len(panels) - 1 else ""
+        placed_panels.append(
+            {
+                **layout.to_template_data(left_margin, panel_top, axes_width),
+                "left": 14,
+                "ylabel": panel.ylabel,
+                "xlabel": xlabel,
+                "legend": legend,
+            }
+        )
+        panel_top += max(190, _LEGEND_ROW_PX * len(legend)) + 12
+    return _render_panels(placed_panels, panel_top + 28, [], about)
 
 
-def small_multiples(time: Array, panels: Sequence[Timeline], about: str, xlabel: str = "time, s") -> Markup:
-    """Small panels, three in a row, over one time (T,); the lines of the one with most are named below.
+def draw_small_multiples(time: Array, panels: Sequence[Timeline], about: str, xlabel: str = "time, s") -> Markup:
+    """Draw small panels, three in a row, over one time (T,), with a legend below for the lines of the fullest panel.
 
     Args:
         time: Of all lines.
@@ -96,86 +110,124 @@ def small_multiples(time: Array, panels: Sequence[Timeline], about: str, xlabel:
         about: What they show, for people who cannot see it.
         xlabel: What time it is.
     """
-    across = min(3, len(panels))
-    drawn = [_Panel(time, p, 132, 4) for p in panels]
-    units = [p.ylabel if k % across == 0 or p.ylabel != panels[k - 1].ylabel else "" for k, p in enumerate(panels)]
-    columns = [range(k, len(panels), across) for k in range(across)]
-    left = [10 + max(drawn[k].ticks_wide for k in c) + (18 if any(units[k] for k in c) else 0) for c in columns]
-    wide = (_WIDE - sum(left) - 14 * across) / across
-    y, placed = 0.0, []
-    for first in range(0, len(panels), across):
-        row = range(first, min(first + across, len(panels)))
-        named = [k >= len(panels) - across for k in row]  # the last of its column
-        y += 28
-        for k, last in zip(row, named, strict=True):
-            x = sum(left[: k - first + 1]) + (wide + 14) * (k - first)
-            edge, said = x - left[k - first] + 14, xlabel if last else ""
-            placed.append({**drawn[k].at(x, y, wide), "left": edge, "ylabel": units[k], "xlabel": said, "legend": []})
-        y += 132 + (40 if any(named) else 8)
-    entries = max((d.legend for d in drawn), key=len)
-    each = _written([e["label"] for e in entries]) + 60
-    fit = max(1, min(len(entries), 5, int(_WIDE / each)))
-    begin = (_WIDE - each * fit) / 2
-    below = [{**e, "x": begin + each * (i % fit), "y": y + 18 + _ENTRY * (i // fit)} for i, e in enumerate(entries)]
-    return _page(placed, y + 26 + _ENTRY * (-(-len(entries) // fit) - 1), below, about)
-
-
-def _page(panels: list[dict[str, Any]], height: float, below: list[dict[str, Any]], about: str) -> Markup:
-    another("figure")
-    template = environment().get_template("timelines.html")
-    return Markup(
-        template.render(panels=panels, below=below, about=about, width=_WIDE, height=round(height), ink=INK, soft=SOFT)
+    column_count = min(3, len(panels))
+    layouts = [_PanelLayout(time, timeline, 132, 4) for timeline in panels]
+    units = [
+        timeline.ylabel if panel_index % column_count == 0 or timeline.ylabel != panels[panel_index - 1].ylabel else ""
+        for panel_index, timeline in enumerate(panels)
+    ]
+    columns = [range(panel_index, len(panels), column_count) for panel_index in range(column_count)]
+    left_margins = [
+        10
+        + max(layouts[panel_index].tick_label_width for panel_index in column)
+        + (18 if any(units[panel_index] for panel_index in column) else 0)
+        for column in columns
+    ]
+    axes_width = (_PAGE_WIDTH_PX - sum(left_margins) - 14 * column_count) / column_count
+    row_top, placed_panels = 0.0, []
+    for row_start in range(0, len(panels), column_count):
+        row = range(row_start, min(row_start + column_count, len(panels)))
+        is_lowest = [panel_index >= len(panels) - column_count for panel_index in row]  # the last of its column
+        row_top += 28
+        for panel_index, has_xlabel in zip(row, is_lowest, strict=True):
+            panel_left = sum(left_margins[: panel_index - row_start + 1]) + (axes_width + 14) * (panel_index - row_start)
+            label_left, time_label = panel_left - left_margins[panel_index - row_start] + 14, xlabel if has_xlabel else ""
+            placed_panels.append(
+                {
+                    **layouts[panel_index].to_template_data(panel_left, row_top, axes_width),
+                    "left": label_left,
+                    "ylabel": units[panel_index],
+                    "xlabel": time_label,
+                    "legend": [],
+                }
+            )
+        row_top += 132 + (40 if any(is_lowest) else 8)
+    entries = max((layout.legend for layout in layouts), key=len)
+    entry_width = _label_width_px([entry["label"] for entry in entries]) + 60
+    entries_per_row = max(1, min(len(entries), 5, int(_PAGE_WIDTH_PX / entry_width)))
+    legend_left = (_PAGE_WIDTH_PX - entry_width * entries_per_row) / 2
+    legend = [
+        {
+            **entry,
+            "x": legend_left + entry_width * (entry_index % entries_per_row),
+            "y": row_top + 18 + _LEGEND_ROW_PX * (entry_index // entries_per_row),
+        }
+        for entry_index, entry in enumerate(entries)
+    ]
+    return _render_panels(
+        placed_panels, row_top + 26 + _LEGEND_ROW_PX * (-(-len(entries) // entries_per_row) - 1), legend, about
     )
 
 
-def _written(labels: Sequence[str]) -> float:
-    """Pixels that the longest of the labels takes."""
-    return _LETTER * max((len(text) for text in labels), default=0)
+def _render_panels(panels: list[dict[str, Any]], height: float, legend: list[dict[str, Any]], about: str) -> Markup:
+    count_one("figure")
+    template = create_template_environment().get_template("timelines.html")
+    return Markup(
+        template.render(
+            panels=panels, below=legend, about=about, width=_PAGE_WIDTH_PX, height=round(height), ink=INK, soft=SOFT
+        )
+    )
 
 
-class _Panel:
-    """A panel before it has its place: ``tall`` pixels, with about ``most`` ticks along time."""
+def _label_width_px(labels: Sequence[str]) -> float:
+    """Return the width in pixels of the longest label."""
+    return _LETTER_WIDTH_PX * max((len(text) for text in labels), default=0)
 
-    def __init__(self, time: Array, panel: Timeline, tall: float, most: int) -> None:
-        self._time, self._panel, self._tall = time, panel, tall
-        every = np.concatenate([line.values for line in panel.lines])
-        self._y = AxisScale(every, panel.scale, panel.small, 0.1 if panel.scale == "linear" else 0.05, int(tall / 24))
-        self._x = AxisScale(time[[0, -1]], most=most)
-        self.ticks_wide = _written([text for _, text in self._y.ticks])
-        self._looks = [_look(k, line) for k, line in enumerate(panel.lines)]
-        self.legend = self._looks + ([_MOMENT] if panel.moments else [])
 
-    def at(self, x: float, y: float, wide: float) -> dict[str, Any]:
-        """What the template draws, with the axes' upper left corner at x, y."""
-        moments = self._x.place(np.array(self._panel.moments, dtype=float))
-        ways = [
-            (look, _way(x + wide * self._x.place(self._time), y + self._tall * (1 - self._y.place(line.values))))
-            for look, line in zip(self._looks, self._panel.lines, strict=True)
+class _PanelLayout:
+    """Layout of a panel that has no position yet: ``tall_px`` pixels high, with about ``max_ticks`` ticks along time."""
+
+    def __init__(self, time: Array, panel: Timeline, tall_px: float, max_ticks: int) -> None:
+        self._time, self._panel, self._height = time, panel, tall_px
+        all_values = np.concatenate([line.values for line in panel.lines])
+        self._value_scale = AxisScale(
+            all_values, panel.scale, panel.small, 0.1 if panel.scale == "linear" else 0.05, int(tall_px / 24)
+        )
+        self._time_scale = AxisScale(time[[0, -1]], max_spaces=max_ticks)
+        self.tick_label_width = _label_width_px([text for _, text in self._value_scale.ticks])
+        self._line_styles = [_style_line(line_index, line) for line_index, line in enumerate(panel.lines)]
+        self.legend = self._line_styles + ([_MOMENT_STYLE] if panel.moments else [])
+
+    def to_template_data(self, x: float, y: float, axes_width: float) -> dict[str, Any]:
+        """Return the data that the template draws, with the upper left corner of the axes at x, y."""
+        moments = self._time_scale.to_fraction(np.array(self._panel.moments, dtype=float))
+        styled_paths = [
+            (
+                line_style,
+                _to_svg_path(
+                    x + axes_width * self._time_scale.to_fraction(self._time),
+                    y + self._height * (1 - self._value_scale.to_fraction(line.values)),
+                ),
+            )
+            for line_style, line in zip(self._line_styles, self._panel.lines, strict=True)
         ]
-        ways += [(_MOMENT, f"M{x + wide * t:.2f} {y:g}v{self._tall:g}") for t in moments]
+        styled_paths += [(_MOMENT_STYLE, f"M{x + axes_width * fraction:.2f} {y:g}v{self._height:g}") for fraction in moments]
         return {
             "x": round(x, 2),
             "y": y,
-            "wide": round(wide, 2),
-            "tall": self._tall,
+            "wide": round(axes_width, 2),
+            "tall": self._height,
             "title": on_one_line(self._panel.title, 90),
-            "across": [(round(x + wide * t, 2), text) for t, text in self._x.ticks],
-            "upward": [(round(y + self._tall * (1 - t), 2), text) for t, text in self._y.ticks],
-            "curves": [{**look, "way": way} for look, way in ways],
+            "across": [(round(x + axes_width * fraction, 2), text) for fraction, text in self._time_scale.ticks],
+            "upward": [(round(y + self._height * (1 - fraction), 2), text) for fraction, text in self._value_scale.ticks],
+            "curves": [{**line_style, "way": path} for line_style, path in styled_paths],
         }
 
 
-def _look(k: int, line: Line) -> dict[str, Any]:
-    """Colour, width and dashes of the k-th line of a panel, and its name."""
-    own = (COLORS[k % len(COLORS)], 1.9, _DASHES[(k // 3) % len(_DASHES)])
-    color, width, dashes = own if line.look is None else _LOOKS[line.look]
-    scaled = " ".join(f"{width * part:.3g}" for part in dashes)
+def _style_line(line_index: int, line: TimelineLine) -> dict[str, Any]:
+    """Return the colour, width, dashes, and label of the k-th line of a panel."""
+    own_style = (LINE_COLORS[line_index % len(LINE_COLORS)], 1.9, _LINE_DASHES[(line_index // 3) % len(_LINE_DASHES)])
+    color, width, dashes = own_style if line.look is None else _LOOK_STYLES[line.look]
+    scaled = " ".join(f"{width * dash:.3g}" for dash in dashes)
     return {"color": color, "width": width, "dashes": scaled, "label": on_one_line(line.label)}
 
 
-def _way(x: Array, y: Array) -> str:
-    """A line through points (T,), broken where one has no place."""
-    there = np.isfinite(y)
-    begins = there & ~np.r_[False, there[:-1]]
-    points = np.round(np.stack([x, y], axis=1)[there], 1).tolist()
-    return "".join(f"{'M' if new else 'L'}{a:g} {b:g}" for new, (a, b) in zip(begins[there].tolist(), points, strict=True))
+def _to_svg_path(x: Array, y: Array) -> str:
+    """Convert points (T,) to an SVG path, interrupted where a value is not finite."""
+    is_finite = np.isfinite(y)
+    is_start = is_finite & ~np.r_[False, is_finite[:-1]]
+    points = np.round(np.stack([x, y], axis=1)[is_finite], 1).tolist()
+    return "".join(
+        f"{'M' if starts_piece else 'L'}{point_x:g} {point_y:g}"
+        for starts_piece, (point_x, point_y) in zip(is_start[is_finite].tolist(), points, strict=True)
+    )

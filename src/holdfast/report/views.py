@@ -1,4 +1,4 @@
-"""How things in space are seen: the one projection of every figure."""
+"""Orthographic projections of 3-D geometry, shared by all figures."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_LONGER = 1.5  # times as long along y as along x: then the side is seen along x
+_SIDE_VIEW_ASPECT = 1.5  # times as long along y as along x: then the side is seen along x
 
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A projection along one direction.
+    """Projection along one direction.
 
     Attributes:
         right, up: Unit vectors (3,).
@@ -26,7 +26,7 @@ class View:
     title: str
 
     def of(self, points: Array) -> Array:
-        """Points (..., 3) as places (..., 2) to the right and up, m."""
+        """Project points (..., 3) to coordinates (..., 2) to the right and up, m."""
         return np.stack([points @ self.right, points @ self.up], axis=-1)
 
     @property
@@ -35,21 +35,23 @@ class View:
         return f"{axis_name(self.right)}, m", f"{axis_name(self.up)}, m"
 
 
-def sides(points: Array, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
-    """Side and top view of points (..., 3), the side being the wider one, without those that show only a line."""
+def choose_side_and_top_views(points: Array, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
+    """Return the side and top views of points (..., 3), the side view being the wider one, without views that show
+    only a line.
+    """
     x, y, z = np.eye(3)
     size = np.ptp(points.reshape(-1, 3), axis=0)
-    flat = size < 1e-6 * max(float(size.max()), 1e-6)
-    across = y if size[1] > _LONGER * size[0] else x
-    found = [View(across, z, titles[0]), View(x, y, titles[1])]
-    return [view for view in found if not any(flat @ np.abs([view.right, view.up]).T)]
+    is_flat = size < 1e-6 * max(float(size.max()), 1e-6)
+    across = y if size[1] > _SIDE_VIEW_ASPECT * size[0] else x
+    views = [View(across, z, titles[0]), View(x, y, titles[1])]
+    return [view for view in views if not any(is_flat @ np.abs([view.right, view.up]).T)]
 
 
-SIDE = View(np.eye(3)[0], np.eye(3)[2], "Side view")
+SIDE_VIEW = View(np.eye(3)[0], np.eye(3)[2], "Side view")
 
 
-def onto_plane(normal: Array, up: Array) -> View:
-    """The view along a normal (3,), with ``up`` (3,) upward, or y or x where that is along the normal."""
+def view_onto_plane(normal: Array, up: Array) -> View:
+    """Return the view along a normal (3,), with ``up`` (3,) upward, or y or x where ``up`` is parallel to the normal."""
     x, y, _ = np.eye(3)
     upward = up - normal * (normal @ up)
     if np.linalg.norm(upward) < 1e-6 * max(float(np.linalg.norm(up)), 1e-12):
@@ -59,7 +61,7 @@ def onto_plane(normal: Array, up: Array) -> View:
 
 
 def axis_name(direction: Array) -> str:
-    """The name of a direction: of a world axis, or its numbers."""
+    """Return the name of a direction: a world axis, or its components."""
     for name, axis in zip("xyz", np.eye(3), strict=True):
         if abs(direction @ axis) > 1 - 1e-9:
             return name if direction @ axis > 0 else f"-{name}"

@@ -1,4 +1,4 @@
-"""The shapes that a file gives the links of an arm, to be seen or to collide, with the files of their meshes."""
+"""Visual and collision shapes of the links, read from the file of an arm, with their mesh files."""
 
 from holdfast._lazy import offer
 

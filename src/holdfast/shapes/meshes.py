@@ -1,4 +1,4 @@
-"""Where the files of meshes are that the file of an arm names."""
+"""Find the mesh files that the file of an arm names."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 
 def find_mesh(name: str, file: Path, folder: Path | None = None) -> Path | None:
-    """The file of a mesh that a URDF file names, or None.
+    """Return the path of a mesh that a URDF file names, or None.
 
     A path is taken from the folder of the URDF file. For ``package://NAME/...``, NAME is a folder beside the URDF file or
     above it, or one in ``ROS_PACKAGE_PATH``, or the last folder of one of its entries.
@@ -23,25 +23,25 @@ def find_mesh(name: str, file: Path, folder: Path | None = None) -> Path | None:
         scheme, inside = "", name
     if scheme not in ("", "file", "package") or "\0" in name:
         return None
-    for place in [*_inside(inside, folder), *_usual(scheme, inside, file)]:
+    for place in [*_paths_in_folder(inside, folder), *_package_paths(scheme, inside, file)]:
         if place.is_file():
             return place
     return None
 
 
-def _inside(name: str, folder: Path | None) -> Iterator[Path]:
+def _paths_in_folder(name: str, folder: Path | None) -> Iterator[Path]:
     if folder is not None:
         parts = [part for part in PurePosixPath(name).parts if part not in ("/", "..")]
         yield from (folder.joinpath(*parts[k:]) for k in range(len(parts)))
 
 
-def _usual(scheme: str, inside: str, file: Path) -> Iterator[Path]:
+def _package_paths(scheme: str, inside: str, file: Path) -> Iterator[Path]:
     if scheme != "package":
         yield file.parent / inside  # an absolute path stays one
         return
-    package, _, rest = inside.partition("/")
+    package, _, relative_path = inside.partition("/")
     listed = [Path(entry) for entry in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if entry]
     for above in [*file.resolve().parents, *listed]:
-        yield above / package / rest
+        yield above / package / relative_path
         if above.name == package:
-            yield above / rest
+            yield above / relative_path

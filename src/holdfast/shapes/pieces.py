@@ -1,4 +1,4 @@
-"""One shape of a link, and which joint of an arm moves it."""
+"""Shape of a link and the joint of an arm that moves it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.tree import Held, Tree
+from holdfast.arm.tree import LinkTree, LockedJoints
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -18,7 +18,7 @@ Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "hal
 Purpose = Literal["visual", "collision"]
 Place = Callable[[str], tuple[int, Array] | None]  # of a link: what moves it, -1 for nothing, and its pose (4, 4) there
 
-_SAME = 1e-9  # m and rad: two readings of one file
+_POSE_TOLERANCE = 1e-9  # m and rad: two readings of one file
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -66,8 +66,8 @@ class Missing(NamedTuple):
     is_present: bool = False
 
 
-class Carriers:
-    """Which joint of an arm moves a link of the tree that the arm was read from.
+class LinkCarriers:
+    """Map from links of the file's kinematic tree to the joints of an arm that move them.
 
     Links that hang beside the chain on a moving joint are where the arm's mass has them.
 
@@ -80,29 +80,31 @@ class Carriers:
         ArmError: The arm is not one of this tree: joints have other names or places.
     """
 
-    def __init__(self, tree: Tree, arm: Arm, hold: Mapping[str, float] | None = None) -> None:
+    def __init__(self, tree: LinkTree, arm: Arm, hold: Mapping[str, float] | None = None) -> None:
         self.tree, self.arm = tree, arm
         chain = arm.chain
         self.base = tree.root if chain is None else chain.base
         held = {**({} if chain is None else dict(chain.held)), **(hold or {})}
-        self.still = Held(tree, set(arm.joint_names), held)
+        self.still = LockedJoints(tree, set(arm.joint_names), held)
         self._numbers: dict[str, int] = {name: k for k, name in enumerate(arm.joint_names)}
         for k, joint in enumerate(arm.joints):
             there = tree.joints.get(joint.name)
             place = None if there is None else self.place(there.parent)
             same = place is not None and there is not None and place[0] == k - 1
-            if not (same and np.allclose(place[1] @ there.origin, joint.origin, atol=_SAME)):  # type: ignore[index, union-attr]
+            if not (same and np.allclose(place[1] @ there.origin, joint.origin, atol=_POSE_TOLERANCE)):  # type: ignore[index, union-attr]
                 raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
 
     def place(self, link: str) -> tuple[int, Array] | None:
-        """The joint that moves a link, -1 for none, and the link's pose (4, 4) there; None if it does not hang on the base."""
+        """Return the joint that moves a link (-1 for none) and the link's pose (4, 4) there; None if it is not attached to the
+        base.
+        """
         pose = np.eye(4)
         while link != self.base:
-            if link not in self.tree.above:
+            if link not in self.tree.joint_above:
                 return None
-            joint = self.tree.above[link]
+            joint = self.tree.joint_above[link]
             if joint.name in self._numbers:
                 return self._numbers[joint.name], pose
-            pose = joint.at(self.still.value(joint)) @ pose
+            pose = joint.child_pose(self.still.joint_value(joint)) @ pose
             link = joint.parent
         return -1, pose

@@ -1,4 +1,4 @@
-"""The shapes of an arm from the file that it was read from."""
+"""Read the shapes of an arm from the file of the arm."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 from holdfast.arm import urdf
 from holdfast.arm.model import Arm
-from holdfast.arms.catalogue import outermost
+from holdfast.arms.catalogue import root_element_name
 from holdfast.errors import InputError
 from holdfast.shapes.pieces import Missing, Piece, Purpose
 
@@ -21,7 +21,7 @@ def read_pieces(
     meshes: str | Path | None = None,
     open_files: bool = True,
 ) -> tuple[list[Piece], list[Missing]]:
-    """The shapes that the arm's file gives its links, and what of them could not be read.
+    """Return the shapes that the arm's file gives its links, and the shapes that could not be read.
 
     Nothing at all if the arm is from no file, or from one that is gone.
 
@@ -38,18 +38,18 @@ def read_pieces(
     if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
         return [], []
     folder = Path(meshes) if meshes is not None else Path(arm.chain.meshes) if arm.chain.meshes else None
-    if outermost(arm.chain.file) == "mujoco":
+    if root_element_name(arm.chain.file) == "mujoco":
         from holdfast.shapes import mjcf_pieces
 
         # MuJoCo opens the files that the model names whether or not they are wanted.
-        return mjcf_pieces.read(Path(arm.chain.file), arm, purpose, hold) if open_files else ([], [])
+        return mjcf_pieces.read_mjcf_pieces(Path(arm.chain.file), arm, purpose, hold) if open_files else ([], [])
     from holdfast.shapes import urdf_pieces
 
-    return urdf_pieces.read(Path(arm.chain.file), arm, purpose, hold, folder, open_files)
+    return urdf_pieces.read_urdf_pieces(Path(arm.chain.file), arm, purpose, hold, folder, open_files)
 
 
 def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
-    """Pairs of links of the arm's file, each in alphabetical order, that it says never collide or may: those of its SRDF file.
+    """Return the pairs of links, each in alphabetical order, that the SRDF file of the arm excludes from collision checks.
 
     Of an MJCF file, the ``<exclude>`` of its contacts.
 
@@ -58,15 +58,15 @@ def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
     """
     if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
         return frozenset()
-    if outermost(arm.chain.file) == "mujoco":
+    if root_element_name(arm.chain.file) == "mujoco":
         from holdfast.shapes import mjcf_pieces
 
-        return mjcf_pieces.excluded(Path(arm.chain.file))
-    return urdf.disabled_pairs(Path(arm.chain.srdf)) if arm.chain.srdf else frozenset()
+        return mjcf_pieces.excluded_pairs(Path(arm.chain.file))
+    return urdf.read_disabled_pairs(Path(arm.chain.srdf)) if arm.chain.srdf else frozenset()
 
 
 def with_meshes(arm: Arm, folder: str | Path) -> Arm:
-    """The same arm with a folder in which the meshes that its file names are looked for first.
+    """Return the same arm with a folder that is searched first for its meshes.
 
     Raises:
         InputError: There is no such folder, or the arm is from no file.

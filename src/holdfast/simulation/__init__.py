@@ -1,4 +1,4 @@
-"""The closed loop of an arm with a locked joint that nobody has noticed."""
+"""The closed loop of an arm with an undetected locked joint."""
 
 from holdfast._lazy import offer
 

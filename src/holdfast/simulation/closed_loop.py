@@ -1,4 +1,4 @@
-"""The closed loop of a controller that does not know that a joint has locked."""
+"""The closed loop of a controller without fault information whose joints lock."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.task import target_poses
 from holdfast.clearance.choice import CellLike, chosen_clearance
@@ -17,31 +17,31 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.failures import Degraded, Locked, read_locks
-from holdfast.notice import says
-from holdfast.simulation.batch import motion_of
-from holdfast.simulation.runs import Runs, Setting
-from holdfast.simulation.tableaus import CLASSIC
-from holdfast.simulation.touching import with_contacts
+from holdfast.notice import reports_progress
+from holdfast.simulation.batch import compiled_simulator
+from holdfast.simulation.runs import Runs, RunSettings
+from holdfast.simulation.tableaus import CLASSIC_RK4
+from holdfast.simulation.touching import add_contacts
 
 Array = NDArray[np.float64]
 Method = Literal["adaptive", "rk4"]
 
 
-class Locking(Protocol):
-    """Faults that say when joints lock."""
+class LockSchedule(Protocol):
+    """Faults that state when joints lock."""
 
     def times_of(self, joints: Sequence[str]) -> Array:
-        """(n,), or (N, n) of N runs: when each of these joints locks, infinite for never."""
+        """Return (n,), or (N, n) of N runs, the times at which these joints lock, infinite for never."""
         ...
 
 
 TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
-RADIUS = 0.1  # m
-TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
+TARGET_RADIUS_M = 0.1  # m
+DEFAULT_TOLERANCE, MAX_TOLERANCE, MIN_TOLERANCE = 1e-9, 1e-6, 1e-13
 
 
-@checked
-@says("simulating motions")
+@check_arguments
+@reports_progress("simulating motions")
 def simulate(
     law: Law,
     q0: ArrayLike,
@@ -51,16 +51,16 @@ def simulate(
     cycles: bool = False,
     method: Method = "adaptive",
     time_limit: float | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float = DEFAULT_TOLERANCE,
     step: float | None = None,
-    radius: float = RADIUS,
+    radius: float = TARGET_RADIUS_M,
     time: ArrayLike = 0.0,
-    faults: Locking | None = None,
+    faults: LockSchedule | None = None,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     stop_at_contact: bool = False,
 ) -> Runs:
-    """What the arm does when joints lock and its controller does not know.
+    """Simulate an arm whose joints lock while its controller has no fault information.
 
     ``q' = mask G(q) Ke e(q)`` with mask 0 for locked joints, G the law's inverse at the true configuration with no column
     removed, and e the error ``(p_d - p; log(R_d R'))`` of the task's rows in the world. Joint limits are not heeded, only
@@ -130,45 +130,52 @@ def simulate(
 
     Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
     """
-    start, single = as_configurations(law.arm, q0)
-    poses, rows_wanted = target_poses(law.task, target)
-    targets = poses if rows_wanted is None else rows_wanted
-    locks, shared = _locks(law, locked, time, start) if faults is None else _drawn(law, faults, locked)
-    counts = {"q0": len(start), "target": len(targets), "locked": len(locks)}
-    rows = max(counts.values()) if min(counts.values()) else 0
-    for what, count in counts.items():
-        if count not in (1, rows):
-            raise InputError(f"{what} has {count} rows, another input has {rows}; give the same number, or one for all")
+    starts, is_single = as_configurations(law.arm, q0)
+    poses, target_components = target_poses(law.task, target)
+    targets = poses if target_components is None else target_components
+    lock_times, is_shared = (
+        _read_lock_times(law, locked, time, starts) if faults is None else _read_fault_times(law, faults, locked)
+    )
+    counts = {"q0": len(starts), "target": len(targets), "locked": len(lock_times)}
+    run_count = max(counts.values()) if min(counts.values()) else 0
+    for input_name, count in counts.items():
+        if count not in (1, run_count):
+            raise InputError(
+                f"{input_name} has {count} rows, another input has {run_count}; give the same number, or one for all"
+            )
     if method not in ("adaptive", "rk4"):
         raise InputError(f"method '{method}' is not known; use adaptive or rk4")
     if cycles and (method != "adaptive" or step is not None):
         raise InputError("cycles have a method of their own; leave out method and step")
     if step is not None and method != "rk4":
         raise InputError("step belongs to method='rk4'; the adaptive method takes a tolerance")
-    limit = time_limit if time_limit is not None else CYCLE_LIMIT if cycles else TIME_LIMIT / law.gain
-    first = step if step is not None else 0.1 / law.gain
-    for what, value in (("time_limit", limit), ("step", first), ("radius", radius)):
+    run_limit = time_limit if time_limit is not None else CYCLE_LIMIT if cycles else TIME_LIMIT / law.gain
+    step_size = step if step is not None else 0.1 / law.gain
+    for input_name, value in (("time_limit", run_limit), ("step", step_size), ("radius", radius)):
         if not (np.isfinite(value) and value > 0):
-            raise InputError(f"{what} is {value:g}; it must be a finite number above 0")
-    if not TIGHTEST <= tolerance <= LOOSEST:
-        raise InputError(f"tolerance is {tolerance:g}; it must be between {TIGHTEST:g} and {LOOSEST:g}, or rest cannot be seen")
-    if first * law.gain > CLASSIC.longest:
+            raise InputError(f"{input_name} is {value:g}; it must be a finite number above 0")
+    if not MIN_TOLERANCE <= tolerance <= MAX_TOLERANCE:
         raise InputError(
-            f"step is {first:g} s; above {CLASSIC.longest:g}/Ke, {CLASSIC.longest / law.gain:g} s, the method is not stable"
+            f"tolerance is {tolerance:g}; it must be between {MIN_TOLERANCE:g} and {MAX_TOLERANCE:g}, or rest cannot be seen"
         )
-    looked = chosen_clearance(law.arm, clearance or False, cell, looks=False)
-    if stop_at_contact and looked is None:
+    if step_size * law.gain > CLASSIC_RK4.longest_step:
+        raise InputError(
+            f"step is {step_size:g} s; above {CLASSIC_RK4.longest_step:g}/Ke, {CLASSIC_RK4.longest_step / law.gain:g} s, "
+            f"the method is not stable"
+        )
+    checked_clearance = chosen_clearance(law.arm, clearance or False, cell, looks=False)
+    if stop_at_contact and checked_clearance is None:
         raise InputError("stop_at_contact has nothing to stop at; give a cell, or a clearance")
-    setting = Setting(float(limit), float(radius if cycles else tolerance), float(first))
-    runs = motion_of(law, "cycles" if cycles else method).run(
-        np.broadcast_to(start, (rows, law.arm.n)),
-        np.broadcast_to(targets, (rows, *targets.shape[1:])),
-        np.broadcast_to(locks, (rows, law.arm.n)),
-        setting,
+    settings = RunSettings(float(run_limit), float(radius if cycles else tolerance), float(step_size))
+    runs = compiled_simulator(law, "cycles" if cycles else method).run(
+        np.broadcast_to(starts, (run_count, law.arm.n)),
+        np.broadcast_to(targets, (run_count, *targets.shape[1:])),
+        np.broadcast_to(lock_times, (run_count, law.arm.n)),
+        settings,
     )
-    if looked is not None:
-        runs = with_contacts(runs, looked, stop_at_contact)
-    if single and shared and np.ndim(target) == targets.ndim - 1:
+    if checked_clearance is not None:
+        runs = add_contacts(runs, checked_clearance, stop_at_contact)
+    if is_single and is_shared and np.ndim(target) == targets.ndim - 1:
         arrays = {name: value[0] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
         return replace(runs, **arrays)
     return runs
@@ -177,44 +184,48 @@ def simulate(
 # ---- input -------------------------------------------------------------------------------------------------------
 
 
-def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: Array) -> tuple[Array, bool]:
-    """When each joint locks (M, n), infinite for never; and whether that is the same for all runs."""
+def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: Array) -> tuple[Array, bool]:
+    """Return the time at which each joint locks (M, n), infinite for never, and whether all runs share it."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
         if locked.ndim == 2:
-            return _lock_times(law, locked), False
+            return _check_lock_times(law, locked), False
         if locked.ndim != 1 or not np.issubdtype(locked.dtype, np.integer):
             raise InputError(
                 f"locked has shape {locked.shape} and type {locked.dtype}; an array holds one joint index for each run, (N,) "
                 f"whole numbers, -1 for none, or lock times, (N, {arm.n})"
             )
-        wrong = np.flatnonzero((locked < -1) | (locked >= arm.n))
-        if wrong.size:
+        invalid = np.flatnonzero((locked < -1) | (locked >= arm.n))
+        if invalid.size:
             raise InputError(
-                f"locked[{wrong[0]}] is {locked[wrong[0]]}; '{arm.name}' has joints 0 to {arm.n - 1}, and -1 means none"
+                f"locked[{invalid[0]}] is {locked[invalid[0]]}; '{arm.name}' has joints 0 to {arm.n - 1}, and -1 means none"
             )
         times = np.full((len(locked), arm.n), np.inf)
         rows = np.flatnonzero(locked >= 0)
         times[rows, locked[rows]] = 0.0
         return times, False
     joints = read_locks(arm, locked)
-    known = isinstance(locked, Degraded)
-    for k, value in joints.items():
-        if value is not None and not (known and (start[:, k] == value).all()):
-            name = arm.joint_names[k]
-            raise InputError(f"locked has {value:g} for '{name}'; a joint locks where it is: give None, and its value in q0")
-    when = real_numbers(time, "time")
-    if when.shape not in ((), (len(joints),)):
-        raise InputError(f"time has shape {when.shape} and locked names {len(joints)} joints; give one time, or one for each")
-    if not (np.isfinite(when) & (when >= 0)).all():
+    is_degraded = isinstance(locked, Degraded)
+    for joint, value in joints.items():
+        if value is not None and not (is_degraded and (start[:, joint] == value).all()):
+            joint_name = arm.joint_names[joint]
+            raise InputError(
+                f"locked has {value:g} for '{joint_name}'; a joint locks where it is: give None, and its value in q0"
+            )
+    lock_times = require_real_numbers(time, "time")
+    if lock_times.shape not in ((), (len(joints),)):
+        raise InputError(
+            f"time has shape {lock_times.shape} and locked names {len(joints)} joints; give one time, or one for each"
+        )
+    if not (np.isfinite(lock_times) & (lock_times >= 0)).all():
         raise InputError(f"time is {time!r}; a joint locks at a finite time of 0 or more")
     times = np.full((1, arm.n), np.inf)
-    times[0, list(joints)] = when
+    times[0, list(joints)] = lock_times
     return times, True
 
 
-def _drawn(law: Law, faults: Locking, locked: Any) -> tuple[Array, bool]:
-    """Likewise of faults."""
+def _read_fault_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[Array, bool]:
+    """Return the lock times of sampled faults, and whether all runs share them."""
     if not hasattr(faults, "times_of"):
         raise InputError(f"faults is {faults!r}; give those of an episode, by draw, or of many, by batch")
     if np.size(locked):
@@ -223,18 +234,19 @@ def _drawn(law: Law, faults: Locking, locked: Any) -> tuple[Array, bool]:
     return np.atleast_2d(times), times.ndim == 1
 
 
-def _lock_times(law: Law, locked: NDArray[Any]) -> Array:
+def _check_lock_times(law: Law, locked: NDArray[Any]) -> Array:
     arm = law.arm
     if locked.shape[1] != arm.n or not np.issubdtype(locked.dtype, np.number):
         raise InputError(
             f"locked has shape {locked.shape} and type {locked.dtype}; lock times are numbers (N, {arm.n}), one for each run "
             "and joint"
         )
-    times = np.array(locked, dtype=np.float64)
-    wrong = np.argwhere(~(times >= 0))
-    if wrong.size:
-        k, joint = wrong[0]
+    lock_times = np.array(locked, dtype=np.float64)
+    invalid = np.argwhere(~(lock_times >= 0))
+    if invalid.size:
+        run, joint = invalid[0]
         raise InputError(
-            f"locked[{k}, {joint}] is {times[k, joint]:g}; a lock time is 0 or more, and infinite for a joint that never locks"
+            f"locked[{run}, {joint}] is {lock_times[run, joint]:g}; a lock time is 0 or more, and infinite for a joint "
+            f"that never locks"
         )
-    return times
+    return lock_times

@@ -1,4 +1,4 @@
-"""The closed loop in discrete control cycles: the command is held for a cycle while the arm follows the law.
+"""The closed loop in discrete control cycles: the command is constant for a cycle while the arm follows the law.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 4; the sub-steps and the rule that stops are ours.
 """
@@ -12,110 +12,119 @@ from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.simulation.system import (
-    ARRIVED,
-    COLLAPSE,
-    PHASE,
-    REST,
-    RUNNING,
-    TIME,
-    State,
-    System,
-    chosen,
-    greater,
-    lesser,
-    loop_of,
-    watched,
+    STATE_ARRIVED,
+    STATE_AT_REST,
+    STATE_COLLAPSED,
+    STATE_PHASE_END,
+    STATE_RUNNING,
+    STATE_TIME_LIMIT,
+    FailedArmSystem,
+    StateLayout,
+    choose_parts,
+    elementwise_max,
+    elementwise_min,
+    make_state_loop,
+    update_end_speeds,
 )
 
-SUBSTEPS = 10
-STILL, SLOWEST = 2e-5, 1e-6  # of a cycle's way at the speed limit; of the arm's own unit of length where there is no limit
-PATIENCE = 50  # cycles one after the other in which the end effector moved less than that: at rest
+SUBSTEPS_PER_CYCLE = 10
+REST_TRAVEL_FRACTION, REST_TRAVEL_LENGTHS = (
+    2e-5,
+    1e-6,
+)  # of a cycle's way at the speed limit; of the arm's own unit of length where there is no limit
+REST_CYCLES = 50  # cycles one after the other in which the end effector moved less than that: at rest
 
 
-class Cycles:
+class CycleStepper:
     """Sub-steps of control cycles of one system, as a loop over states.
 
     A state holds the configuration ``q``; the number of the ``substep``, the ``command`` held and where the end effector was
     (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the end effector was ``still``; and, as for
-    :class:`holdfast.simulation.runge_kutta.Steps`, path, closest approach, joint excursions, speeds and code.
+    :class:`holdfast.simulation.runge_kutta.RungeKuttaStepper`, path, closest approach, joint excursions, speeds and code.
 
     Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``radius`` of the target.
     """
 
-    calls = 1  # of single in a step
-    staged = False
+    calls_per_step = 1  # of single in a step
+    is_staged = False
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: FailedArmSystem) -> None:
         self.system = system
         law = system.law
         n, m = law.arm.n, law.task.m
-        self._still = SLOWEST * law.arm.length_unit if law.speed_limit is None else STILL * law.speed_limit
-        self._until, self._limit, self._radius = (ca.SX.sym(x) for x in ("until", "limit", "radius"))
-        self.parameters = [*system.given, self._until, self._limit, self._radius]
+        self._rest_distance = (
+            REST_TRAVEL_LENGTHS * law.arm.length_unit if law.speed_limit is None else REST_TRAVEL_FRACTION * law.speed_limit
+        )
+        self._until, self._limit, self._radius = (ca.SX.sym(name) for name in ("until", "limit", "radius"))
+        self.parameters = [*system.inputs, self._until, self._limit, self._radius]
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)
-        ends = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
-        self.state = State(q=n, substep=1, command=m, place=3, **scalars, **ends)
+        end_parts = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
+        self.layout = StateLayout(q=n, substep=1, command=m, place=3, **scalars, **end_parts)
         self.made_of = system
 
     @cached_property
-    @recalled
+    @cached_kernel
     def loop(self) -> Loop:
-        """The sub-steps repeated."""
-        return loop_of("control cycles", self._next, self.state, self.parameters, SUBSTEPS)
+        """Loop that repeats the sub-steps."""
+        return make_state_loop("control cycles", self._build_substep, self.layout, self.parameters, SUBSTEPS_PER_CYCLE)
 
     @cached_property
-    @recalled
-    def single(self) -> Kernel:
-        """One sub-step of a state."""
-        symbol = ca.SX.sym("state", self.state.size)
-        return Kernel("one step", [symbol, *self.parameters], [self.state.join(self._next(self.state.split(symbol)))])
+    @cached_kernel
+    def single_step(self) -> Kernel:
+        """Kernel of one sub-step of a state."""
+        symbol = ca.SX.sym("state", self.layout.size)
+        return Kernel(
+            "one step",
+            [symbol, *self.parameters],
+            [self.layout.join_parts(self._build_substep(self.layout.split_symbol(symbol)))],
+        )
 
-    def _next(self, parts: dict[str, SX]) -> dict[str, SX]:
+    def _build_substep(self, parts: dict[str, SX]) -> dict[str, SX]:
         system, q = self.system, parts["q"]
-        first, last = parts["substep"] == 0, parts["substep"] == SUBSTEPS - 1
-        e, _ = system.error(q)
-        v, share = system.command(e)
-        at = chosen(first, self._begun(parts, e, v), parts)
-        rates = system.rates(q, at["command"])
-        speed = ca.sqrt(ca.sumsqr(rates)) / share
-        q = q + rates * (system.law.gain / SUBSTEPS)
-        time = parts["time"] + ca.if_else(last, 1.0, 0.0)
-        moved = {
-            **at,
+        is_first, is_last = parts["substep"] == 0, parts["substep"] == SUBSTEPS_PER_CYCLE - 1
+        error, _ = system.compute_error(q)
+        velocity, speed_fraction = system.compute_command(error)
+        started = choose_parts(is_first, self._start_cycle(parts, error, velocity), parts)
+        rates = system.compute_rates(q, started["command"])
+        speed = ca.sqrt(ca.sumsqr(rates)) / speed_fraction
+        q = q + rates * (system.law.gain / SUBSTEPS_PER_CYCLE)
+        time = parts["time"] + ca.if_else(is_last, 1.0, 0.0)
+        moved_parts = {
+            **started,
             "q": q,
-            "low": lesser(at["low"], q),
-            "high": greater(at["high"], q),
-            "substep": ca.if_else(last, 0.0, parts["substep"] + 1),
+            "low": elementwise_min(started["low"], q),
+            "high": elementwise_max(started["high"], q),
+            "substep": ca.if_else(is_last, 0.0, parts["substep"] + 1),
             "time": time,
             "clock": time,
         }
-        moved |= chosen(first, watched(at, speed, parts["time"], self._limit), at)
+        moved_parts |= choose_parts(is_first, update_end_speeds(started, speed, parts["time"], self._limit), started)
         # A singular configuration makes the rates NaN, and the comparison false: the arm stays where it was.
-        after = chosen(ca.sumsqr(q) < 1e30, moved, {**at, "code": ca.SX(COLLAPSE)})
-        return chosen(at["code"] == RUNNING, after, at)
+        next_parts = choose_parts(ca.sumsqr(q) < 1e30, moved_parts, {**started, "code": ca.SX(STATE_COLLAPSED)})
+        return choose_parts(started["code"] == STATE_RUNNING, next_parts, started)
 
-    def _begun(self, parts: dict[str, SX], e: SX, v: SX) -> dict[str, SX]:
-        """What is noted, and decided, when a cycle begins."""
-        place = kinematics.chain(self.system.law.arm, parts["q"]).position
-        moved = ca.if_else(parts["time"] > 0, ca.sqrt(ca.sumsqr(place - parts["place"])), 0.0)
-        still = ca.if_else(ca.logic_and(parts["time"] > 0, moved < self._still), parts["still"] + 1, 0.0)
-        error = ca.sumsqr(e)
-        code = ca.if_else(parts["time"] >= self._limit, TIME, RUNNING)
-        code = ca.if_else(still >= PATIENCE, REST, code)
-        code = ca.if_else(error <= self._radius * self._radius, ARRIVED, code)
-        noted = {
+    def _start_cycle(self, parts: dict[str, SX], task_error: SX, velocity: SX) -> dict[str, SX]:
+        """Return the parts that are recorded, and the code that is decided, where a cycle begins."""
+        position = kinematics.kinematic_chain(self.system.law.arm, parts["q"]).position
+        travel = ca.if_else(parts["time"] > 0, ca.sqrt(ca.sumsqr(position - parts["place"])), 0.0)
+        rest_cycles = ca.if_else(ca.logic_and(parts["time"] > 0, travel < self._rest_distance), parts["still"] + 1, 0.0)
+        squared_error = ca.sumsqr(task_error)
+        code = ca.if_else(parts["time"] >= self._limit, STATE_TIME_LIMIT, STATE_RUNNING)
+        code = ca.if_else(rest_cycles >= REST_CYCLES, STATE_AT_REST, code)
+        code = ca.if_else(squared_error <= self._radius * self._radius, STATE_ARRIVED, code)
+        started_parts = {
             **parts,
-            "command": v,
-            "place": place,
-            "error": error,
-            "path": parts["path"] + moved,
-            "closest": lesser(parts["closest"], error),
-            "still": still,
+            "command": velocity,
+            "place": position,
+            "error": squared_error,
+            "path": parts["path"] + travel,
+            "closest": elementwise_min(parts["closest"], squared_error),
+            "still": rest_cycles,
             "code": code,
         }
         # The next phase begins this cycle again with another joint locked: nothing may be noted twice.
-        ends = ca.logic_and(parts["time"] >= self._until, parts["time"] < self._limit)
-        after = chosen(ends, {**parts, "code": ca.SX(PHASE)}, noted)
-        return chosen(parts["code"] == RUNNING, after, parts)
+        is_phase_end = ca.logic_and(parts["time"] >= self._until, parts["time"] < self._limit)
+        next_parts = choose_parts(is_phase_end, {**parts, "code": ca.SX(STATE_PHASE_END)}, started_parts)
+        return choose_parts(parts["code"] == STATE_RUNNING, next_parts, parts)

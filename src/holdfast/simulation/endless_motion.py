@@ -10,121 +10,130 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.simulation.runge_kutta import Steps
-from holdfast.simulation.system import FAR, RUNNING
+from holdfast.simulation.runge_kutta import RungeKuttaStepper
+from holdfast.simulation.system import LARGE_NUMBER, STATE_RUNNING
 
 Array = NDArray[np.float64]
 
-_STEPS = 1500  # of the integrator: a period is no longer
-_ROUNDS = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
-_NEWTON, _MOST = 6, 400  # corrections of the time of a return; calls in each
-_ROWS = 32  # at a time, whose ways are kept
-_NEAR = 0.1  # of the motion's extent: a return that misses by more is none
-_DRIFT = 1e-2  # of the motion's extent: the most that it may drift within the horizon
-HORIZON = 1e5  # 1/Ke, after the end of the run
+_STEPS_PER_ROUND = 1500  # of the integrator: a period is no longer
+_MAX_ROUNDS = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
+_NEWTON_STEPS, _MAX_CALLS = 6, 400  # corrections of the time of a return; calls in each
+_GROUP_RUNS = 32  # at a time, whose ways are kept
+_RETURN_TOLERANCE = 0.1  # of the motion's extent: a return that misses by more is none
+_MAX_DRIFT = 1e-2  # of the motion's extent: the most that it may drift within the horizon
+DRIFT_HORIZON = 1e5  # 1/Ke, after the end of the run
 
 
-def find_endless(
-    steps: Steps, states: Array, parameters: Array, turning: NDArray[np.bool_], slowest: float
+def detect_periodic(
+    stepper: RungeKuttaStepper, states: Array, parameters: Array, is_revolute: NDArray[np.bool_], min_speed: float
 ) -> NDArray[np.bool_]:
-    """Find the motions that return to where they were, with a speed that never falls to ``slowest``.
+    """Find the periodic motions: those that return to an earlier configuration, always faster than ``min_speed``.
 
     Args:
-        steps: The compiled steps.
+        stepper: The compiled steps.
         states: (N, s) of runs that are under way.
         parameters: (N, p) of the steps.
-        turning: (n,) joints of which the values count modulo whole turns.
-        slowest: rad (and m) per 1/Ke.
+        is_revolute: (n,) joints of which the values count modulo whole turns.
+        min_speed: rad (and m) per 1/Ke.
 
     Returns:
-        (N,) True where the drift from period to period, over :data:`HORIZON` or until the run's own limit if that is later,
-        stays below a hundredth of the motion's extent.
+        (N,) True where the drift from period to period, over :data:`DRIFT_HORIZON` or until the run's own limit if that is
+        later, stays below a hundredth of the motion's extent.
     """
-    groups = [slice(k, k + _ROWS) for k in range(0, len(states), _ROWS)]
-    found = [_find_endless(steps, states[g], parameters[g], turning, slowest) for g in groups]
-    return np.concatenate([np.zeros(0, dtype=bool), *found])
+    groups = [slice(first, first + _GROUP_RUNS) for first in range(0, len(states), _GROUP_RUNS)]
+    group_results = [
+        _detect_periodic_group(stepper, states[group], parameters[group], is_revolute, min_speed) for group in groups
+    ]
+    return np.concatenate([np.zeros(0, dtype=bool), *group_results])
 
 
-def _find_endless(
-    steps: Steps, states: Array, parameters: Array, turning: NDArray[np.bool_], slowest: float
+def _detect_periodic_group(
+    stepper: RungeKuttaStepper, states: Array, parameters: Array, is_revolute: NDArray[np.bool_], min_speed: float
 ) -> NDArray[np.bool_]:
-    layout = steps.state
-    states, onward = states.copy(), parameters.copy()
-    now = layout.values(states)
-    now["code"][:] = RUNNING
-    horizon = np.maximum(parameters[:, -2] - now["clock"][:, 0], HORIZON)
-    onward[:, -3:-1] = FAR
-    endless, rows = np.zeros(len(states), dtype=bool), np.arange(len(states))
-    for _ in range(_ROUNDS):
-        way = np.stack(_walk(steps, states[rows], onward[rows]))
-        returning = np.zeros(len(rows), dtype=bool)
-        for k, row in enumerate(rows):
-            drift = _drift(steps, way[:, k], onward[row], turning, slowest)
-            endless[row], returning[k] = drift * horizon[row] < _DRIFT, np.isfinite(drift)
-        states[rows] = way[-1]
-        rows = rows[returning & ~endless[rows]]
-        if not rows.size:
+    layout = stepper.layout
+    states, unlimited_parameters = states.copy(), parameters.copy()
+    state_parts = layout.view_parts(states)
+    state_parts["code"][:] = STATE_RUNNING
+    horizon = np.maximum(parameters[:, -2] - state_parts["clock"][:, 0], DRIFT_HORIZON)
+    unlimited_parameters[:, -3:-1] = LARGE_NUMBER
+    is_periodic, active = np.zeros(len(states), dtype=bool), np.arange(len(states))
+    for _ in range(_MAX_ROUNDS):
+        trajectory = np.stack(_record_steps(stepper, states[active], unlimited_parameters[active]))
+        returning = np.zeros(len(active), dtype=bool)
+        for column, row in enumerate(active):
+            drift = _measure_drift(stepper, trajectory[:, column], unlimited_parameters[row], is_revolute, min_speed)
+            is_periodic[row], returning[column] = drift * horizon[row] < _MAX_DRIFT, np.isfinite(drift)
+        states[active] = trajectory[-1]
+        active = active[returning & ~is_periodic[active]]
+        if not active.size:
             break
-    return endless
+    return is_periodic
 
 
-def _walk(steps: Steps, states: Array, parameters: Array) -> list[Array]:
-    """Return the states (N, s) after each step, the given ones first."""
-    if steps.calls == 1:
-        return list(steps.loop.walk(states, parameters, _STEPS))
-    way = [states]
-    for _ in range(_STEPS // steps.calls):
-        way.append(steps.loop.walk(way[-1], parameters, steps.calls)[-1])
-    return way
+def _record_steps(stepper: RungeKuttaStepper, states: Array, parameters: Array) -> list[Array]:
+    """Return the states (N, s) after each step, the initial ones first."""
+    if stepper.calls_per_step == 1:
+        return list(stepper.loop.trace_states(states, parameters, _STEPS_PER_ROUND))
+    trajectory = [states]
+    for _ in range(_STEPS_PER_ROUND // stepper.calls_per_step):
+        trajectory.append(stepper.loop.trace_states(trajectory[-1], parameters, stepper.calls_per_step)[-1])
+    return trajectory
 
 
-def _drift(steps: Steps, way: Array, parameters: Array, turning: NDArray[np.bool_], slowest: float) -> float:
+def _measure_drift(
+    stepper: RungeKuttaStepper, trajectory: Array, parameters: Array, is_revolute: NDArray[np.bool_], min_speed: float
+) -> float:
     """Return the drift of a motion per 1/Ke, in units of its extent, by its first return; infinite where it does not return.
 
     Args:
-        steps: The compiled steps.
-        way: (T, s) states of the motion, one after the other.
+        stepper: The compiled steps.
+        trajectory: (T, s) states of the motion, one after the other.
         parameters: (p,) of the steps.
-        turning: (n,) joints of which the values count modulo whole turns.
-        slowest: rad (and m) per 1/Ke; a motion that falls to it may stop.
+        is_revolute: (n,) joints of which the values count modulo whole turns.
+        min_speed: rad (and m) per 1/Ke; a motion that falls to it may stop.
     """
-    samples = steps.state.values(way)
-    if (samples["code"] != RUNNING).any():
+    samples = stepper.layout.view_parts(trajectory)
+    if (samples["code"] != STATE_RUNNING).any():
         return np.inf
     speed = np.linalg.norm(samples["rates"], axis=1) / samples["share"][:, 0]
-    away = _wrapped(samples["q"] - samples["q"][0], turning)
-    ahead = away @ samples["rates"][0]
-    extent = np.maximum.accumulate(np.linalg.norm(away, axis=1))
-    for k in (np.flatnonzero((ahead[1:-1] < 0) & (ahead[2:] >= 0)) + 1).tolist():
-        stride = np.linalg.norm(samples["q"][k + 1] - samples["q"][k])
-        if np.linalg.norm(away[k]) > 2 * stride + _NEAR * extent[k] or not speed[: k + 2].min() > slowest:
+    displacement = _wrap_angles(samples["q"] - samples["q"][0], is_revolute)
+    progress = displacement @ samples["rates"][0]
+    extent = np.maximum.accumulate(np.linalg.norm(displacement, axis=1))
+    for index in (np.flatnonzero((progress[1:-1] < 0) & (progress[2:] >= 0)) + 1).tolist():
+        stride = np.linalg.norm(samples["q"][index + 1] - samples["q"][index])
+        if (
+            np.linalg.norm(displacement[index]) > 2 * stride + _RETURN_TOLERANCE * extent[index]
+            or not speed[: index + 2].min() > min_speed
+        ):
             continue
-        period, missed = _returned(steps, way[0], way[k], parameters, turning)
-        if missed < _NEAR * extent[k]:
-            return float(missed / (extent[k] * period))
+        period, return_error = _find_return(stepper, trajectory[0], trajectory[index], parameters, is_revolute)
+        if return_error < _RETURN_TOLERANCE * extent[index]:
+            return float(return_error / (extent[index] * period))
     return np.inf
 
 
-def _returned(steps: Steps, start: Array, near: Array, parameters: Array, turning: NDArray[np.bool_]) -> tuple[float, float]:
-    """Return when a motion that is ``near`` its start passes the start, and at which distance; infinite if it does not."""
-    layout, parameters = steps.state, parameters[None].copy()
-    first, before = layout.values(start[None]), near[None].copy()
-    if steps.staged:
-        layout.values(before)["stage"][:] = 0  # a step under way begins again, as its length will change
-    along, then = first["rates"][0], layout.values(before)
-    time = float(then["time"][0, 0])
-    earliest, here = time, then
-    for _ in range(_NEWTON):
-        gap = _wrapped(here["q"][0] - first["q"][0], turning)
-        pace = float(here["rates"][0] @ along)
-        if not pace > 0:
+def _find_return(
+    stepper: RungeKuttaStepper, start: Array, nearby: Array, parameters: Array, is_revolute: NDArray[np.bool_]
+) -> tuple[float, float]:
+    """Return the time at which a motion that is ``nearby`` its start passes it, and the distance; infinite if it does not."""
+    layout, parameters = stepper.layout, parameters[None].copy()
+    start_parts, earlier = layout.view_parts(start[None]), nearby[None].copy()
+    if stepper.is_staged:
+        layout.view_parts(earlier)["stage"][:] = 0  # a step under way begins again, as its length will change
+    direction, earlier_parts = start_parts["rates"][0], layout.view_parts(earlier)
+    time = float(earlier_parts["time"][0, 0])
+    earliest, current = time, earlier_parts
+    for _ in range(_NEWTON_STEPS):
+        displacement = _wrap_angles(current["q"][0] - start_parts["q"][0], is_revolute)
+        speed_along = float(current["rates"][0] @ direction)
+        if not speed_along > 0:
             return np.inf, np.inf
-        time = max(time - float(gap @ along) / pace, earliest)
+        time = max(time - float(displacement @ direction) / speed_along, earliest)
         parameters[0, -3] = time
-        here = layout.values(steps.loop.run(before, parameters, 0.0, _MOST).state)
-    gap = _wrapped(here["q"][0] - first["q"][0], turning)
-    return float(here["clock"][0, 0] - first["clock"][0, 0]), float(np.linalg.norm(gap))
+        current = layout.view_parts(stepper.loop.run(earlier, parameters, 0.0, _MAX_CALLS).state)
+    displacement = _wrap_angles(current["q"][0] - start_parts["q"][0], is_revolute)
+    return float(current["clock"][0, 0] - start_parts["clock"][0, 0]), float(np.linalg.norm(displacement))
 
 
-def _wrapped(q: Array, turning: NDArray[np.bool_]) -> Array:
-    return np.where(turning, np.arctan2(np.sin(q), np.cos(q)), q)
+def _wrap_angles(q: Array, is_revolute: NDArray[np.bool_]) -> Array:
+    return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

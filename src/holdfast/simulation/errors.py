@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
-from holdfast.simulation.runs import Outcome, Runs
+from holdfast.simulation.runs import RunOutcome, Runs
 from holdfast.simulation.system import tool_errors
 
 Array = NDArray[np.float64]
 
-LATER = (1.0, 10.0, 60.0)  # s, or cycles, after the first lock
-_SAMPLES = 20_000  # of a run, about: more where its integrator took more steps
+REPORT_DELAYS = (1.0, 10.0, 60.0)  # s, or cycles, after the first lock
+_SAMPLES_PER_RUN = 20_000  # of a run, about: more where its integrator took more steps
 
 
 class ErrorKind(NamedTuple):
@@ -38,16 +38,16 @@ class ErrorKind(NamedTuple):
     whole: str
 
 
-_DISTANCE = ErrorKind("position_error", "position_error_m", "distance from the target", "mm", 1000.0, "the target")
-_ANGLE = ErrorKind("angle_error", "angle_error_rad", "angle from the target", "degrees", 180 / np.pi, "its orientation")
+_POSITION_KIND = ErrorKind("position_error", "position_error_m", "distance from the target", "mm", 1000.0, "the target")
+_ANGLE_KIND = ErrorKind("angle_error", "angle_error_rad", "angle from the target", "degrees", 180 / np.pi, "its orientation")
 
 
 def error_kinds(law: Law) -> list[ErrorKind]:
     """Return the errors that the task of a law prescribes: the distance, the angle, or both."""
-    return [_DISTANCE] * bool(law.task.rows[:, :3].any()) + [_ANGLE] * bool(law.task.angular)
+    return [_POSITION_KIND] * bool(law.task.rows[:, :3].any()) + [_ANGLE_KIND] * bool(law.task.angular)
 
 
-def shown_errors(law: Law, q: Array, error: Array, target: Array) -> list[Array]:
+def display_errors(law: Law, q: Array, error: Array, target: Array) -> list[Array]:
     """Compute the errors of configurations (N, n) in mm and degrees: one array (N,) for each of :func:`error_kinds`.
 
     Args:
@@ -56,8 +56,8 @@ def shown_errors(law: Law, q: Array, error: Array, target: Array) -> list[Array]
         error: (N,) norms over the task's rows, m and rad.
         target: (4, 4) wanted tool pose.
     """
-    both = dict(zip((_DISTANCE, _ANGLE), tool_errors(law, q, error, target), strict=True))
-    return [kind.factor * both[kind] for kind in error_kinds(law)]
+    errors_by_kind = dict(zip((_POSITION_KIND, _ANGLE_KIND), tool_errors(law, q, error, target), strict=True))
+    return [kind.factor * errors_by_kind[kind] for kind in error_kinds(law)]
 
 
 @dataclass(frozen=True)
@@ -97,50 +97,50 @@ class ErrorHistory:
     later: tuple[ErrorAt, ...]
 
 
-def error_history(runs: Runs, k: int = 0) -> ErrorHistory:
+def error_history(runs: Runs, run: int = 0) -> ErrorHistory:
     """Compute the errors of run k over time, from every step of its integrator.
 
     Raises:
         InputError: The run has no path.
     """
-    end, locks = float(np.atleast_1d(runs.time)[k]), np.atleast_2d(runs.lock_time)[k]
-    steps, at = runs._motion.recorded(runs, k, end)
-    steps = np.unique(np.minimum(steps, end))
-    between = np.linspace(0.0, 1.0, max(_SAMPLES // len(steps), 1), endpoint=False)
-    grid = (steps[:-1, None] + np.diff(steps)[:, None] * between).ravel()
-    lock = float(locks.min()) if locks.min() <= end else 0.0
-    rests = np.atleast_1d(runs.code)[k] in (Outcome.CONVERGED, Outcome.STUCK)
-    later = [lock + delay for delay in LATER if rests or lock + delay <= end]
-    time = np.unique(np.concatenate([grid, [0.0, lock, end], later]))
-    path = runs._motion.sampled(runs, k, at, np.minimum(time, end))
-    within = time <= end
-    after = within & (time >= lock)
+    end_time, lock_times = float(np.atleast_1d(runs.time)[run]), np.atleast_2d(runs.lock_time)[run]
+    step_times, motion = runs._simulator.replay_run(runs, run, end_time)
+    step_times = np.unique(np.minimum(step_times, end_time))
+    between = np.linspace(0.0, 1.0, max(_SAMPLES_PER_RUN // len(step_times), 1), endpoint=False)
+    sample_times = (step_times[:-1, None] + np.diff(step_times)[:, None] * between).ravel()
+    first_lock = float(lock_times.min()) if lock_times.min() <= end_time else 0.0
+    is_at_rest = np.atleast_1d(runs.code)[run] in (RunOutcome.CONVERGED, RunOutcome.STUCK)
+    report_times = [first_lock + delay for delay in REPORT_DELAYS if is_at_rest or first_lock + delay <= end_time]
+    time = np.unique(np.concatenate([sample_times, [0.0, first_lock, end_time], report_times]))
+    path = runs._simulator.sample_path(runs, run, motion, np.minimum(time, end_time))
+    is_within_run = time <= end_time
+    is_after_lock = is_within_run & (time >= first_lock)
 
     def error_at(index: int) -> ErrorAt:
         return ErrorAt(float(time[index]), float(path.position_error[index]), float(path.angle_error[index]))
 
-    def largest(values: Array) -> ErrorAt:
-        return error_at(int(np.argmax(np.where(after, values, -np.inf))))
+    def find_largest(values: Array) -> ErrorAt:
+        return error_at(int(np.argmax(np.where(is_after_lock, values, -np.inf))))
 
-    def least(values: Array) -> ErrorAt:
-        return error_at(int(np.argmin(np.where(within, values, np.inf))))
+    def find_least(values: Array) -> ErrorAt:
+        return error_at(int(np.argmin(np.where(is_within_run, values, np.inf))))
 
     return ErrorHistory(
-        lock_time=lock,
-        end=error_at(int(np.flatnonzero(within)[-1])),
-        least_position=least(path.position_error),
-        least_angle=least(path.angle_error),
-        largest_position=largest(path.position_error),
-        largest_angle=largest(path.angle_error),
-        later=tuple(error_at(int(np.searchsorted(time, t))) for t in later),
+        lock_time=first_lock,
+        end=error_at(int(np.flatnonzero(is_within_run)[-1])),
+        least_position=find_least(path.position_error),
+        least_angle=find_least(path.angle_error),
+        largest_position=find_largest(path.position_error),
+        largest_angle=find_largest(path.angle_error),
+        later=tuple(error_at(int(np.searchsorted(time, report_time))) for report_time in report_times),
     )
 
 
-def least_errors(runs: Runs, k: int = 0) -> tuple[float, float]:
+def least_errors(runs: Runs, run: int = 0) -> tuple[float, float]:
     """Find the position error, m, and the angle error, rad, where run k's failed arm is as near to its target as it can be.
 
     Both are those of :meth:`Runs.least_error`, of the norm over metres and radians.
     """
-    _, nearest = runs._motion.least_error(runs, 24, np.random.default_rng(0))
-    position, angle = runs._motion.errors(runs, k, nearest[k : k + 1])
+    _, nearest = runs._simulator.least_error(runs, 24, np.random.default_rng(0))
+    position, angle = runs._simulator.compute_errors(runs, run, nearest[run : run + 1])
     return float(position[0]), float(angle[0])

@@ -1,4 +1,4 @@
-"""How close a failed arm can still get to a target: damped least squares over its healthy joints."""
+"""The least error that a failed arm can reach at a target, by damped least squares over its healthy joints."""
 
 from __future__ import annotations
 
@@ -10,56 +10,62 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm
-from holdfast.notice import each
-from holdfast.simulation.system import System
+from holdfast.notice import track
+from holdfast.simulation.system import FailedArmSystem
 
 Array = NDArray[np.float64]
 
-_STEPS, _FLAT = 200, 1e-9
-_FIRST, _EASIER, _HARDER, _HOPELESS = 1e-3, 0.2, 5.0, 1e8
+_MAX_STEPS, _GRADIENT_TOLERANCE = 200, 1e-9
+_INITIAL_DAMPING, _DAMPING_DECREASE, _DAMPING_INCREASE, _MAX_DAMPING = 1e-3, 0.2, 5.0, 1e8
 
 
-class Nearest:
-    """The compiled search of one arm and task.
+class ErrorMinimiser:
+    """The compiled search for the least error of one arm and task.
 
     A step is tried with the damping of Levenberg and Marquardt and kept if it lowers the error, so that the search ends at a
     least error also where the target is out of reach.
     """
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: FailedArmSystem) -> None:
         self._system, self._arm = system, system.law.arm
         self.made_of = system
 
     @cached_property
-    @recalled
-    def _loop(self) -> Loop:
+    @cached_kernel
+    def _search_loop(self) -> Loop:
         system, n = self._system, self._arm.n
         state = ca.SX.sym("state", n + 1)
         q, damping = state[:n], state[n]
-        e, j = system.error(q)
+        error, jacobian = system.compute_error(q)
         # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
-        unit = 1.0 if system.law.task.angular else self._arm.length_unit
-        e, j = e / unit, j / unit
-        healthy = j @ ca.diag(system.mask)
-        trial = q + damped_least_norm(healthy, e, damping)
-        better = ca.sumsqr(system.error(trial)[0] / unit) < ca.sumsqr(e)
-        after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-15), ca.vertcat(q, damping * _HARDER))
-        slope = ca.sqrt(ca.sumsqr(healthy.T @ e))
+        length_unit = 1.0 if system.law.task.angular else self._arm.length_unit
+        error, jacobian = error / length_unit, jacobian / length_unit
+        healthy_jacobian = jacobian @ ca.diag(system.mask)
+        trial = q + damped_least_norm(healthy_jacobian, error, damping)
+        is_better = ca.sumsqr(system.compute_error(trial)[0] / length_unit) < ca.sumsqr(error)
+        next_state = ca.if_else(
+            is_better, ca.vertcat(trial, damping * _DAMPING_DECREASE + 1e-15), ca.vertcat(q, damping * _DAMPING_INCREASE)
+        )
+        gradient_norm = ca.sqrt(ca.sumsqr(healthy_jacobian.T @ error))
         return Loop(
-            "nearest point", state, system.parameters, next_state=after, residual=ca.if_else(damping > _HOPELESS, 0.0, slope)
+            "nearest point",
+            state,
+            system.parameters,
+            next_state=next_state,
+            residual=ca.if_else(damping > _MAX_DAMPING, 0.0, gradient_norm),
         )
 
     @cached_property
-    @recalled
-    def _error(self) -> Kernel:
-        s = self._system
-        return Kernel("least error", [s.q, s.target, s.rotation], [ca.norm_2(s.error(s.q)[0])])
+    @cached_kernel
+    def _error_kernel(self) -> Kernel:
+        system = self._system
+        return Kernel("least error", [system.q, system.target, system.rotation], [ca.norm_2(system.compute_error(system.q)[0])])
 
-    def errors(self, q: Array, poses: Array) -> Array:
-        """(N,) norms of the task's error, m and rad."""
-        return self._error.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
+    def compute_errors(self, q: Array, poses: Array) -> Array:
+        """Return (N,) norms of the task's error, m and rad."""
+        return self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
     def search(self, q: Array, parameters: Array, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
         """Find the least norms of the error (N,) from q (N, n) and from random values of the healthy joints.
@@ -67,14 +73,16 @@ class Nearest:
         Returns:
             The norms, and (N, n) configurations that have them.
         """
-        rows, n = q.shape
-        position, rotation, mask = parameters[:, :3], parameters[:, 3:12].reshape(rows, 3, 3), parameters[:, 12:]
-        least, nearest = self._error.rows(q, position, rotation)[:, 0], q.copy()
-        low, high = finite_limits(self._arm)
-        for k in each("starts of each run", range(restarts + 1)):
-            start = q if k == 0 else np.where(mask > 0, generator.uniform(low, high, (rows, n)), q)
-            found = self._loop.run(np.column_stack([start, np.full(rows, _FIRST)]), parameters, _FLAT, _STEPS)
-            error = self._error.rows(found.state[:, :n], position, rotation)[:, 0]
-            better = error < least
-            least[better], nearest[better] = error[better], found.state[better, :n]
-        return least, nearest
+        run_count, n = q.shape
+        position, rotation, healthy_mask = parameters[:, :3], parameters[:, 3:12].reshape(run_count, 3, 3), parameters[:, 12:]
+        least_errors, nearest = self._error_kernel.rows(q, position, rotation)[:, 0], q.copy()
+        lower, upper = finite_limits(self._arm)
+        for restart in track("starts of each run", range(restarts + 1)):
+            start = q if restart == 0 else np.where(healthy_mask > 0, generator.uniform(lower, upper, (run_count, n)), q)
+            solutions = self._search_loop.run(
+                np.column_stack([start, np.full(run_count, _INITIAL_DAMPING)]), parameters, _GRADIENT_TOLERANCE, _MAX_STEPS
+            )
+            errors = self._error_kernel.rows(solutions.state[:, :n], position, rotation)[:, 0]
+            is_better = errors < least_errors
+            least_errors[is_better], nearest[is_better] = errors[is_better], solutions.state[is_better, :n]
+        return least_errors, nearest

@@ -17,38 +17,41 @@ from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.simulation.system import (
-    COLLAPSE,
-    FAR,
-    PHASE,
-    REST,
-    RUNNING,
-    TIME,
-    UNROLLED,
-    Here,
-    State,
-    System,
-    chosen,
-    greater,
-    known_at,
-    lesser,
-    loop_of,
-    turning_value,
-    watched,
+    LARGE_NUMBER,
+    MAX_UNROLLED_OPERATIONS,
+    STATE_AT_REST,
+    STATE_COLLAPSED,
+    STATE_PHASE_END,
+    STATE_RUNNING,
+    STATE_TIME_LIMIT,
+    FailedArmSystem,
+    StateLayout,
+    StateRates,
+    choose_parts,
+    elementwise_max,
+    elementwise_min,
+    make_state_loop,
+    to_state_parts,
+    turning_point_value,
+    update_end_speeds,
 )
 from holdfast.simulation.tableaus import Tableau
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
-COLLAPSED = 1e-12  # of 1/Ke: steps this short lead nowhere
-NEARLY, FINEST = 1e-4, 1e-12  # 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the finest
-TURN = 0.5  # rad (and m): a longer step would see too little of the way
-FIRST = 0.5  # of 1/Ke
-_SMALL = 1250  # operations of one evaluation: beyond, stages are taken one at a time
-_EVALUATIONS = 32  # in one call, about
+MIN_STEP_SIZE = 1e-12  # of 1/Ke: steps this short lead nowhere
+SPEED_TOLERANCE_RATIO, MIN_SPEED_TOLERANCE = (
+    1e-4,
+    1e-12,
+)  # 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the finest
+MAX_STEP_TRAVEL_RAD = 0.5  # rad (and m): a longer step would see too little of the way
+FIRST_STEP_SIZE = 0.5  # of 1/Ke
+_STAGED_OPERATIONS = 1250  # operations of one evaluation: beyond, stages are taken one at a time
+_EVALUATIONS_PER_CALL = 32  # in one call, about
 
 
-class Steps:
+class RungeKuttaStepper:
     """Runge-Kutta steps of one system under one method, as a loop over states.
 
     A state holds the configuration ``q`` and what is known there (``rates``, tool speed, ``share``, ``error`` squared
@@ -60,181 +63,223 @@ class Steps:
     the ``tolerance`` of a step, rad (and m).
     """
 
-    def __init__(self, system: System, tableau: Tableau) -> None:
+    def __init__(self, system: FailedArmSystem, tableau: Tableau) -> None:
         self.system, self.tableau = system, tableau
         n, stages = system.law.arm.n, len(tableau.rows)
-        self._until, self._limit, self._tolerance = (ca.SX.sym(x) for x in ("until", "limit", "tolerance"))
-        self.parameters = [*system.given, self._until, self._limit, self._tolerance]
+        self._until, self._limit, self._tolerance = (ca.SX.sym(name) for name in ("until", "limit", "tolerance"))
+        self.parameters = [*system.inputs, self._until, self._limit, self._tolerance]
         self.made_of = system, tableau
-        kept = {"stage": 1, "k": n * (stages - 1), "hands": stages - 1, "shares": stages - 1}
+        stage_parts = {"stage": 1, "k": n * (stages - 1), "hands": stages - 1, "shares": stages - 1}
         scalars = dict.fromkeys(("hand", "share", "error", "slope", "h", "time", "clock", "path", "closest"), 1)
-        ends = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
-        self._layouts = State(q=n, rates=n, **scalars, **ends), State(q=n, rates=n, **scalars, **ends, **kept)
+        end_parts = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
+        self._layouts = (
+            StateLayout(q=n, rates=n, **scalars, **end_parts),
+            StateLayout(q=n, rates=n, **scalars, **end_parts, **stage_parts),
+        )
 
     @cached_property
-    @recalled
+    @cached_kernel
     def loop(self) -> Loop:
-        """The steps, or stages, repeated."""
-        s = self.system
-        size = int(s.function.n_instructions())
-        staged = size > 4 * _SMALL
-        if not staged:
-            staged = int(ca.Function("rates", [s.q, *s.given], [s.at(s.q).rates], {"cse": True}).n_instructions()) > _SMALL
-        most = _EVALUATIONS if staged else _EVALUATIONS // len(self.tableau.rows)
-        if size > UNROLLED:
-            most = 1
-        next_state = self._stage if staged else self._step
-        return loop_of(f"closed loop, {self.tableau.name}", next_state, self._layouts[staged], self.parameters, most)
+        """Loop that repeats the steps, or the stages."""
+        system = self.system
+        operations = int(system.rates_function.n_instructions())
+        is_staged = operations > 4 * _STAGED_OPERATIONS
+        if not is_staged:
+            is_staged = (
+                int(
+                    ca.Function(
+                        "rates", [system.q, *system.inputs], [system.evaluate(system.q).rates], {"cse": True}
+                    ).n_instructions()
+                )
+                > _STAGED_OPERATIONS
+            )
+        max_steps = _EVALUATIONS_PER_CALL if is_staged else _EVALUATIONS_PER_CALL // len(self.tableau.rows)
+        if operations > MAX_UNROLLED_OPERATIONS:
+            max_steps = 1
+        next_state = self._build_stage if is_staged else self._build_step
+        return make_state_loop(
+            f"closed loop, {self.tableau.name}", next_state, self._layouts[is_staged], self.parameters, max_steps
+        )
 
     @property
-    def staged(self) -> bool:
-        """Whether the loop takes a stage at a time; before a motion one with the stage -1 then notes what is known there."""
+    def is_staged(self) -> bool:
+        """True if the loop takes one stage at a time; before a motion a stage -1 then records the values at its start."""
         return self.loop.size == self._layouts[1].size
 
     @property
-    def state(self) -> State:
-        """What a state is made of."""
-        return self._layouts[self.staged]
+    def layout(self) -> StateLayout:
+        """Layout of a state."""
+        return self._layouts[self.is_staged]
 
     @property
-    def calls(self) -> int:
-        """Of :attr:`single` in a step."""
-        return len(self.tableau.rows) if self.staged else 1
+    def calls_per_step(self) -> int:
+        """Calls of :attr:`single_step` in a step."""
+        return len(self.tableau.rows) if self.is_staged else 1
 
     @cached_property
-    @recalled
-    def single(self) -> Kernel:
-        """One step, or one stage of it, of a state: for whoever needs every one."""
-        symbol = ca.SX.sym("state", self.state.size)
-        after = (self._stage if self.staged else self._step)(self.state.split(symbol))
-        return Kernel("one step", [symbol, *self.parameters], [self.state.join(after)])
+    @cached_kernel
+    def single_step(self) -> Kernel:
+        """Kernel of one step of a state, or of one stage of it, for callers that need every one."""
+        symbol = ca.SX.sym("state", self.layout.size)
+        next_parts = (self._build_stage if self.is_staged else self._build_step)(self.layout.split_symbol(symbol))
+        return Kernel("one step", [symbol, *self.parameters], [self.layout.join_parts(next_parts)])
 
-    def _step(self, parts: dict[str, SX]) -> dict[str, SX]:
-        h = lesser(parts["h"], self._until - parts["time"])
-        rates, hands, shares = [parts["rates"]], [parts["hand"]], [parts["share"]]
-        for row in self.tableau.rows[:-1]:
-            here = self.system.at(parts["q"] + h * _mixed(row, rates))
-            rates.append(here.rates)
-            hands.append(here.hand)
-            shares.append(here.share)
-        end = parts["q"] + h * _mixed(self.tableau.rows[-1], rates)
-        return self._finished(parts, h, rates, hands, shares, end, self.system.at(end))
+    def _build_step(self, parts: dict[str, SX]) -> dict[str, SX]:
+        h = elementwise_min(parts["h"], self._until - parts["time"])
+        rates, tool_speeds, speed_fractions = [parts["rates"]], [parts["hand"]], [parts["share"]]
+        for weights in self.tableau.rows[:-1]:
+            stage_rates = self.system.evaluate(parts["q"] + h * _weighted_sum(weights, rates))
+            rates.append(stage_rates.rates)
+            tool_speeds.append(stage_rates.tool_speed)
+            speed_fractions.append(stage_rates.speed_fraction)
+        end_position = parts["q"] + h * _weighted_sum(self.tableau.rows[-1], rates)
+        return self._finish_step(
+            parts, h, rates, tool_speeds, speed_fractions, end_position, self.system.evaluate(end_position)
+        )
 
-    def _stage(self, parts: dict[str, SX]) -> dict[str, SX]:
-        """One evaluation; the last one finishes the step."""
-        n, rows = self.system.law.arm.n, self.tableau.rows
-        h = lesser(parts["h"], self._until - parts["time"])
-        rates = [parts["rates"], *[parts["k"][i * n : (i + 1) * n] for i in range(len(rows) - 1)]]
+    def _build_stage(self, parts: dict[str, SX]) -> dict[str, SX]:
+        """Return the parts after one evaluation; the last one finishes the step."""
+        n, stage_weights = self.system.law.arm.n, self.tableau.rows
+        h = elementwise_min(parts["h"], self._until - parts["time"])
+        rates = [parts["rates"], *[parts["k"][stage * n : (stage + 1) * n] for stage in range(len(stage_weights) - 1)]]
         weights = [
-            sum(ca.if_else(parts["stage"] == i, row[k], 0.0) for i, row in enumerate(rows) if k < len(row))
-            for k in range(len(rows))
-        ]
-        there = parts["q"] + h * _mixed(weights, rates)
-        here = self.system.at(there)
-        hands, shares = [parts["hand"], *ca.vertsplit(parts["hands"])], [parts["share"], *ca.vertsplit(parts["shares"])]
-        finished = self._finished(parts, h, rates, hands, shares, there, here)
-        good = ca.sumsqr(here.rates) < FAR
-        stored = dict(parts)
-        for name, value, width in (("k", here.rates, n), ("hands", here.hand, 1), ("shares", here.share, 1)):
-            # A NaN in the state would stay there; a number this large has the step rejected.
-            kept = ca.if_else(good, value, 1e30)
-            old = parts[name]
-            stored[name] = ca.vertcat(
-                *[ca.if_else(parts["stage"] == i, kept, old[i * width : (i + 1) * width]) for i in range(len(rows) - 1)]
+            sum(
+                ca.if_else(parts["stage"] == stage, row[column], 0.0)
+                for stage, row in enumerate(stage_weights)
+                if column < len(row)
             )
-        stored["stage"] = parts["stage"] + 1
-        entering = parts["stage"] < 0
-        for name, value in known_at(here).items():
-            stored[name] = ca.if_else(entering, value, parts[name])
-        finished["stage"] = ca.SX(0)
+            for column in range(len(stage_weights))
+        ]
+        stage_position = parts["q"] + h * _weighted_sum(weights, rates)
+        stage_rates = self.system.evaluate(stage_position)
+        tool_speeds, speed_fractions = (
+            [parts["hand"], *ca.vertsplit(parts["hands"])],
+            [parts["share"], *ca.vertsplit(parts["shares"])],
+        )
+        finished_parts = self._finish_step(parts, h, rates, tool_speeds, speed_fractions, stage_position, stage_rates)
+        is_finite = ca.sumsqr(stage_rates.rates) < LARGE_NUMBER
+        stored_parts = dict(parts)
+        for name, value, width in (
+            ("k", stage_rates.rates, n),
+            ("hands", stage_rates.tool_speed, 1),
+            ("shares", stage_rates.speed_fraction, 1),
+        ):
+            # A NaN in the state would stay there; a number this large has the step rejected.
+            bounded_value = ca.if_else(is_finite, value, 1e30)
+            old_value = parts[name]
+            stored_parts[name] = ca.vertcat(
+                *[
+                    ca.if_else(parts["stage"] == stage, bounded_value, old_value[stage * width : (stage + 1) * width])
+                    for stage in range(len(stage_weights) - 1)
+                ]
+            )
+        stored_parts["stage"] = parts["stage"] + 1
+        is_entering = parts["stage"] < 0
+        for name, value in to_state_parts(stage_rates).items():
+            stored_parts[name] = ca.if_else(is_entering, value, parts[name])
+        finished_parts["stage"] = ca.SX(0)
         for name in ("k", "hands", "shares"):
-            finished[name] = parts[name]
-        after = chosen(parts["stage"] == len(rows) - 1, finished, stored)
-        return chosen(parts["code"] == RUNNING, after, parts)
+            finished_parts[name] = parts[name]
+        next_parts = choose_parts(parts["stage"] == len(stage_weights) - 1, finished_parts, stored_parts)
+        return choose_parts(parts["code"] == STATE_RUNNING, next_parts, parts)
 
-    def _finished(
-        self, parts: dict[str, SX], h: SX, rates: list[SX], hands: list[SX], shares: list[SX], end: SX, here: Here
+    def _finish_step(
+        self,
+        parts: dict[str, SX],
+        h: SX,
+        rates: list[SX],
+        tool_speeds: list[SX],
+        speed_fractions: list[SX],
+        end_position: SX,
+        end_rates: StateRates,
     ) -> dict[str, SX]:
-        """The state after a step, or the old state with a shorter step where the step was not good enough."""
+        """Return the state after a step, or the old state with a shorter step where the step was rejected."""
         weights = self.tableau.rows[-1]
-        running = parts["code"] == RUNNING
-        rate = ca.sqrt(ca.sumsqr(here.rates))
+        is_running = parts["code"] == STATE_RUNNING
+        joint_speed = ca.sqrt(ca.sumsqr(end_rates.rates))
         if self.tableau.errors:
             # Beside a singularity a stationary point pulls so strongly that errors allowed elsewhere would keep the arm moving.
-            slow = greater(NEARLY * ca.sqrt(ca.sumsqr(parts["rates"])), FINEST)
-            size = self._error(h, rates) / lesser(self._tolerance, slow) ** 2
+            speed_tolerance = elementwise_max(SPEED_TOLERANCE_RATIO * ca.sqrt(ca.sumsqr(parts["rates"])), MIN_SPEED_TOLERANCE)
+            relative_error = self._estimate_error(h, rates) / elementwise_min(self._tolerance, speed_tolerance) ** 2
             # A stage that met a singularity makes the estimate NaN, and every comparison with it false. The estimate does not
             # know the derivative at the end, with which the next step begins.
-            usable = ca.logic_and(size < 1e20, ca.sumsqr(here.rates) < FAR)
-            good = ca.logic_and(size <= 1, usable)
-            root = ca.if_else(usable, size, 1.0) + 1e-20
+            is_usable = ca.logic_and(relative_error < 1e20, ca.sumsqr(end_rates.rates) < LARGE_NUMBER)
+            is_accepted = ca.logic_and(relative_error <= 1, is_usable)
+            error_root = ca.if_else(is_usable, relative_error, 1.0) + 1e-20
             for _ in range(4):  # of the squared error of a method of order 8
-                root = ca.sqrt(root)
-            factor = ca.if_else(usable, lesser(greater(0.9 / root, 0.2), 10.0), 0.2)
+                error_root = ca.sqrt(error_root)
+            factor = ca.if_else(is_usable, elementwise_min(elementwise_max(0.9 / error_root, 0.2), 10.0), 0.2)
             # A step cut short by the end of its phase says nothing against the step that was planned.
-            grown = ca.if_else(h < parts["h"], greater(h * factor, parts["h"]), h * factor)
-            longest = TURN / greater(rate, TURN / self.tableau.longest)
-            after = ca.if_else(good, lesser(grown, longest), h * factor)
+            grown_step = ca.if_else(h < parts["h"], elementwise_max(h * factor, parts["h"]), h * factor)
+            longest_step = MAX_STEP_TRAVEL_RAD / elementwise_max(joint_speed, MAX_STEP_TRAVEL_RAD / self.tableau.longest_step)
+            next_step = ca.if_else(is_accepted, elementwise_min(grown_step, longest_step), h * factor)
         else:
-            good = ca.sumsqr(here.rates) < FAR
-            after = ca.if_else(good, parts["h"], 0.0)
-        time, clock = parts["time"] + h, parts["clock"] + h * _mixed(weights, shares)
-        speed = rate / here.share
-        closest, low, high = self._least_and_greatest(parts, h, rates, end, here)
-        code = ca.if_else(time >= self._until - COLLAPSED, PHASE, RUNNING)
-        code = ca.if_else(clock >= self._limit * (1 - 1e-12), TIME, code)
-        code = ca.if_else(speed < REST_SPEED, REST, code)
-        moved = {
+            is_accepted = ca.sumsqr(end_rates.rates) < LARGE_NUMBER
+            next_step = ca.if_else(is_accepted, parts["h"], 0.0)
+        time, clock = parts["time"] + h, parts["clock"] + h * _weighted_sum(weights, speed_fractions)
+        speed = joint_speed / end_rates.speed_fraction
+        closest, lowest, highest = self._update_extremes(parts, h, rates, end_position, end_rates)
+        code = ca.if_else(time >= self._until - MIN_STEP_SIZE, STATE_PHASE_END, STATE_RUNNING)
+        code = ca.if_else(clock >= self._limit * (1 - 1e-12), STATE_TIME_LIMIT, code)
+        code = ca.if_else(speed < REST_SPEED, STATE_AT_REST, code)
+        moved_parts = {
             **parts,
-            "q": end,
-            "rates": here.rates,
-            "hand": here.hand,
-            "share": here.share,
-            "error": here.squared_error,
-            "slope": here.slope,
-            "h": after,
+            "q": end_position,
+            "rates": end_rates.rates,
+            "hand": end_rates.tool_speed,
+            "share": end_rates.speed_fraction,
+            "error": end_rates.squared_error,
+            "slope": end_rates.squared_error_rate,
+            "h": next_step,
             "time": time,
             "clock": clock,
-            "path": parts["path"] + h * _mixed(weights, hands),
+            "path": parts["path"] + h * _weighted_sum(weights, tool_speeds),
             "closest": closest,
-            "low": low,
-            "high": high,
-            **watched(parts, speed, clock, self._limit),
+            "low": lowest,
+            "high": highest,
+            **update_end_speeds(parts, speed, clock, self._limit),
             "code": code,
         }
         # Everything else stays as it was, also where the run has ended.
-        code = ca.if_else(running, ca.if_else(after < COLLAPSED, COLLAPSE, RUNNING), parts["code"])
-        return chosen(ca.logic_and(running, good), moved, {**parts, "h": after, "code": code})
+        code = ca.if_else(is_running, ca.if_else(next_step < MIN_STEP_SIZE, STATE_COLLAPSED, STATE_RUNNING), parts["code"])
+        return choose_parts(ca.logic_and(is_running, is_accepted), moved_parts, {**parts, "h": next_step, "code": code})
 
-    def _least_and_greatest(self, parts: dict[str, SX], h: SX, rates: list[SX], end: SX, here: Here) -> tuple[SX, SX, SX]:
-        """Least squared error, least and greatest joint values so far: at both ends of the step and where a slope changes sign.
+    def _update_extremes(
+        self, parts: dict[str, SX], h: SX, rates: list[SX], end_position: SX, end_rates: StateRates
+    ) -> tuple[SX, SX, SX]:
+        """Return the least squared error and the least and greatest joint values so far, also where a derivative changes sign.
 
         A long step is looked at in two halves.
         """
         points = [(parts["q"], parts["rates"], parts["error"], parts["slope"])]
         if self.tableau.middle:
-            way, slope = (_mixed(weights, [*rates, here.rates]) for weights in self.tableau.middle)
-            e, j = self.system.error(parts["q"] + h * way)
-            points.append((parts["q"] + h * way, slope, ca.sumsqr(e), -2 * ca.dot(e, j @ slope)))
-        points.append((end, here.rates, here.squared_error, here.slope))
-        span = h / (len(points) - 1)
-        closest, low, high = parts["closest"], parts["low"], parts["high"]
+            middle_step, middle_rates = (_weighted_sum(weights, [*rates, end_rates.rates]) for weights in self.tableau.middle)
+            error, jacobian = self.system.compute_error(parts["q"] + h * middle_step)
+            points.append(
+                (parts["q"] + h * middle_step, middle_rates, ca.sumsqr(error), -2 * ca.dot(error, jacobian @ middle_rates))
+            )
+        points.append((end_position, end_rates.rates, end_rates.squared_error, end_rates.squared_error_rate))
+        interval = h / (len(points) - 1)
+        closest, lowest, highest = parts["closest"], parts["low"], parts["high"]
         for (q0, rates0, error0, slope0), (q1, rates1, error1, slope1) in pairwise(points):
-            squared = turning_value(error0, error1, span * slope0, span * slope1)
-            turn = turning_value(q0, q1, span * rates0, span * rates1)
-            closest = lesser(closest, lesser(squared, error1))
-            low, high = lesser(low, lesser(turn, q1)), greater(high, greater(turn, q1))
-        return closest, low, high
+            turning_error = turning_point_value(error0, error1, interval * slope0, interval * slope1)
+            turning_joint = turning_point_value(q0, q1, interval * rates0, interval * rates1)
+            closest = elementwise_min(closest, elementwise_min(turning_error, error1))
+            lowest, highest = (
+                elementwise_min(lowest, elementwise_min(turning_joint, q1)),
+                elementwise_max(highest, elementwise_max(turning_joint, q1)),
+            )
+        return closest, lowest, highest
 
-    def _error(self, h: SX, rates: list[SX]) -> SX:
-        """Estimated mean squared error of a step."""
+    def _estimate_error(self, h: SX, rates: list[SX]) -> SX:
+        """Estimate the mean squared error of a step."""
         assert self.tableau.errors is not None
-        fifth, third = (ca.sumsqr(_mixed(weights, rates)) for weights in self.tableau.errors)
+        fifth, third = (ca.sumsqr(_weighted_sum(weights, rates)) for weights in self.tableau.errors)
         return h * h * fifth * fifth / ((fifth + 0.01 * third + 1e-60) * rates[0].numel())
 
 
-def _mixed(weights: Sequence[SX | float], values: Sequence[SX]) -> SX:
-    """Weighted sum; weights that are the number 0 cost nothing."""
+def _weighted_sum(weights: Sequence[SX | float], values: Sequence[SX]) -> SX:
+    """Return a weighted sum; weights that are the number 0 cost nothing."""
     total = ca.SX(0)
     for weight, value in zip(weights, values, strict=True):
         if not (isinstance(weight, float) and weight == 0):

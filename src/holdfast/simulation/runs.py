@@ -1,4 +1,4 @@
-"""How the motions of a failed arm ended, with the evidence."""
+"""Outcomes of the motions of a failed arm, with the evidence."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.result import Result
-from holdfast.words import capitalised
+from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
@@ -31,8 +31,8 @@ Flags = NDArray[np.bool_]
 CHECKED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
 
 
-class Outcome(IntEnum):
-    """How one run ended."""
+class RunOutcome(IntEnum):
+    """Outcome of one run."""
 
     CONVERGED = 0
     STUCK = 1
@@ -41,20 +41,20 @@ class Outcome(IntEnum):
 
     @property
     def sentence(self) -> str:
-        """What it means, said of the end effector."""
-        return _ENDS[self]
+        """Phrase about the end effector that states the outcome."""
+        return _OUTCOME_PHRASES[self]
 
 
-_ENDS = {
-    Outcome.CONVERGED: "reaches the target",
-    Outcome.STUCK: "stops elsewhere",
-    Outcome.MOVING: "never stops: it repeats its motion",
-    Outcome.UNDECIDED: "is undecided",
+_OUTCOME_PHRASES = {
+    RunOutcome.CONVERGED: "reaches the target",
+    RunOutcome.STUCK: "stops elsewhere",
+    RunOutcome.MOVING: "never stops: it repeats its motion",
+    RunOutcome.UNDECIDED: "is undecided",
 }
 
 
 class Reason(IntEnum):
-    """Why a run is undecided, beside its :class:`Outcome`; ``NONE`` where it is decided. No status: a run has an outcome.
+    """Reason for which a run is undecided, next to its :class:`Outcome`; ``NONE`` where it is decided. It is no status.
 
     ``CONTACT`` is of runs that were stopped where they touched something.
     """
@@ -69,11 +69,11 @@ class Reason(IntEnum):
 
     @property
     def sentence(self) -> str:
-        """What it means and what to try."""
-        return _SENTENCES[self]
+        """Explanation of the reason, and advice."""
+        return _REASON_SENTENCES[self]
 
 
-_SENTENCES = {
+_REASON_SENTENCES = {
     Reason.NONE: "decided",
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
     Reason.TIME_LIMIT: "still moving at the time limit, and not found to repeat the motion: give a longer time_limit",
@@ -87,7 +87,7 @@ _SENTENCES = {
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }
 
-UNDECIDED = tuple(reason for reason in Reason if reason not in (Reason.NONE, Reason.CONTACT))
+UNDECIDED_REASONS = tuple(reason for reason in Reason if reason not in (Reason.NONE, Reason.CONTACT))
 
 
 @dataclass(frozen=True)
@@ -115,29 +115,29 @@ class Path:
 
 
 @dataclass(frozen=True)
-class Setting:
-    """How runs were made.
+class RunSettings:
+    """Settings with which runs were made.
 
     Attributes:
-        limit: s, or cycles.
+        time_limit: s, or cycles.
         accuracy: Tolerance of a step, or radius of the target in cycles.
-        step: Of the fixed-step method, s.
+        step_size: Of the fixed-step method, s.
     """
 
-    limit: float
+    time_limit: float
     accuracy: float
-    step: float
+    step_size: float
 
 
-class _Motion(Protocol):
-    """What computed the runs, as far as they ask it again."""
+class _Simulator(Protocol):
+    """Simulator of the runs, for later questions about them."""
 
     def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]: ...
-    def errors(self, runs: Runs, k: int | Flags, q: Array) -> tuple[Array, Array]: ...
-    def sampled(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path: ...
-    def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path: ...
-    def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs: ...
-    def recorded(self, runs: Runs, k: int, end: float) -> tuple[Array, Callable[[Array], Array]]: ...
+    def compute_errors(self, runs: Runs, run: int | Flags, q: Array) -> tuple[Array, Array]: ...
+    def sample_path(self, runs: Runs, run: int, motion: Callable[[Array], Array], time: Array) -> Path: ...
+    def path(self, runs: Runs, run: int, samples: int, until: float | None) -> Path: ...
+    def run(self, q0: Array, target: Array, lock_time: Array, setting: RunSettings) -> Runs: ...
+    def replay_run(self, runs: Runs, run: int, end: float) -> tuple[Array, Callable[[Array], Array]]: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +152,7 @@ class Runs(Result):
         target: (N, 4, 4), or (N, m) where it was given so.
         lock_time: (N, n) when each joint locks, s or cycles; 0 from the start, infinite: never.
         cycles: Time counts in control cycles.
-        code: (N,) :class:`holdfast.simulation.Outcome`.
+        code: (N,) :class:`holdfast.simulation.RunOutcome`.
         reason: (N,) :class:`holdfast.simulation.Reason`.
         q_final: (N, n) where the run ended, not wrapped.
         x_final: Where the end effector ended, in the form of ``target``.
@@ -186,8 +186,8 @@ class Runs(Result):
     clearance: Clearance | None = None
     contacts: tuple[Contact, ...] | None = None
     stopped: Array | None = None
-    _motion: _Motion = field(repr=False, compare=False)
-    _setting: Setting = field(repr=False, compare=False)
+    _simulator: _Simulator = field(repr=False, compare=False)
+    _settings: RunSettings = field(repr=False, compare=False)
 
     def __len__(self) -> int:
         return int(np.size(self.code))
@@ -195,65 +195,66 @@ class Runs(Result):
     @property
     def outcome(self) -> NDArray[np.str_]:
         """(N,) ``converged``, ``stuck``, ``moving`` or ``undecided``."""
-        return np.asarray(_NAMES[self.code])
+        return np.asarray(_OUTCOME_NAMES[self.code])
 
     @property
     def position_error(self) -> Array:
         """(N,) distance of the tool point from the target at the end in the directions of the task, m."""
-        return self._ends[0]
+        return self._end_errors[0]
 
     @property
     def angle_error(self) -> Array:
         """(N,) angle of the end effector from the target at the end in the directions of the task, rad."""
-        return self._ends[1]
+        return self._end_errors[1]
 
     @cached_property
-    def _ends(self) -> tuple[Array, Array]:
+    def _end_errors(self) -> tuple[Array, Array]:
         q = np.atleast_2d(self.q_final)
-        known = np.asarray(np.isfinite(q).all(axis=1))
-        found = np.full((2, len(q)), np.nan)
-        found[:, known] = self._motion.errors(self, known, q[known])
-        return (found[0], found[1]) if self.code.ndim else (found[0, 0], found[1, 0])
+        is_finite = np.asarray(np.isfinite(q).all(axis=1))
+        errors = np.full((2, len(q)), np.nan)
+        errors[:, is_finite] = self._simulator.compute_errors(self, is_finite, q[is_finite])
+        return (errors[0], errors[1]) if self.code.ndim else (errors[0, 0], errors[1, 0])
 
     @property
     def held_from(self) -> Array:
         """(N, n) when each joint stops for good, by its lock or because the run was stopped, s or cycles."""
-        held = np.atleast_2d(self.lock_time)
-        return held if self.stopped is None else np.minimum(held, np.atleast_1d(self.stopped)[:, None])
+        lock_times = np.atleast_2d(self.lock_time)
+        return lock_times if self.stopped is None else np.minimum(lock_times, np.atleast_1d(self.stopped)[:, None])
 
     @property
     def first_contacts(self) -> tuple[Contact | None, ...]:
-        """(N,) what each run touches first; None where it touches nothing, or nobody looked."""
-        found = {c.run: c for c in reversed(self.contacts or ())}  # of each run the first comes last
-        return tuple(found.get(k) for k in range(len(self)))
+        """(N,) first contact of each run; None where it touches nothing, or contacts were not checked."""
+        contact_by_run = {contact.run: contact for contact in reversed(self.contacts or ())}  # of each run the first comes last
+        return tuple(contact_by_run.get(run) for run in range(len(self)))
 
     def ending_sentence(self, k: int = 0) -> str:
         """Return how run k ended, a phrase about the end effector that names the time limit where the limit ended the run."""
         reason = Reason(int(np.atleast_1d(self.reason)[k]))
         if reason == Reason.TIME_LIMIT:
-            return f"is still moving at the limit of {self._setting.limit:.6g} {self.unit}"
-        outcome = Outcome(int(np.atleast_1d(self.code)[k])).sentence
+            return f"is still moving at the limit of {self._settings.time_limit:.6g} {self.unit}"
+        outcome = RunOutcome(int(np.atleast_1d(self.code)[k])).sentence
         return outcome if reason == Reason.NONE else f"{outcome}: {reason.sentence}"
 
     @property
     def unit(self) -> str:
-        """``s``, or ``cycles``."""
+        """Unit of time: ``s``, or ``cycles``."""
         return "cycles" if self.cycles else "s"
 
     def checked_until(self, k: int = 0) -> float:
         """Return the time up to which run k is checked for contacts, s or cycles: its end, unless it repeats its motion."""
-        end, repeats = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == Outcome.MOVING
-        return min(end, CHECKED_SPAN / self.law.gain) if repeats else end
+        end_time, is_periodic = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == RunOutcome.MOVING
+        return min(end_time, CHECKED_SPAN / self.law.gain) if is_periodic else end_time
 
     def counts(self) -> dict[str, int]:
-        """How many runs ended in each way."""
-        found = np.bincount(np.atleast_1d(self.code), minlength=len(Outcome))
-        return {str(name): int(count) for name, count in zip(_NAMES, found, strict=True)}
+        """Return the number of runs with each outcome."""
+        run_counts = np.bincount(np.atleast_1d(self.code), minlength=len(RunOutcome))
+        return {str(name): int(count) for name, count in zip(_OUTCOME_NAMES, run_counts, strict=True)}
 
-    @checked
-    @says("looking for the least errors")
+    @check_arguments
+    @reports_progress("looking for the least errors")
     def least_error(self, restarts: int = 24, seed: int = 0) -> Array:
-        """(N,) least norm of the task's error that each arm can have with its locked joints where they were at the end.
+        """Return (N,) the least norm of the task's error that each arm can have with its joints locked where they were at the
+        end.
 
         Found by damped least squares over the healthy joints, starting where the run ended and from random configurations,
         joint limits left aside as in the run itself: an upper bound of the true least, never above the run's own end.
@@ -263,15 +264,15 @@ class Runs(Result):
         """
         if restarts < 0:
             raise InputError(f"restarts is {restarts}; it must be 0 or more")
-        least, _ = self._motion.least_error(self, restarts, np.random.default_rng(seed))
-        return least if self.code.ndim else least[0]
+        least_errors, _ = self._simulator.least_error(self, restarts, np.random.default_rng(seed))
+        return least_errors if self.code.ndim else least_errors[0]
 
     @property
     def excess_error(self) -> Array:
         """(N,) error at the end minus :meth:`least_error`: 0 where the arm ends as close as it still could."""
         return np.asarray(self.error - self.least_error())
 
-    @checked
+    @check_arguments
     def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> Path:
         """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
 
@@ -289,7 +290,7 @@ class Runs(Result):
             raise InputError(f"samples is {samples}; it must be 2 or more")
         if np.atleast_1d(self.reason)[k] == Reason.BAD_INPUT:
             raise InputError(f"run {k} has no path: {Reason.BAD_INPUT.sentence}")
-        return self._motion.path(self, k, samples, until)
+        return self._simulator.path(self, k, samples, until)
 
     def to_csv(self, file: str | File, k: int = 0) -> File:
         """Write run k as rows over time, from its start to its end: joint positions, tool point (m), position and angle error.
@@ -298,63 +299,75 @@ class Runs(Result):
             InputError: No such run.
             StoreError: It cannot be written.
         """
-        written: File = self._presented("to_csv", File(file), k)
+        written: File = self._present("to_csv", File(file), k)
         return written
 
     def limits_sentence(self, k: int = 0) -> str:
-        """Whether the joints of run k stayed within their limits, for people; empty for an arm without limits.
+        """Return whether the joints of run k stayed within their limits, as a sentence; empty for an arm without limits.
 
         It goes with the outcome and does not follow from it: the motion does not heed limits.
         """
-        arm, low, high = self.law.arm, np.atleast_2d(self.q_low)[k], np.atleast_2d(self.q_high)[k]
+        arm, lowest, highest = self.law.arm, np.atleast_2d(self.q_low)[k], np.atleast_2d(self.q_high)[k]
         if not np.isfinite([arm.lower, arm.upper]).any():
             return ""
-        past = []
-        for joint, name, least, most in zip(arm.joints, arm.joint_names, low, high, strict=True):
+        violations = []
+        for joint, joint_name, minimum, maximum in zip(arm.joints, arm.joint_names, lowest, highest, strict=True):
             factor, unit = joint.shown
-            for value, end, beyond in ((least, joint.lower, least < joint.lower), (most, joint.upper, most > joint.upper)):
-                if beyond:
-                    past.append(f"{name} goes to {factor * value:.4g} {unit} (limit {factor * end:.4g} {unit})")
-        if not past:
+            for value, limit, is_beyond in (
+                (minimum, joint.lower, minimum < joint.lower),
+                (maximum, joint.upper, maximum > joint.upper),
+            ):
+                if is_beyond:
+                    violations.append(f"{joint_name} goes to {factor * value:.4g} {unit} (limit {factor * limit:.4g} {unit})")
+        if not violations:
             return "All joints stay within their limits."
-        return f"On the way {' and '.join(past)}: a real arm would stop there."
+        return f"On the way {' and '.join(violations)}: a real arm would stop there."
 
     def contact_sentence(self, k: int | None = None) -> str:
-        """What run k touched first, or how many of all runs touched what, for people; empty if nobody looked."""
+        """Return the first contact of run k, or the number of runs in contact with each object; empty if none were checked."""
         if self.contacts is None:
             return ""
         if k is None and len(self) > 1:
-            touching = len({c.run for c in self.contacts})
-            things = Counter(c.object for c in self.contacts)
-            what = ", ".join(f"{thing} by {count} link{'' if count == 1 else 's'}" for thing, count in things.most_common(3))
-            return f"{touching} of them touch something on the way" + (f" ({what}, all runs together)" if what else "")
-        own = [c for c in self.contacts if c.run == (k or 0)]
-        if not own:
-            whole, checked = float(np.atleast_1d(self.time)[k or 0]), self.checked_until(k or 0)
-            if checked < whole:
-                return f"The arm touches nothing in the first {checked:g} s; its motion after them was not checked."
+            touching = len({contact.run for contact in self.contacts})
+            object_counts = Counter(contact.object for contact in self.contacts)
+            object_list = ", ".join(
+                f"{object_name} by {count} link{'' if count == 1 else 's'}"
+                for object_name, count in object_counts.most_common(3)
+            )
+            return f"{touching} of them touch something on the way" + (
+                f" ({object_list}, all runs together)" if object_list else ""
+            )
+        run_contacts = [contact for contact in self.contacts if contact.run == (k or 0)]
+        if not run_contacts:
+            end_time, checked_time = float(np.atleast_1d(self.time)[k or 0]), self.checked_until(k or 0)
+            if checked_time < end_time:
+                return f"The arm touches nothing in the first {checked_time:g} s; its motion after them was not checked."
             return "The arm touches nothing on the way."
-        unit, ends = self.unit, self.stopped is not None
-        more = "" if len(own) == 1 else f", the first of {len(own)} contacts"
-        return f"{capitalised(own[0].sentence(unit))}{more}{': the run is stopped there' if ends else ''}."
+        unit, is_stopped = self.unit, self.stopped is not None
+        remark = "" if len(run_contacts) == 1 else f", the first of {len(run_contacts)} contacts"
+        return (
+            f"{capitalise_first(run_contacts[0].sentence(unit))}{remark}{': the run is stopped there' if is_stopped else ''}."
+        )
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the outcomes of the runs in a few sentences."""
         counts = self.counts()
         lines = [
             f"{len(self)} runs of {self.law.describe()} on '{self.law.arm.name}': "
             + ", ".join(f"{count} {name}" for name, count in counts.items())
         ]
-        past = np.atleast_2d(self.limits_passed).any(axis=1)
-        if past.any():
-            there = int((past & (np.atleast_1d(self.code) == Outcome.CONVERGED)).sum())
-            lines.append(f"{int(past.sum())} of them pass a joint limit on the way, {there} of these converge")
+        passes_limit = np.atleast_2d(self.limits_passed).any(axis=1)
+        if passes_limit.any():
+            converged_count = int((passes_limit & (np.atleast_1d(self.code) == RunOutcome.CONVERGED)).sum())
+            lines.append(
+                f"{int(passes_limit.sum())} of them pass a joint limit on the way, {converged_count} of these converge"
+            )
         reasons = np.atleast_1d(self.reason)
-        for reason in UNDECIDED:
+        for reason in UNDECIDED_REASONS:
             if (reasons == reason).any():
-                limit = f", {self._setting.limit:.6g} {self.unit}" if reason == Reason.TIME_LIMIT else ""
-                lines.append(f"{int((reasons == reason).sum())} undecided{limit}: {reason.sentence}")
-        return [*lines, *[x for x in (self.contact_sentence(),) if x]]
+                limit_text = f", {self._settings.time_limit:.6g} {self.unit}" if reason == Reason.TIME_LIMIT else ""
+                lines.append(f"{int((reasons == reason).sum())} undecided{limit_text}: {reason.sentence}")
+        return [*lines, *[sentence for sentence in (self.contact_sentence(),) if sentence]]
 
 
-_NAMES = np.array([o.name.lower() for o in Outcome])
+_OUTCOME_NAMES = np.array([o.name.lower() for o in RunOutcome])

@@ -17,12 +17,12 @@ class Tableau:
         errors: Weights of the error estimates of fifth and third order that the method combines into one of seventh; none
             for a fixed step.
         middle: Weights of all derivatives, the last one too, for the way to the middle of a step and the derivative there.
-        longest: Of a step, 1/Ke: well within what is stable for the rate Ke at which the error itself shrinks.
+        longest_step: Of a step, 1/Ke: well within what is stable for the rate Ke at which the error itself shrinks.
     """
 
     name: str
     rows: tuple[Weights, ...]
-    longest: float
+    longest_step: float
     errors: tuple[Weights, Weights] | None = None
     middle: tuple[Weights, Weights] | None = None
 
@@ -85,4 +85,4 @@ DOP853 = Tableau(
         ),
     ),
 )
-CLASSIC = Tableau("Runge-Kutta 4", ((1 / 2,), (0.0, 1 / 2), (0.0, 0.0, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)), 2.5)
+CLASSIC_RK4 = Tableau("Runge-Kutta 4", ((1 / 2,), (0.0, 1 / 2), (0.0, 0.0, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)), 2.5)

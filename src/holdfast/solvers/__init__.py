@@ -1,4 +1,4 @@
-"""Solvers for configurations: inverse kinematics, the best one of a pose, all of them, and the best along a path."""
+"""Solvers for configurations: inverse kinematics, the best one of a pose, self-motions, and the best path."""
 
 from holdfast._lazy import offer
 

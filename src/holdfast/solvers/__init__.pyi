@@ -2,7 +2,7 @@ from holdfast.solvers.curve_tracing import Component as Component
 from holdfast.solvers.fibre_paths import FibrePath as FibrePath
 from holdfast.solvers.fibre_paths import best_path as best_path
 from holdfast.solvers.fibre_paths import best_path_over as best_path_over
-from holdfast.solvers.inverse_kinematics import Reach as Reach
+from holdfast.solvers.inverse_kinematics import PoseSolutions as PoseSolutions
 from holdfast.solvers.inverse_kinematics import solve_ik as solve_ik
 from holdfast.solvers.inverse_kinematics import solver as solver
 from holdfast.solvers.optima import Optima as Optima

@@ -18,22 +18,22 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
-from holdfast.linalg import damped_least_norm, householder
-from holdfast.notice import Count
+from holdfast.kernels.recall import cached_kernel
+from holdfast.linalg import damped_least_norm, factor_householder
+from holdfast.notice import ProgressCount
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import scaled_error, solver
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-10  # rad, and lengths in units of the arm's own: how far from the pose a point may be
-_NEWTON = 5  # corrector steps before a step counts as too long
-_SHORTEST = 2.0**-10  # of the spacing: shorter steps are not tried, the curve ends there
-_STRAIGHT = 0.9  # least cosine between the null vectors at the two ends of a step
-_ON_CURVE = 0.15  # of the spacing: a configuration nearer than this to a traced curve lies on it
-_FARTHEST = 400.0  # rad: longer curves are cut
-_MOST_POINTS = 4000  # of a sample
-_WAVE = 16  # curves traced side by side; no result depends on it
+CURVE_TOLERANCE = 1e-10  # rad, and lengths in units of the arm's own: how far from the pose a point may be
+_CORRECTOR_STEPS = 5  # corrector steps before a step counts as too long
+_MIN_STEP_FRACTION = 2.0**-10  # of the spacing: shorter steps are not tried, the curve ends there
+_MIN_TANGENT_COSINE = 0.9  # least cosine between the null vectors at the two ends of a step
+_ON_CURVE_FRACTION = 0.15  # of the spacing: a configuration nearer than this to a traced curve lies on it
+_MAX_CURVE_LENGTH = 400.0  # rad: longer curves are cut
+_MAX_POINTS = 4000  # of a sample
+_SIMULTANEOUS_CURVES = 16  # curves traced side by side; no result depends on it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,38 +58,40 @@ class Component:
 
     @property
     def winding(self) -> NDArray[np.int64]:
-        """(n,) whole turns of each joint on the way round a closed curve; 0 on others.
+        """Full revolutions (n,) of each joint along a closed curve; 0 on others.
 
         Not 0: the joint takes every angle, which no spacing of the points blurs.
         """
-        turns = np.rint((self.q[-1] - self.q[0]) / (2 * np.pi)) if self.closed else np.zeros(self.q.shape[1])
-        return turns.astype(np.int64)
+        revolutions = np.rint((self.q[-1] - self.q[0]) / (2 * np.pi)) if self.closed else np.zeros(self.q.shape[1])
+        return revolutions.astype(np.int64)
 
     @property
     def ranges(self) -> Array:
-        """(n,) length of the interval of values that each joint takes on the curve, rad or m; 2 pi of a joint that winds.
+        """Length (n,) of the interval of values of each joint on the curve, rad or m; 2 pi of a joint that winds.
 
         Of a revolute joint 2 pi or more is every angle. The ends lie on parabolas through three points.
         """
-        wide = np.array([_peak(x, self.closed) + _peak(-x, self.closed) for x in self.q.T])
-        return np.where(self.winding != 0, 2 * np.pi, wide)
+        widths = np.array([_peak_value(values, self.closed) + _peak_value(-values, self.closed) for values in self.q.T])
+        return np.where(self.winding != 0, 2 * np.pi, widths)
 
 
-def _peak(x: Array, closed: bool) -> float:
-    """The largest value of a smooth curve with points x (K,), by the parabola through the largest and its neighbours."""
-    k, count = int(x.argmax()), len(x)
-    if count < 3 or (not closed and k in (0, count - 1)):
-        return float(x[k])
-    before, after = x[k - 1] - x[k], x[(k + 1) % count] - x[k]
-    bent = before + after
+def _peak_value(x: Array, closed: bool) -> float:
+    """Return the largest value of a smooth curve with points x (K,), by the parabola through the largest point and its
+    neighbors.
+    """
+    index, count = int(x.argmax()), len(x)
+    if count < 3 or (not closed and index in (0, count - 1)):
+        return float(x[index])
+    left_drop, right_drop = x[index - 1] - x[index], x[(index + 1) % count] - x[index]
+    curvature = left_drop + right_drop
     # Where the curve winds or its ends are no neighbours the parabola means nothing: its rise is at most the gap.
-    rise = (before - after) ** 2 / (-8 * bent) if bent < 0 else 0.0
-    return float(x[k] + min(rise, abs(before), abs(after)))
+    rise = (left_drop - right_drop) ** 2 / (-8 * curvature) if curvature < 0 else 0.0
+    return float(x[index] + min(rise, abs(left_drop), abs(right_drop)))
 
 
 @dataclass
-class _Run:
-    """Curves under way, one a row: where they are, and why they ended."""
+class _CurveRun:
+    """Curves being traced, one per row: their current points, and why they ended."""
 
     q: Array
     tangent: Array
@@ -98,268 +100,299 @@ class _Run:
     limit: NDArray[np.int64]  # joint, or -1
 
 
-class Tracer:
+class ManifoldTracer:
     """The compiled predictor and corrector of one arm and task.
 
     Attributes:
         arm, task: What moves, and what it keeps.
-        free: Degrees of redundancy that are left.
-        held: Joints that stay, by index from 0, and the values, rad or m, at which curves are looked for.
+        dimension: Degrees of redundancy that are left.
+        fixed_joints: Joints that stay, by index from 0, and the values, rad or m, at which curves are looked for.
     """
 
-    def __init__(self, arm: Arm, task: Task, holds: int = 0) -> None:
-        """For so many joints that are held, whichever; see :meth:`holding`."""
+    def __init__(self, arm: Arm, task: Task, fixed_count: int = 0) -> None:
+        """Compile for a number of fixed joints, which may be any joints; see :meth:`with_fixed_joints`."""
         self.arm = arm
         self.engine = solver(arm, task)
-        self.task, self.free = task, arm.n - task.m - holds
-        self.held: Mapping[int, float] = {}
+        self.task, self.dimension = task, arm.n - task.m - fixed_count
+        self.fixed_joints: Mapping[int, float] = {}
 
-    def holding(self, held: Mapping[int, float]) -> Tracer:
-        """The same, of other joints that are held: as many as it was made for."""
-        other = copy(self)
-        other.held = held
-        other.__dict__["_step"] = self._step  # one kernel for all
-        return other
+    def with_fixed_joints(self, fixed_joints: Mapping[int, float]) -> ManifoldTracer:
+        """Return the tracer with other fixed joints, as many as the tracer was made for."""
+        tracer_copy = copy(self)
+        tracer_copy.fixed_joints = fixed_joints
+        tracer_copy.__dict__["_step"] = self._step  # one kernel for all
+        return tracer_copy
 
     @property
-    def _inputs(self) -> list[Array]:
-        """Beside configurations and poses: which joints are held, one in each row."""
-        return [np.eye(self.arm.n)[list(self.held)]] if self.held else []
+    def _fixed_inputs(self) -> list[Array]:
+        """Kernel inputs besides configurations and poses: the fixed joints, one in each row."""
+        return [np.eye(self.arm.n)[list(self.fixed_joints)]] if self.fixed_joints else []
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _step(self) -> Kernel:
         arm, task = self.engine.arm, self.task
         q = kinematics.joint_symbols(arm)
-        p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        e, j = scaled_error(arm, task, q, p, r)
-        holds = arm.n - task.m - self.free
-        held = [ca.SX.sym("held", holds, arm.n)] if holds else []
-        e, j = ca.vertcat(e, ca.SX.zeros(holds, 1)), ca.vertcat(j, *held)
-        moves = 1 - ca.sum1(held[0]) if held else ca.SX.ones(1, arm.n)
-        basis = householder(j).null_rows()
-        null = [basis[k][c] * moves[k] for c in range(self.free) for k in range(arm.n)]  # not even by rounding
-        back = damped_least_norm(j, e, 1e-14) * moves.T
+        position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        errors, jacobian = scaled_error(arm, task, q, position, rotation)
+        fixed_count = arm.n - task.m - self.dimension
+        fixed_rows = [ca.SX.sym("held", fixed_count, arm.n)] if fixed_count else []
+        errors, jacobian = ca.vertcat(errors, ca.SX.zeros(fixed_count, 1)), ca.vertcat(jacobian, *fixed_rows)
+        is_moving = 1 - ca.sum1(fixed_rows[0]) if fixed_rows else ca.SX.ones(1, arm.n)
+        basis = factor_householder(jacobian).null_rows()
+        null_vectors = [
+            basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)
+        ]  # not even by rounding
+        correction = damped_least_norm(jacobian, errors, 1e-14) * is_moving.T
         # The basis is that of q, the residual too: a point that needs no correction brings its own.
-        return Kernel("self-motion", [q, p, r, *held], [ca.vertcat(q + back, ca.norm_2(e), *null)])
+        return Kernel(
+            "self-motion", [q, position, rotation, *fixed_rows], [ca.vertcat(q + correction, ca.norm_2(errors), *null_vectors)]
+        )
 
-    def seeds(self, poses: Array, rows: NDArray[np.intp], seed: int, starts: int) -> tuple[NDArray[np.intp], Array]:
-        """Configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
+    def find_seeds(self, poses: Array, rows: NDArray[np.intp], seed: int, starts: int) -> tuple[NDArray[np.intp], Array]:
+        """Find configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
-        draws = self.engine.starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
-        draws[..., list(self.held)] = list(self.held.values())
+        random_starts = self.engine.sample_starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
+        random_starts[..., list(self.fixed_joints)] = list(self.fixed_joints.values())
         owner = np.repeat(rows, starts)
-        q, ok = self._attempt(draws[rows].reshape(-1, self.arm.n), poses[owner])
-        return owner[ok], q[ok]
+        q, converged = self._attempt(random_starts[rows].reshape(-1, self.arm.n), poses[owner])
+        return owner[converged], q[converged]
 
     def _attempt(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Inverse kinematics from starts q (N, n): where they led, and whether that is on the pose and within the limits."""
-        return self.engine.attempt(q, poses, TOLERANCE, held=list(self.held))
+        """Solve inverse kinematics from starts q (N, n); return the ends, and whether each is on the pose and within the
+        limits.
+        """
+        return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
-    def corrected(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_], Array]:
-        """Configurations (N, n) brought back to their poses, whether that worked, and null vectors (N, free, n) there."""
-        n = self.arm.n
-        p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
-        for left in reversed(range(_NEWTON)):
-            out = self._step.rows(q, p, r, *self._inputs)
-            on = out[:, n] <= TOLERANCE
-            if on.all() or not left:
-                break
-            q = np.where(on[:, None], q, out[:, :n])
-        return q, on & np.isfinite(out).all(axis=1), out[:, n + 1 :].reshape(-1, self.free, n)
-
-    def newton(self, q: Array, p: Array, r: Array) -> tuple[Array, Array, Array]:
-        """One least-norm step (N, n) from q (N, n) towards positions p (N, 3) and rotations r (N, 3, 3), the error (N,) that q
-        has, in units of the arm's own, and the first null vector (N, n) at q.
+    def correct(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_], Array]:
+        """Move configurations (N, n) back to their poses; return them, whether that worked, and null vectors (N, free, n)
+        there.
         """
         n = self.arm.n
-        out = self._step.rows(q, p, r, *self._inputs)
-        return out[:, :n] - q, out[:, n], out[:, n + 1 :].reshape(-1, self.free, n)[:, 0]
+        positions, rotations = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
+        for steps_left in reversed(range(_CORRECTOR_STEPS)):
+            outputs = self._step.rows(q, positions, rotations, *self._fixed_inputs)
+            on_pose = outputs[:, n] <= CURVE_TOLERANCE
+            if on_pose.all() or not steps_left:
+                break
+            q = np.where(on_pose[:, None], q, outputs[:, :n])
+        return q, on_pose & np.isfinite(outputs).all(axis=1), outputs[:, n + 1 :].reshape(-1, self.dimension, n)
+
+    def newton_step(self, q: Array, p: Array, r: Array) -> tuple[Array, Array, Array]:
+        """Return one least-norm step (N, n) from q (N, n) to positions p (N, 3) and rotations r (N, 3, 3), the error (N,) of q,
+        in units of the arm's own, and the first null vector (N, n) at q.
+        """
+        n = self.arm.n
+        outputs = self._step.rows(q, p, r, *self._fixed_inputs)
+        return outputs[:, :n] - q, outputs[:, n], outputs[:, n + 1 :].reshape(-1, self.dimension, n)[:, 0]
 
     # ---- curves ----------------------------------------------------------------------------------------------------
 
-    def curves(
+    def trace_curves(
         self, poses: Array, owner: NDArray[np.intp], q: Array, spacing: float, found: list[list[Component]]
     ) -> list[list[Component]]:
-        """Adds to what is ``found`` of each pose every other curve that a seed q (S, n) of pose ``owner`` (S,) lies on."""
-        left = np.ones(owner.size, dtype=bool)
-        for i in np.unique(owner):
-            for component in found[i]:
-                self._drop(left, component, i, owner, q, spacing)
-        with Count("starts", owner.size) as tell:
-            while left.any():
-                tell(int(np.count_nonzero(~left)))
-                owner, q = owner[left], q[left]
-                left = np.ones(owner.size, dtype=bool)
+        """Add to the curves ``found`` of each pose every other curve through a seed q (S, n) of pose ``owner`` (S,)."""
+        pending = np.ones(owner.size, dtype=bool)
+        for pose_index in np.unique(owner):
+            for component in found[pose_index]:
+                self._drop_seeds(pending, component, pose_index, owner, q, spacing)
+        with ProgressCount("starts", owner.size) as advance:
+            while pending.any():
+                advance(int(np.count_nonzero(~pending)))
+                owner, q = owner[pending], q[pending]
+                pending = np.ones(owner.size, dtype=bool)
                 # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
-                each = max(1, _WAVE // np.unique(owner).size)
-                first = np.flatnonzero(_rank(owner) < each)
-                for k, component in zip(first, self._both_ways(q[first], poses[owner[first]], spacing), strict=True):
-                    if component is not None and left[k]:
-                        found[owner[k]].append(component)
-                        self._drop(left, component, owner[k], owner, q, spacing)
-                    left[k] = False
+                curves_per_pose = max(1, _SIMULTANEOUS_CURVES // np.unique(owner).size)
+                first = np.flatnonzero(_rank_within_owner(owner) < curves_per_pose)
+                for index, component in zip(first, self._trace_both_ways(q[first], poses[owner[first]], spacing), strict=True):
+                    if component is not None and pending[index]:
+                        found[owner[index]].append(component)
+                        self._drop_seeds(pending, component, owner[index], owner, q, spacing)
+                    pending[index] = False
         return found
 
-    def _drop(
-        self, left: NDArray[np.bool_], component: Component, pose: np.intp, owner: NDArray[np.intp], q: Array, spacing: float
+    def _drop_seeds(
+        self, pending: NDArray[np.bool_], component: Component, pose: np.intp, owner: NDArray[np.intp], q: Array, spacing: float
     ) -> None:
-        """Takes the seeds of a pose that lie on a component out of those that are left."""
-        mine = np.flatnonzero((owner == pose) & left)
-        if mine.size:
-            left[mine] = distance_to_curve(self.arm, component, q[mine]) > _ON_CURVE * spacing
+        """Remove the pending seeds of a pose that lie on a component."""
+        own_seeds = np.flatnonzero((owner == pose) & pending)
+        if own_seeds.size:
+            pending[own_seeds] = distance_to_curve(self.arm, component, q[own_seeds]) > _ON_CURVE_FRACTION * spacing
 
-    def passed_on(self, poses: Array, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
-        """Adds the curves at which inverse kinematics converges from the middle of a curve of the pose before or behind."""
-        fresh = [(i, c) for i, curves in enumerate(found) for c in curves]
-        while fresh:
-            starts = [(i + to, c.q[len(c.q) // 2]) for i, c in fresh for to in (-1, 1) if 0 <= i + to < len(poses)]
+    def propagate_curves(self, poses: Array, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
+        """Add the curves at which inverse kinematics converges from the middle of a curve of the previous or next pose."""
+        new_curves = [(pose_index, curve) for pose_index, curves in enumerate(found) for curve in curves]
+        while new_curves:
+            starts = [
+                (pose_index + offset, curve.q[len(curve.q) // 2])
+                for pose_index, curve in new_curves
+                for offset in (-1, 1)
+                if 0 <= pose_index + offset < len(poses)
+            ]
             if not starts:
                 break
-            owner = np.array([i for i, _ in starts])
-            q, ok = self._attempt(np.array([x for _, x in starts]), poses[owner])
-            known = [len(curves) for curves in found]
-            self.curves(poses, owner[ok], q[ok], spacing, found)
-            fresh = [(i, c) for i, curves in enumerate(found) for c in curves[known[i] :]]
+            owner = np.array([pose_index for pose_index, _ in starts])
+            q, converged = self._attempt(np.array([start for _, start in starts]), poses[owner])
+            known_counts = [len(curves) for curves in found]
+            self.trace_curves(poses, owner[converged], q[converged], spacing, found)
+            new_curves = [
+                (pose_index, curve) for pose_index, curves in enumerate(found) for curve in curves[known_counts[pose_index] :]
+            ]
         return found
 
-    def _both_ways(self, q: Array, poses: Array, spacing: float) -> list[Component | None]:
-        q, sound, null = self.corrected(q, poses)
-        tangent = null[:, 0]
+    def _trace_both_ways(self, q: Array, poses: Array, spacing: float) -> list[Component | None]:
+        q, sound, null_vectors = self.correct(q, poses)
+        tangent = null_vectors[:, 0]
         rows = np.flatnonzero(sound)
         ahead = self._trace(q[rows], tangent[rows], poses[rows], spacing)
-        open_ = np.flatnonzero(~ahead.closed)
-        behind = self._trace(q[rows[open_]], -tangent[rows[open_]], poses[rows[open_]], spacing)
-        other = {int(k): m for m, k in enumerate(open_)}
-        out: list[Component | None] = [None] * len(q)
-        ends = [*range(self.arm.n), None]  # by the joint of a limit; -1: none
-        for k, row in enumerate(rows):
-            points = ahead.points[k]
+        open_curves = np.flatnonzero(~ahead.closed)
+        behind = self._trace(q[rows[open_curves]], -tangent[rows[open_curves]], poses[rows[open_curves]], spacing)
+        backward_index = {int(forward): backward for backward, forward in enumerate(open_curves)}
+        components: list[Component | None] = [None] * len(q)
+        end_joints = [*range(self.arm.n), None]  # by the joint of a limit; -1: none
+        for forward, row in enumerate(rows):
+            points = ahead.points[forward]
             bounds: tuple[int | None, int | None] = (None, None)
-            if k in other:
-                m = other[k]
-                points = np.concatenate([behind.points[m][:0:-1], points])
-                bounds = ends[behind.limit[m]], ends[ahead.limit[k]]
-            closed = bool(ahead.closed[k])
-            length = np.linalg.norm(_segments(self.arm, points, closed), axis=1).sum()
-            out[row] = Component(q=points, closed=closed, bounded_by=bounds, length=float(length))
-        return out
+            if forward in backward_index:
+                backward = backward_index[forward]
+                points = np.concatenate([behind.points[backward][:0:-1], points])
+                bounds = end_joints[behind.limit[backward]], end_joints[ahead.limit[forward]]
+            closed = bool(ahead.closed[forward])
+            length = np.linalg.norm(_curve_segments(self.arm, points, closed), axis=1).sum()
+            components[row] = Component(q=points, closed=closed, bounded_by=bounds, length=float(length))
+        return components
 
-    def _trace(self, q: Array, tangent: Array, poses: Array, spacing: float) -> _Run:
-        """Follow the curve of each row one way. Every pass tries one step of every row that is under way."""
-        run = _Run(q.copy(), tangent.copy(), [], np.zeros(len(q), dtype=bool), np.full(len(q), -1))
+    def _trace(self, q: Array, tangent: Array, poses: Array, spacing: float) -> _CurveRun:
+        """Follow the curve of each row in one direction. Every pass tries one step of every active row."""
+        run = _CurveRun(q.copy(), tangent.copy(), [], np.zeros(len(q), dtype=bool), np.full(len(q), -1))
         taken_rows, taken_points = [np.arange(len(q))], [q]
         step = np.full(len(q), spacing)
-        way = np.zeros(len(q))
-        left = np.arange(len(q))
-        while left.size:
-            here, along = run.q[left], run.tangent[left]
-            new, on, null = self.corrected(here + step[left, None] * along, poses[left])
-            ahead = null[:, 0] * np.where(np.einsum("ij,ij->i", null[:, 0], along) < 0, -1.0, 1.0)[:, None]
-            moved = np.linalg.norm(new - here, axis=1)
-            good = on & (np.einsum("ij,ij->i", ahead, along) >= _STRAIGHT) & (moved <= 1.5 * step[left])
+        travelled = np.zeros(len(q))
+        active = np.arange(len(q))
+        while active.size:
+            current, direction = run.q[active], run.tangent[active]
+            predicted, on_pose, null_vectors = self.correct(current + step[active, None] * direction, poses[active])
+            next_tangent = (
+                null_vectors[:, 0] * np.where(np.einsum("ij,ij->i", null_vectors[:, 0], direction) < 0, -1.0, 1.0)[:, None]
+            )
+            distance = np.linalg.norm(predicted - current, axis=1)
+            is_accepted = (
+                on_pose
+                & (np.einsum("ij,ij->i", next_tangent, direction) >= _MIN_TANGENT_COSINE)
+                & (distance <= 1.5 * step[active])
+            )
             # A limit: the step is cut in proportion until it ends on it.
-            part, joint = self._within(here, new)
-            beyond = good & (part < 1)
-            at_limit = beyond & (part * moved <= 1e-12)
-            run.limit[left[at_limit]] = joint[at_limit]
-            short = good & beyond & ~at_limit
-            step[left[short]] *= part[short]
-            taken = good & ~beyond
-            rows = left[taken]
-            home = self._home(run.q[rows], new[taken], q[rows], tangent[rows])
-            run.closed[rows[home]] = True
-            taken_rows.append(rows[~home])
-            taken_points.append(new[taken][~home])
-            run.q[rows], run.tangent[rows] = new[taken], ahead[taken]
-            way[rows] += moved[taken]
+            fraction, joint = self._fraction_within_limits(current, predicted)
+            beyond_limit = is_accepted & (fraction < 1)
+            at_limit = beyond_limit & (fraction * distance <= 1e-12)
+            run.limit[active[at_limit]] = joint[at_limit]
+            is_shortened = is_accepted & beyond_limit & ~at_limit
+            step[active[is_shortened]] *= fraction[is_shortened]
+            is_taken = is_accepted & ~beyond_limit
+            rows = active[is_taken]
+            is_closed = self._closes_curve(run.q[rows], predicted[is_taken], q[rows], tangent[rows])
+            run.closed[rows[is_closed]] = True
+            taken_rows.append(rows[~is_closed])
+            taken_points.append(predicted[is_taken][~is_closed])
+            run.q[rows], run.tangent[rows] = predicted[is_taken], next_tangent[is_taken]
+            travelled[rows] += distance[is_taken]
             step[rows] = np.minimum(2 * step[rows], spacing)
-            step[left[~good]] *= 0.5
-            over = at_limit | (~good & (step[left] < _SHORTEST * spacing)) | (way[left] > _FARTHEST)
-            over |= np.isin(left, rows[home])
-            left = left[~over]
-        every = np.concatenate(taken_rows)
-        order = np.argsort(every, kind="stable")
-        run.points = np.split(np.concatenate(taken_points)[order], np.searchsorted(every[order], np.arange(1, len(q))))
+            step[active[~is_accepted]] *= 0.5
+            has_ended = (
+                at_limit
+                | (~is_accepted & (step[active] < _MIN_STEP_FRACTION * spacing))
+                | (travelled[active] > _MAX_CURVE_LENGTH)
+            )
+            has_ended |= np.isin(active, rows[is_closed])
+            active = active[~has_ended]
+        all_rows = np.concatenate(taken_rows)
+        order = np.argsort(all_rows, kind="stable")
+        run.points = np.split(np.concatenate(taken_points)[order], np.searchsorted(all_rows[order], np.arange(1, len(q))))
         return run
 
-    def _within(self, q: Array, new: Array) -> tuple[Array, NDArray[np.int64]]:
-        """Share (N,) of the step from q to new that stays within the limits, and the joint that ends it."""
-        moved = new - q
-        room = np.where(moved > 0, self.arm.upper - q, self.arm.lower - q)
+    def _fraction_within_limits(self, q: Array, new: Array) -> tuple[Array, NDArray[np.int64]]:
+        """Return the fraction (N,) of the step from q to new that stays within the limits, and the joint that ends it."""
+        displacement = new - q
+        distance_to_limit = np.where(displacement > 0, self.arm.upper - q, self.arm.lower - q)
         outside = (new > self.arm.upper) | (new < self.arm.lower)
         with np.errstate(divide="ignore", invalid="ignore"):
-            share = np.where(outside, np.maximum(room / moved, 0.0), 1.0)
-        return share.min(axis=1), share.argmin(axis=1)
+            fraction = np.where(outside, np.maximum(distance_to_limit / displacement, 0.0), 1.0)
+        return fraction.min(axis=1), fraction.argmin(axis=1)
 
-    def _home(self, q: Array, new: Array, first: Array, along: Array) -> NDArray[np.bool_]:
-        """True where the step from q to new (N, n) passes the first point of the curve, in the direction it left in."""
-        before, after = (joint_space.difference(self.arm, x, first) for x in (q, new))
-        crosses = (np.einsum("ij,ij->i", before, along) < 0) & (np.einsum("ij,ij->i", after, along) >= 0)
-        size = np.linalg.norm(new - q, axis=1)
-        near = _distance_to_segment(-before, new - q) <= _ON_CURVE * size
-        return np.asarray(crosses & near & (np.linalg.norm(before, axis=1) <= 2 * size))
+    def _closes_curve(self, q: Array, new: Array, first: Array, direction: Array) -> NDArray[np.bool_]:
+        """Return True where the step from q to new (N, n) passes the first point of the curve, in the direction of
+        its start.
+        """
+        before, after = (joint_space.joint_difference(self.arm, point, first) for point in (q, new))
+        crosses = (np.einsum("ij,ij->i", before, direction) < 0) & (np.einsum("ij,ij->i", after, direction) >= 0)
+        step_length = np.linalg.norm(new - q, axis=1)
+        is_near = _distance_to_segment(-before, new - q) <= _ON_CURVE_FRACTION * step_length
+        return np.asarray(crosses & is_near & (np.linalg.norm(before, axis=1) <= 2 * step_length))
 
     # ---- samples ---------------------------------------------------------------------------------------------------
 
-    def sample(self, pose: Array, q: Array, spacing: float) -> Array:
-        """Points (N, n) of a manifold of dimension 2 or more, from seeds q (S, n): a front of neighbours that grows."""
-        points = front = self._thinned(np.empty((0, self.arm.n)), q, spacing)
-        turns = np.linspace(0, 2 * np.pi, 6, endpoint=False)
-        planes = [(a, b) for a in range(self.free) for b in range(a + 1, self.free)]
-        directions = np.zeros((len(planes) * turns.size, self.free))
-        for k, (a, b) in enumerate(planes):
-            directions[k * turns.size : (k + 1) * turns.size, [a, b]] = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-        while len(front) and len(points) < _MOST_POINTS:
-            _, _, null = self.corrected(front, np.broadcast_to(pose, (len(front), 4, 4)))
-            ahead = front[:, None] + spacing * np.einsum("df,nfj->ndj", directions, null)
-            ahead = ahead.reshape(-1, self.arm.n)
-            new, on, _ = self.corrected(ahead, np.broadcast_to(pose, (len(ahead), 4, 4)))
-            inside = ((new >= self.arm.lower) & (new <= self.arm.upper)).all(axis=1)
-            near = np.linalg.norm(new - ahead, axis=1) <= spacing
-            front = self._thinned(points, new[on & inside & near], 0.9 * spacing)
+    def sample_manifold(self, pose: Array, q: Array, spacing: float) -> Array:
+        """Sample points (N, n) of a manifold of dimension 2 or more, from seeds q (S, n), by a growing front of neighbors."""
+        points = front = self._thin_points(np.empty((0, self.arm.n)), q, spacing)
+        angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
+        planes = [(first, second) for first in range(self.dimension) for second in range(first + 1, self.dimension)]
+        directions = np.zeros((len(planes) * angles.size, self.dimension))
+        for index, (first, second) in enumerate(planes):
+            directions[index * angles.size : (index + 1) * angles.size, [first, second]] = np.stack(
+                [np.cos(angles), np.sin(angles)], axis=1
+            )
+        while len(front) and len(points) < _MAX_POINTS:
+            _, _, null_vectors = self.correct(front, np.broadcast_to(pose, (len(front), 4, 4)))
+            predicted = front[:, None] + spacing * np.einsum("df,nfj->ndj", directions, null_vectors)
+            predicted = predicted.reshape(-1, self.arm.n)
+            corrected, on_pose, _ = self.correct(predicted, np.broadcast_to(pose, (len(predicted), 4, 4)))
+            inside = ((corrected >= self.arm.lower) & (corrected <= self.arm.upper)).all(axis=1)
+            is_near = np.linalg.norm(corrected - predicted, axis=1) <= spacing
+            front = self._thin_points(points, corrected[on_pose & inside & is_near], 0.9 * spacing)
             points = np.concatenate([points, front])
-        return points[:_MOST_POINTS]
+        return points[:_MAX_POINTS]
 
-    def _thinned(self, points: Array, q: Array, spacing: float) -> Array:
-        """Those of q (N, n), in order, that are ``spacing`` away from the points and from those of q kept before."""
+    def _thin_points(self, points: Array, q: Array, spacing: float) -> Array:
+        """Return those of q (N, n), in order, that are ``spacing`` away from the points and from the points returned before."""
         if len(points) and len(q):
-            q = q[joint_space.nearest(self.arm, points, q)[0] >= spacing]
+            q = q[joint_space.find_nearest(self.arm, points, q)[0] >= spacing]
         if not len(q):
             return q
-        keep = np.ones(len(q), dtype=bool)
-        for k, m in joint_space.pairs(self.arm, q, spacing * (1 - 1e-12)):
-            if keep[k]:
-                keep[m] = False
-        return q[keep]
+        is_retained = np.ones(len(q), dtype=bool)
+        for first, second in joint_space.find_close_pairs(self.arm, q, spacing * (1 - 1e-12)):
+            if is_retained[first]:
+                is_retained[second] = False
+        return q[is_retained]
 
 
 def distance_to_curve(arm: Arm, component: Component, q: Array) -> Array:
-    """Distance (N,) of configurations (N, n) from the polygon of a component, near it; rad (and m)."""
-    points, segments = component.q, _segments(arm, component.q, component.closed)
-    _, nearest = joint_space.nearest(arm, points, q)
-    away = joint_space.difference(arm, q, points[nearest])
-    behind = segments[nearest - 1] if component.closed else np.where(nearest[:, None] > 0, segments[nearest - 1], 0.0)
-    return np.minimum(_distance_to_segment(away, segments[nearest]), _distance_to_segment(away, -behind))
+    """Return the distance (N,) of configurations (N, n) from the polygon of a component, near it; rad (and m)."""
+    points, segments = component.q, _curve_segments(arm, component.q, component.closed)
+    _, nearest = joint_space.find_nearest(arm, points, q)
+    displacement = joint_space.joint_difference(arm, q, points[nearest])
+    previous_segment = segments[nearest - 1] if component.closed else np.where(nearest[:, None] > 0, segments[nearest - 1], 0.0)
+    return np.minimum(
+        _distance_to_segment(displacement, segments[nearest]), _distance_to_segment(displacement, -previous_segment)
+    )
 
 
-def _distance_to_segment(away: Array, segment: Array) -> Array:
-    """Distance (N,) of points ``away`` (N, n) from segments (N, n) that begin at the origin."""
-    size = np.maximum(np.einsum("ij,ij->i", segment, segment), 1e-300)
-    share = np.clip(np.einsum("ij,ij->i", away, segment) / size, 0.0, 1.0)
-    return np.asarray(np.linalg.norm(away - share[:, None] * segment, axis=1))
+def _distance_to_segment(displacement: Array, segment: Array) -> Array:
+    """Return the distance (N,) of points ``displacement`` (N, n) from segments (N, n) that begin at the origin."""
+    square_length = np.maximum(np.einsum("ij,ij->i", segment, segment), 1e-300)
+    fraction = np.clip(np.einsum("ij,ij->i", displacement, segment) / square_length, 0.0, 1.0)
+    return np.asarray(np.linalg.norm(displacement - fraction[:, None] * segment, axis=1))
 
 
-def _segments(arm: Arm, q: Array, closed: bool) -> Array:
-    """(K, n) from each point to the next; from the last to the first if closed, else 0."""
+def _curve_segments(arm: Arm, q: Array, closed: bool) -> Array:
+    """Return the vectors (K, n) from each point to the next; from the last to the first if closed, else 0."""
     segments = np.diff(q, axis=0, append=q[-1:])
     if closed:
-        segments[-1] = joint_space.difference(arm, q[0], q[-1])
+        segments[-1] = joint_space.joint_difference(arm, q[0], q[-1])
     return segments
 
 
-def _rank(owner: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(S,) how many entries before each one have the same owner."""
+def _rank_within_owner(owner: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return (S,) how many entries before each one have the same owner."""
     order = np.argsort(owner, kind="stable")
     first = np.searchsorted(owner[order], owner[order])
     rank = np.empty(owner.size, dtype=np.intp)

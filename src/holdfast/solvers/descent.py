@@ -10,19 +10,21 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_STEPS, _HALVINGS = 60, 12
-_ENOUGH = 1e-9  # a shorter step ends it
-_QUIET = {"print_iter": False, "print_header": False, "print_info": False, "error_on_fail": False}
+_MAX_STEPS, _MAX_HALVINGS = 60, 12
+_STEP_TOLERANCE = 1e-9  # a shorter step ends it
+_QUIET_OPTIONS = {"print_iter": False, "print_header": False, "print_info": False, "error_on_fail": False}
 
 
-def descend(look: Callable[[Array], tuple[float, Array, Array, Array]], x: Array, low: Array, high: Array, equal: int) -> Array:
-    """From x (n,) to a local minimum of a cost where its constraints hold; x, or where it got to, if that fails.
+def minimise_constrained(
+    evaluate: Callable[[Array], tuple[float, Array, Array, Array]], x: Array, low: Array, high: Array, equal: int
+) -> Array:
+    """Descend from x (n,) to a local minimum of a cost where its constraints hold; return the last point if that fails.
 
     Sequential quadratic programming with damped BFGS updates, and a search on the sum of the cost and what the constraints
     miss, along an arc that bends with them.
 
     Args:
-        look: Of x: the cost, its slope (n,), the constraints (m,) and their slopes (m, n).
+        evaluate: Of x: the cost, its slope (n,), the constraints (m,) and their slopes (m, n).
         x: The start.
         low: (n,) lower limits of x.
         high: (n,) upper limits.
@@ -31,46 +33,55 @@ def descend(look: Callable[[Array], tuple[float, Array, Array, Array]], x: Array
     Source: Nocedal and Wright 2006, algorithm 18.3 and procedure 18.2.
     """
     n = len(x)
-    cost, slope, kept, slopes = look(x)
-    program = ca.conic("step", "qrqp", {"h": ca.Sparsity.dense(n, n), "a": ca.Sparsity.dense(*slopes.shape)}, _QUIET)
-    curvature, fixed, price = np.eye(n), np.arange(len(kept)) < equal, np.zeros(len(kept))
+    cost, gradient, constraints, jacobian = evaluate(x)
+    program = ca.conic("step", "qrqp", {"h": ca.Sparsity.dense(n, n), "a": ca.Sparsity.dense(*jacobian.shape)}, _QUIET_OPTIONS)
+    curvature, is_equality, penalties = np.eye(n), np.arange(len(constraints)) < equal, np.zeros(len(constraints))
 
-    def solved(values: Array) -> tuple[Array, Array] | None:
-        """The step to where the constraints, linearised with these values, hold, and its forces."""
-        upper = np.where(fixed, -values, np.inf)
+    def solve_subproblem(values: Array) -> tuple[Array, Array] | None:
+        """Return the step to where the constraints, linearised with these values, hold, and its multipliers; None if none."""
+        upper = np.where(is_equality, -values, np.inf)
         try:
-            found = program(h=curvature, g=slope, a=slopes, lba=-values, uba=upper, lbx=low - x, ubx=high - x)
+            found = program(h=curvature, g=gradient, a=jacobian, lba=-values, uba=upper, lbx=low - x, ubx=high - x)
         except RuntimeError:  # it refuses NaN
             return None
-        step, forces = (np.asarray(found[name]).ravel() for name in ("x", "lam_a"))
-        return (np.clip(step, low - x, high - x), forces) if program.stats()["success"] and np.isfinite(step).all() else None
+        step, multipliers = (np.asarray(found[name]).ravel() for name in ("x", "lam_a"))
+        return (
+            (np.clip(step, low - x, high - x), multipliers) if program.stats()["success"] and np.isfinite(step).all() else None
+        )
 
-    def missed(values: Array) -> Array:
-        return np.abs(np.where(fixed, values, np.minimum(values, 0)))
+    def violation(values: Array) -> Array:
+        return np.abs(np.where(is_equality, values, np.minimum(values, 0)))
 
-    for _ in range(_STEPS):
-        if (first := solved(kept)) is None or np.abs(first[0]).max() < _ENOUGH:
+    for _ in range(_MAX_STEPS):
+        if (first := solve_subproblem(constraints)) is None or np.abs(first[0]).max() < _STEP_TOLERANCE:
             break
-        step, forces = first
-        price = np.maximum(np.abs(forces), (np.abs(forces) + price) / 2)
-        merit, falling = cost + price @ missed(kept), slope @ step - price @ missed(kept)
-        bow = np.zeros(n)  # towards where the constraints hold that bend away from the step
-        for share in (1.0, *0.5 ** np.arange(_HALVINGS)):
-            new = np.clip(x + share * step + share**2 * bow, low, high)
-            there = look(new)
-            if there[0] + price @ missed(there[2]) <= merit + 1e-4 * share * falling:
+        step, multipliers = first
+        penalties = np.maximum(np.abs(multipliers), (np.abs(multipliers) + penalties) / 2)
+        merit, directional_derivative = (
+            cost + penalties @ violation(constraints),
+            gradient @ step - penalties @ violation(constraints),
+        )
+        correction = np.zeros(n)  # towards where the constraints hold that bend away from the step
+        for fraction in (1.0, *0.5 ** np.arange(_MAX_HALVINGS)):
+            candidate = np.clip(x + fraction * step + fraction**2 * correction, low, high)
+            evaluation = evaluate(candidate)
+            if evaluation[0] + penalties @ violation(evaluation[2]) <= merit + 1e-4 * fraction * directional_derivative:
                 break
-            if share == 1 and (second := solved(there[2] - slopes @ step)) is not None:
-                bow = second[0] - step
-                bow = bow if np.abs(bow).max() < np.abs(step).max() else np.zeros(n)
+            if fraction == 1 and (second := solve_subproblem(evaluation[2] - jacobian @ step)) is not None:
+                correction = second[0] - step
+                correction = correction if np.abs(correction).max() < np.abs(step).max() else np.zeros(n)
         else:
             break
-        s, y = new - x, there[1] - slope + forces @ (there[3] - slopes)
-        bent = curvature @ s
-        if s @ y < 0.2 * (s @ bent):
-            share = 0.8 * (s @ bent) / (s @ bent - s @ y)
-            y = share * y + (1 - share) * bent
-        if s @ y > 0:
-            curvature = curvature - np.outer(bent, bent) / (s @ bent) + np.outer(y, y) / (s @ y)
-        x, (cost, slope, kept, slopes) = new, there
+        displacement, gradient_change = candidate - x, evaluation[1] - gradient + multipliers @ (evaluation[3] - jacobian)
+        curved_step = curvature @ displacement
+        if displacement @ gradient_change < 0.2 * (displacement @ curved_step):
+            fraction = 0.8 * (displacement @ curved_step) / (displacement @ curved_step - displacement @ gradient_change)
+            gradient_change = fraction * gradient_change + (1 - fraction) * curved_step
+        if displacement @ gradient_change > 0:
+            curvature = (
+                curvature
+                - np.outer(curved_step, curved_step) / (displacement @ curved_step)
+                + np.outer(gradient_change, gradient_change) / (displacement @ gradient_change)
+            )
+        x, (cost, gradient, constraints, jacobian) = candidate, evaluation
     return x

@@ -1,4 +1,4 @@
-"""The best motion of the joints along a path of the end effector: dynamic programming over sampled self-motion manifolds."""
+"""The best joint motion along a path of the end effector: dynamic programming over sampled self-motion manifolds."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.solvers import joint_space
-from holdfast.solvers.self_motions import STARTS, SelfMotion, fibres
+from holdfast.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
@@ -53,12 +53,12 @@ class FibrePath:
         return not self.gaps.size and bool((self.status == Status.OK).all())
 
     def require_ok(self) -> FibrePath:
-        """Itself, or :class:`holdfast.HoldfastError` naming the first pose without a configuration."""
+        """Return the path, or raise :class:`holdfast.HoldfastError` naming the first pose without a configuration."""
         require_ok(self.status, "best path")
         return self
 
 
-@says("looking for the best path")
+@reports_progress("looking for the best path")
 def best_path(
     arm: Arm,
     poses: ArrayLike,
@@ -70,9 +70,9 @@ def best_path(
     cost: Literal["mean", "max"] = "mean",
     motion: float = 1e-2,
     seed: int = 0,
-    starts: int = STARTS,
+    starts: int = TRACING_STARTS,
 ) -> FibrePath:
-    """The configurations along a path of poses whose objective is smallest, in mean or at its largest.
+    """Find the configurations along a path of poses whose objective is smallest, on average or at its largest.
 
     Global, up to the spacing and up to curves that no start of inverse kinematics found. Gradient projection follows one
     minimum of the objective; this also finds a motion that gives way early to be better later.
@@ -101,8 +101,8 @@ def best_path(
     """
     if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
         raise InputError(f"poses have shape {np.shape(poses)}; a path needs (T, 4, 4) with T of 2 or more")
-    found = fibres(arm, poses, task, spacing=spacing, seed=seed, starts=starts, follow=True)
-    return best_path_over(arm, found, objective_value, rate_limit=rate_limit, cost=cost, motion=motion)
+    manifolds = fibres(arm, poses, task, spacing=spacing, seed=seed, starts=starts, follow=True)
+    return best_path_over(arm, manifolds, objective_value, rate_limit=rate_limit, cost=cost, motion=motion)
 
 
 def best_path_over(
@@ -114,7 +114,7 @@ def best_path_over(
     cost: Literal["mean", "max"] = "mean",
     motion: float = 1e-2,
 ) -> FibrePath:
-    """As :func:`best_path` for the manifolds of its poses that are there already (:func:`fibres`, ``follow=True``).
+    """Find the best path over self-motion manifolds of its poses that are already computed (:func:`fibres`, ``follow=True``).
 
     So several objectives can share them.
     """
@@ -122,34 +122,41 @@ def best_path_over(
         raise InputError(f"cost is '{cost}'; use 'mean' or 'max'")
     if not (np.isfinite(motion) and motion >= 0):
         raise InputError(f"motion is {motion:g}; it must be 0 or more")
-    limit = _limit(arm, rate_limit)
-    points = [f.q for f in found]
-    values = _values(objective_value, points)
-    steps = [_Step(arm, a, b, f.spacing, limit) for a, b, f in zip(points[:-1], points[1:], found, strict=False)]
-    best = [int(np.argmin(v)) if np.isfinite(v).any() else -1 for v in values]
-    smallest = np.array([v[k] if k >= 0 else np.nan for v, k in zip(values, best, strict=True)])
-    known = np.concatenate(values)[np.isfinite(np.concatenate(values))]
-    weight = motion * float(np.median(known) - known.min()) if known.size else 0.0
-    chosen, gaps = _choose(values, steps, weight, cost)
-    none = np.full(arm.n, np.nan)
-    q = np.array([p[k] if k >= 0 else none for p, k in zip(points, chosen, strict=True)])
-    global_q = np.array([p[k] if k >= 0 else none for p, k in zip(points, best, strict=True)])
-    value = np.array([v[k] if k >= 0 else np.nan for v, k in zip(values, chosen, strict=True)])
-    status = np.array([f.status for f in found], dtype=np.uint8)
+    step_limit = _read_rate_limit(arm, rate_limit)
+    points = [manifold.q for manifold in found]
+    values = _evaluate_points(objective_value, points)
+    steps = [
+        _Transitions(arm, from_points, to_points, manifold.spacing, step_limit)
+        for from_points, to_points, manifold in zip(points[:-1], points[1:], found, strict=False)
+    ]
+    best = [int(np.argmin(pose_values)) if np.isfinite(pose_values).any() else -1 for pose_values in values]
+    smallest = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, best, strict=True)])
+    finite_values = np.concatenate(values)[np.isfinite(np.concatenate(values))]
+    weight = motion * float(np.median(finite_values) - finite_values.min()) if finite_values.size else 0.0
+    chosen, gaps = _choose_points(values, steps, weight, cost)
+    no_configuration = np.full(arm.n, np.nan)
+    q = np.array(
+        [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, chosen, strict=True)]
+    )
+    global_q = np.array(
+        [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, best, strict=True)]
+    )
+    value = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, chosen, strict=True)])
+    status = np.array([manifold.status for manifold in found], dtype=np.uint8)
     status[(np.array(best) < 0) & (status == Status.OK)] = Status.UNDEFINED
     return FibrePath(
-        q=_continued(arm, q),
+        q=_unwrap_path(arm, q),
         value=value,
         global_value=smallest,
         global_q=global_q,
         gaps=np.array(gaps, dtype=np.int64),
-        reach=np.array([s.reach for s in steps]),
+        reach=np.array([step.reach for step in steps]),
         status=status,
     )
 
 
-class _Step:
-    """The moves that are allowed from the points of one manifold to those of the next.
+class _Transitions:
+    """The allowed moves from the points of one manifold to those of the next.
 
     Attributes:
         reach: Largest distance.
@@ -157,38 +164,40 @@ class _Step:
         size: (P,) its length, as a share of the reach.
     """
 
-    def __init__(self, arm: Arm, a: Array, b: Array, spacing: float, limit: Array | None) -> None:
+    def __init__(self, arm: Arm, from_points: Array, to_points: Array, spacing: float, limit: Array | None) -> None:
         self.source = self.target = np.empty(0, dtype=np.int64)
         self.size, self.reach = np.empty(0), np.nan
-        if not len(a) or not len(b):
+        if not len(from_points) or not len(to_points):
             return
         if limit is None:
-            self.reach = 3 * spacing + 2 * float(np.median(joint_space.nearest(arm, b, a)[0]))
+            self.reach = 3 * spacing + 2 * float(np.median(joint_space.find_nearest(arm, to_points, from_points)[0]))
         else:
             self.reach = float(np.linalg.norm(limit + spacing))
-        there = joint_space.tree(arm, b)
-        pairs = joint_space.tree(arm, a).sparse_distance_matrix(there, self.reach, output_type="ndarray")
+        target_tree = joint_space.build_tree(arm, to_points)
+        pairs = joint_space.build_tree(arm, from_points).sparse_distance_matrix(target_tree, self.reach, output_type="ndarray")
         self.source, self.target = pairs["i"].astype(np.int64), pairs["j"].astype(np.int64)
         self.size = pairs["v"] / self.reach
         if limit is not None:
-            slow = np.abs(joint_space.difference(arm, b[self.target], a[self.source])) <= limit + spacing
-            keep = slow.all(axis=1)
-            self.source, self.target, self.size = self.source[keep], self.target[keep], self.size[keep]
+            within_limit = (
+                np.abs(joint_space.joint_difference(arm, to_points[self.target], from_points[self.source])) <= limit + spacing
+            )
+            allowed = within_limit.all(axis=1)
+            self.source, self.target, self.size = self.source[allowed], self.target[allowed], self.size[allowed]
 
 
-def _choose(values: list[Array], steps: list[_Step], weight: float, cost: str) -> tuple[list[int], list[int]]:
-    """Point chosen at each pose (-1: it has none), and the gaps."""
+def _choose_points(values: list[Array], steps: list[_Transitions], weight: float, cost: str) -> tuple[list[int], list[int]]:
+    """Choose a point at each pose (-1: none exists), and return the gaps too."""
     chosen: list[int] = [-1] * len(values)
     gaps: list[int] = []
     t = 0
     while t < len(values):
         if np.isfinite(values[t]).any():
             end = _last_reached(values, steps, t)
-            here, moves = values[t : end + 1], steps[t:end]
+            stretch_values, stretch_steps = values[t : end + 1], steps[t:end]
             if cost == "max":
-                top, _ = _cheapest(here, moves, np.maximum, 0.0)
-                here = [np.where(v <= top, v, np.inf) for v in here]
-            chosen[t : end + 1] = _cheapest(here, moves, np.add, weight)[1]
+                largest_value, _ = _cheapest_path(stretch_values, stretch_steps, np.maximum, 0.0)
+                stretch_values = [np.where(pose_values <= largest_value, pose_values, np.inf) for pose_values in stretch_values]
+            chosen[t : end + 1] = _cheapest_path(stretch_values, stretch_steps, np.add, weight)[1]
             t = end
         if t + 1 < len(values):
             gaps.append(t)
@@ -196,54 +205,54 @@ def _choose(values: list[Array], steps: list[_Step], weight: float, cost: str) -
     return chosen, gaps
 
 
-def _last_reached(values: list[Array], steps: list[_Step], start: int) -> int:
-    """The last pose to which some point of pose ``start`` leads."""
-    alive = np.isfinite(values[start])
+def _last_reached(values: list[Array], steps: list[_Transitions], start: int) -> int:
+    """Return the last pose to which some point of pose ``start`` leads."""
+    is_reached = np.isfinite(values[start])
     for t in range(start, len(steps)):
-        after = np.zeros(values[t + 1].size, dtype=bool)
-        after[steps[t].target[alive[steps[t].source]]] = True
-        after &= np.isfinite(values[t + 1])
-        if not after.any():
+        next_reached = np.zeros(values[t + 1].size, dtype=bool)
+        next_reached[steps[t].target[is_reached[steps[t].source]]] = True
+        next_reached &= np.isfinite(values[t + 1])
+        if not next_reached.any():
             return t
-        alive = after
+        is_reached = next_reached
     return len(steps)
 
 
-def _cheapest(
-    values: list[Array], steps: list[_Step], join: Callable[[Array, Array], Array], weight: float
+def _cheapest_path(
+    values: list[Array], steps: list[_Transitions], join: Callable[[Array, Array], Array], weight: float
 ) -> tuple[float, list[int]]:
-    """Smallest joined value of the paths from the first pose to the last, and the points of one that has it."""
+    """Return the smallest joined value of the paths from the first pose to the last, and the points of one such path."""
     total = values[0]
-    came: list[Index] = []
+    predecessors: list[Index] = []
     for value, step in zip(values[1:], steps, strict=True):
-        price = total[step.source] + weight * step.size**2
-        order = np.lexsort((price, step.target))
+        costs = total[step.source] + weight * step.size**2
+        order = np.lexsort((costs, step.target))
         target, first = np.unique(step.target[order], return_index=True)
-        before = np.full(value.size, -1)
-        before[target] = step.source[order[first]]
+        previous = np.full(value.size, -1)
+        previous[target] = step.source[order[first]]
         total = np.full(value.size, np.inf)
-        total[target] = join(price[order[first]], value[target])
-        came.append(before)
-    k = int(np.argmin(total))
-    points = [k]
-    for before in reversed(came):
-        points.append(int(before[points[-1]]))
-    return float(total[k]), points[::-1]
+        total[target] = join(costs[order[first]], value[target])
+        predecessors.append(previous)
+    last_point = int(np.argmin(total))
+    points = [last_point]
+    for previous in reversed(predecessors):
+        points.append(int(previous[points[-1]]))
+    return float(total[last_point]), points[::-1]
 
 
-def _values(objective_value: Objective, points: list[Array]) -> list[Array]:
-    """Values at the points of each pose; infinite where the objective is NaN."""
-    every = np.concatenate(points)
-    value = np.asarray(objective_value(every), dtype=np.float64)
-    if value.shape != (len(every),):
+def _evaluate_points(objective_value: Objective, points: list[Array]) -> list[Array]:
+    """Evaluate the objective at the points of each pose; infinite where it is NaN."""
+    all_points = np.concatenate(points)
+    value = np.asarray(objective_value(all_points), dtype=np.float64)
+    if value.shape != (len(all_points),):
         raise InputError(
-            f"the objective gives shape {value.shape} for {len(every)} configurations; it must give one value each"
+            f"the objective gives shape {value.shape} for {len(all_points)} configurations; it must give one value each"
         )
     value = np.where(np.isnan(value), np.inf, value)
-    return np.split(value, np.cumsum([len(p) for p in points])[:-1])
+    return np.split(value, np.cumsum([len(pose_points) for pose_points in points])[:-1])
 
 
-def _limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
+def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
     if rate_limit is None:
         return None
     limit = np.asarray(rate_limit, dtype=np.float64)
@@ -254,12 +263,12 @@ def _limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
     return np.broadcast_to(limit, (arm.n,))
 
 
-def _continued(arm: Arm, q: Array) -> Array:
-    """Joints that turn without limits take the short way from one pose to the next, whatever the pi they pass."""
-    moved = np.nan_to_num(joint_space.difference(arm, q[1:], q[:-1]))
+def _unwrap_path(arm: Arm, q: Array) -> Array:
+    """Make joints without limits take the short way from one pose to the next, also across -pi to pi."""
+    displacements = np.nan_to_num(joint_space.joint_difference(arm, q[1:], q[:-1]))
     unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
-    out = q.copy()
+    unwrapped = q.copy()
     for t in range(1, len(q)):
         if unbroken[t] and unbroken[t - 1]:
-            out[t] = np.where(joint_space.turning(arm), out[t - 1] + moved[t - 1], q[t])
-    return out
+            unwrapped[t] = np.where(joint_space.is_unlimited(arm), unwrapped[t - 1] + displacements[t - 1], q[t])
+    return unwrapped

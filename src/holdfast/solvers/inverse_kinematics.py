@@ -1,4 +1,4 @@
-"""Inverse kinematics of whole batches: damped least squares from random starts, within the joint limits."""
+"""Batched inverse kinematics: damped least squares from random starts, within the joint limits."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
@@ -22,23 +22,27 @@ from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm
-from holdfast.notice import Count, says
+from holdfast.notice import ProgressCount, reports_progress
 from holdfast.solvers import joint_space
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
 Accept = Callable[[Array], NDArray[np.bool_]]
 
-STEPS = 40  # per start; most starts that reach the target do so within 15
-_FLAT, _TINY, _ROUNDING = 1e-6, 1e-9, 1e-15  # sines of half a turn, of no turn, and of which nothing is left but rounding
-_WAVE = 8192  # rows of starts that run side by side when poses are left over
-_BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
+MAX_STEPS = 40  # per start; most starts that reach the target do so within 15
+_HALF_TURN_SINE, _ZERO_SINE, _ROUNDING_SINE = (
+    1e-6,
+    1e-9,
+    1e-15,
+)  # sines of half a turn, of no turn, and of which nothing is left but rounding
+_WAVE_ROWS = 8192  # rows of starts that run side by side when poses are left over
+_ROW_MULTIPLIER, _START_MULTIPLIER = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reach:
+class PoseSolutions:
     """Configurations found for N poses, or for one (then without the leading N).
 
     Attributes:
@@ -57,106 +61,118 @@ class Reach:
 
     @property
     def success(self) -> NDArray[np.bool_]:
-        """(N,) True where the pose is reached within tolerance and limits."""
+        """Flags (N,) of the poses that are reached within tolerance and limits."""
         return np.asarray(self.status == Status.OK)
 
     @property
-    def first(self) -> Reach:
+    def first(self) -> PoseSolutions:
         """The first row alone, without the leading N."""
-        return Reach(**{field.name: getattr(self, field.name)[0] for field in fields(self)})
+        return PoseSolutions(**{field.name: getattr(self, field.name)[0] for field in fields(self)})
 
-    def require_ok(self) -> Reach:
-        """Itself, or :class:`holdfast.HoldfastError` naming the first row that failed."""
+    def require_ok(self) -> PoseSolutions:
+        """Return the result, or raise :class:`holdfast.HoldfastError` naming the first row that failed."""
         require_ok(self.status, "inverse kinematics")
         return self
 
 
 def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """World-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest turn, up to half a turn.
+    """Return the world-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest rotation, up to half a
+    turn.
 
     There the shortest turn flips from one way to the other. At exactly half a turn, where both ways are as long, it is about
     the axis of which the largest component is positive.
     """
-    r = target_rotation @ rotation.T
-    skew = _skew_part(r)
-    sine, cosine = ca.sqrt(ca.sumsqr(skew)), 0.5 * (r[0, 0] + r[1, 1] + r[2, 2] - 1)
+    error_rotation = target_rotation @ rotation.T
+    skew_vector = _skew_part(error_rotation)
+    sine, cosine = (
+        ca.sqrt(ca.sumsqr(skew_vector)),
+        0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1),
+    )
     angle = ca.atan2(sine, cosine)
-    factor = ca.if_else(sine > _TINY, angle / ca.if_else(sine > _TINY, sine, 1.0), 1.0)
+    factor = ca.if_else(sine > _ZERO_SINE, angle / ca.if_else(sine > _ZERO_SINE, sine, 1.0), 1.0)
     # Near half a turn the skew part is too short to give the axis a, but says which way it points. The other part of R,
     # R + R' - 2 cos I = 2 (1 - cos) a a', has it in every column; the longest is that of the largest component.
-    columns = [r[:, i] + r.T[:, i] - 2 * cosine * ca.SX.eye(3)[:, i] for i in range(3)]
-    first = ca.if_else(r[0, 0] >= r[2, 2], columns[0], columns[2])
-    axis = ca.if_else(ca.logic_and(r[1, 1] >= r[0, 0], r[1, 1] >= r[2, 2]), columns[1], first)
-    opposite = ca.logic_and(cosine < 0, sine <= _FLAT)
-    way = ca.if_else(ca.dot(axis, skew) < 0, -angle, angle)
-    turn = ca.if_else(opposite, way * axis / ca.if_else(opposite, ca.norm_2(axis), 1.0), skew * factor)
-    return ca.vertcat(target - position, turn)
+    columns = [error_rotation[:, i] + error_rotation.T[:, i] - 2 * cosine * ca.SX.eye(3)[:, i] for i in range(3)]
+    column = ca.if_else(error_rotation[0, 0] >= error_rotation[2, 2], columns[0], columns[2])
+    axis = ca.if_else(
+        ca.logic_and(error_rotation[1, 1] >= error_rotation[0, 0], error_rotation[1, 1] >= error_rotation[2, 2]),
+        columns[1],
+        column,
+    )
+    opposite = ca.logic_and(cosine < 0, sine <= _HALF_TURN_SINE)
+    signed_angle = ca.if_else(ca.dot(axis, skew_vector) < 0, -angle, angle)
+    rotation_vector = ca.if_else(
+        opposite, signed_angle * axis / ca.if_else(opposite, ca.norm_2(axis), 1.0), skew_vector * factor
+    )
+    return ca.vertcat(target - position, rotation_vector)
 
 
 def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """As :func:`pose_error` for a task that leaves the turn about the tool axis free: turns z to the target's z.
+    """Return :func:`pose_error` for a task with free rotation about the tool axis: the rotation from z to the target's z.
 
     Where z points exactly away from it, every axis across z is as good, and the tool's x axis is taken.
     """
     z, zd = rotation[:, 2], target_rotation[:, 2]
-    turn = ca.cross(z, zd)
-    sine, cosine = ca.sqrt(ca.sumsqr(turn)), ca.dot(z, zd)
+    rotation_axis = ca.cross(z, zd)
+    sine, cosine = ca.sqrt(ca.sumsqr(rotation_axis)), ca.dot(z, zd)
     angle = ca.atan2(sine, cosine)
-    opposite = ca.logic_and(cosine < 0, sine <= _ROUNDING)
-    known = ca.logic_or(sine > _TINY, ca.logic_and(cosine < 0, sine > _ROUNDING))
-    factor = ca.if_else(known, angle / ca.if_else(known, sine, 1.0), 1.0)
-    return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
+    opposite = ca.logic_and(cosine < 0, sine <= _ROUNDING_SINE)
+    has_axis = ca.logic_or(sine > _ZERO_SINE, ca.logic_and(cosine < 0, sine > _ROUNDING_SINE))
+    factor = ca.if_else(has_axis, angle / ca.if_else(has_axis, sine, 1.0), 1.0)
+    return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], rotation_axis * factor))
 
 
 def _skew_part(r: SX) -> SX:
-    """Axis times the sine of the angle of a rotation."""
+    """Return the axis times the sine of the angle of a rotation."""
     return 0.5 * ca.vertcat(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])
 
 
 def tool_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """World-frame error (6,) of the end effector, of which a task takes its rows: the shortest turn that a task asks for."""
-    return (pointing_error if _free_spin(task) else pose_error)(position, rotation, target, target_rotation)
+    """Return the world-frame error (6,) of the end effector, of which a task takes its rows: the shortest rotation for the
+    task.
+    """
+    return (pointing_error if _has_free_spin(task) else pose_error)(position, rotation, target, target_rotation)
 
 
-def _free_spin(task: Task) -> bool:
+def _has_free_spin(task: Task) -> bool:
     return task.frame == "tool" and not np.any(task.rows[:, 5])
 
 
 def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """Error (m,) of the task's rows in metres and radians, and their Jacobian (m, n).
+    """Return the error (m,) of the task's rows in metres and radians, and their Jacobian (m, n).
 
     Whatever the characteristic length of the indices, errors of poses are in metres.
     """
-    chain = kinematics.chain(arm, q)
+    chain = kinematics.kinematic_chain(arm, q)
     error = tool_error(task, chain.position, chain.rotation, target, target_rotation)
-    full = kinematics.jacobian_of(arm, chain, chain.position)
-    j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
-    return task.error(error, chain.rotation), j
+    full_jacobian = kinematics.chain_jacobian(arm, chain, chain.position)
+    jacobian = ca.horzcat(*[task.error(full_jacobian[:, column], chain.rotation) for column in range(arm.n)])
+    return task.error(error, chain.rotation), jacobian
 
 
 def scaled_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """As :func:`task_error` with lengths in units of :attr:`holdfast.Arm.length_unit`, for what has a threshold."""
-    e, j = task_error(arm, task, q, target, target_rotation)
+    """Return :func:`task_error` with lengths in units of :attr:`holdfast.Arm.length_unit`, for comparison with a tolerance."""
+    error, jacobian = task_error(arm, task, q, target, target_rotation)
     scale = ca.sparsify(ca.SX(ca.DM(task.scale(arm.length_unit))))
-    return scale @ e, scale @ j
+    return scale @ error, scale @ jacobian
 
 
 def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
-    """As the error of :func:`task_error`, with sines in place of angles: the same near 0, but with derivatives."""
-    chain = kinematics.chain(arm, q)
-    if _free_spin(task):
-        turn = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
+    """Return the error of :func:`task_error` with sines in place of angles: the same near 0, but differentiable."""
+    chain = kinematics.kinematic_chain(arm, q)
+    if _has_free_spin(task):
+        rotation_vector = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
     else:
-        turn = _skew_part(target_rotation @ chain.rotation.T)
-    return task.error(ca.vertcat(target - chain.position, turn), chain.rotation)
+        rotation_vector = _skew_part(target_rotation @ chain.rotation.T)
+    return task.error(ca.vertcat(target - chain.position, rotation_vector), chain.rotation)
 
 
-def _parameters(poses: Array) -> Array:
+def _pose_parameters(poses: Array) -> Array:
     return np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
 
 
 @dataclass(frozen=True)
-class _Found:
+class _StartSearchResult:
     q: Array
     restarts: NDArray[np.int64]
 
@@ -166,7 +182,7 @@ class InverseKinematics:
 
     One step is damped least squares with the joints that press against a limit taken out:
     ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
-    Lengths in it, and in every ``tolerance``, are in units of :attr:`holdfast.Arm.length_unit`; see :meth:`within`.
+    Lengths in it, and in every ``tolerance``, are in units of :attr:`holdfast.Arm.length_unit`; see :meth:`scale_tolerance`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
@@ -177,53 +193,57 @@ class InverseKinematics:
     @cached_property
     def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
         q = kinematics.joint_symbols(self.arm)
-        p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        return q, p, r, *scaled_error(self.arm, self.task, q, p, r)
+        position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        return q, position, rotation, *scaled_error(self.arm, self.task, q, position, rotation)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _loop(self) -> Loop:
-        q, p, r, e, j = self._symbols
-        step, residual = damped_step(self.arm, q, e, j)
-        return Loop("inverse kinematics", q, [p, r], next_state=step, residual=residual)
+        q, position, rotation, error, jacobian = self._symbols
+        step, residual = damped_step(self.arm, q, error, jacobian)
+        return Loop("inverse kinematics", q, [position, rotation], next_state=step, residual=residual)
 
     @cached_property
-    @recalled
-    def _errors(self) -> Kernel:
+    @cached_kernel
+    def _error_kernel(self) -> Kernel:
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
-        q, p, r, _, _ = self._symbols
-        back = ca.SX(ca.DM(self.task.rows)).T @ task_error(self.arm, self.task, q, p, r)[0]
-        return Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
+        q, position, rotation, _, _ = self._symbols
+        world_error = ca.SX(ca.DM(self.task.rows)).T @ task_error(self.arm, self.task, q, position, rotation)[0]
+        return Kernel(
+            "task error", [q, position, rotation], [ca.vertcat(ca.norm_2(world_error[:3]), ca.norm_2(world_error[3:]))]
+        )
 
-    def within(self, tolerance: float) -> float:
-        """The tolerance that keeps errors within so many m and rad."""
+    def scale_tolerance(self, tolerance: float) -> float:
+        """Return the tolerance that keeps errors within ``tolerance`` m and rad."""
         return tolerance / max(self._unit, 1.0)
 
-    def starts(self, rows: int, generator: np.random.Generator) -> Array:
-        """Random configurations (rows, n), uniform within the limits."""
+    def sample_starts(self, rows: int, generator: np.random.Generator) -> Array:
+        """Sample random configurations (rows, n), uniform within the limits."""
         return generator.uniform(self._low, self._high, (rows, self.arm.n))
 
-    def attempt(self, q: Array, poses: Array, tolerance: float, held: Sequence[int] = ()) -> tuple[Array, NDArray[np.bool_]]:
-        """One start q (N, n) for each pose: where it led, and whether that is on the pose and within the limits.
+    def attempt(
+        self, q: Array, poses: Array, tolerance: float, fixed_joints: Sequence[int] = ()
+    ) -> tuple[Array, NDArray[np.bool_]]:
+        """Try one start q (N, n) for each pose; return the ends, and whether each is on the pose and within the limits.
 
-        Joints that are ``held``, by index from 0, stay where they are.
+        Joints that are ``fixed_joints``, by index from 0, stay where they are.
         """
-        parameters, loop = _parameters(poses), self._loop_with_locks if held else self._loop
-        if held:
-            free = np.ones((len(q), self.arm.n))
-            free[:, held] = 0.0
-            parameters = np.concatenate([parameters, free], axis=1)
-        run = loop.run(q, parameters, tolerance**2, STEPS)
-        return run.state, self.verdict(run.state, poses, tolerance)
+        parameters, loop = _pose_parameters(poses), self._loop_with_locks if fixed_joints else self._loop
+        if fixed_joints:
+            is_free = np.ones((len(q), self.arm.n))
+            is_free[:, fixed_joints] = 0.0
+            parameters = np.concatenate([parameters, is_free], axis=1)
+        run = loop.run(q, parameters, tolerance**2, MAX_STEPS)
+        return run.state, self.check_solutions(run.state, poses, tolerance)
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _loop_with_locks(self) -> Loop:
-        q, p, r, e, j = self._symbols
+        q, position, rotation, error, jacobian = self._symbols
         free = ca.SX.sym("free", self.arm.n)
-        masked = ca.horzcat(*[j[:, k] * free[k] for k in range(self.arm.n)])
-        step, residual = damped_step(self.arm, q, e, masked)
-        return Loop("inverse kinematics with locked joints", q, [p, r, free], next_state=step, residual=residual)
+        masked = ca.horzcat(*[jacobian[:, k] * free[k] for k in range(self.arm.n)])
+        step, residual = damped_step(self.arm, q, error, masked)
+        return Loop("inverse kinematics with locked joints", q, [position, rotation, free], next_state=step, residual=residual)
 
     def solve_locked(
         self,
@@ -234,31 +254,37 @@ class InverseKinematics:
         restarts: int,
         tolerance: float,
         accept: Accept | None = None,
-    ) -> Reach:
-        """As :meth:`solve` with joint, or joints, ``locked[i]`` of row i locked at ``angles[i]``; values are not wrapped."""
-        wide = locked.shape[1] if locked.ndim > 1 else 1
-        locked, angles = locked.reshape(-1, wide), angles.reshape(-1, wide)  # no rows are rows, too
+    ) -> PoseSolutions:
+        """Solve as :meth:`solve` with joint, or joints, ``locked[i]`` of row i locked at ``angles[i]``; values are
+        not wrapped.
+        """
+        lock_count = locked.shape[1] if locked.ndim > 1 else 1
+        locked, angles = locked.reshape(-1, lock_count), angles.reshape(-1, lock_count)  # no rows are rows, too
         rows = np.arange(len(poses))[:, None]
-        free = np.ones((len(poses), self.arm.n))
-        free[rows, locked] = 0.0
-        parameters = np.concatenate([_parameters(poses), free], axis=1)
+        is_free = np.ones((len(poses), self.arm.n))
+        is_free[rows, locked] = 0.0
+        parameters = np.concatenate([_pose_parameters(poses), is_free], axis=1)
         finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
 
-        def lock(start: Array, chosen: NDArray[np.int64]) -> Array:
+        def lock_joints(start: Array, chosen: NDArray[np.int64]) -> Array:
             start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
             return start
 
-        found = self._search(
-            self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock, accept=accept
+        solutions = self._search_starts(
+            self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock_joints, accept=accept
         )
-        kept = (found.q[rows, locked] == angles).all(axis=1)
-        kept &= True if accept is None else accept(found.q)
-        position_error, rotation_error = self.errors(found.q, poses)
-        reached = self._reached(found.q, position_error, rotation_error, tolerance) & kept
+        is_valid = (solutions.q[rows, locked] == angles).all(axis=1)
+        is_valid &= True if accept is None else accept(solutions.q)
+        position_error, rotation_error = self.task_errors(solutions.q, poses)
+        reached = self._is_reached(solutions.q, position_error, rotation_error, tolerance) & is_valid
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
-        return Reach(
-            q=found.q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=found.restarts
+        return PoseSolutions(
+            q=solutions.q,
+            status=status,
+            position_error=position_error,
+            rotation_error=rotation_error,
+            restarts=solutions.restarts,
         )
 
     def reaches_locked(
@@ -271,14 +297,14 @@ class InverseKinematics:
         tolerance: float,
         accept: Accept | None = None,
     ) -> NDArray[np.bool_]:
-        """(N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
+        """Return (N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
 
         False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
         """
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
 
-    def near(self, q: Array, pose: Array, free: Array, tolerance: float, steps: int = STEPS) -> tuple[Array, bool]:
-        """From q (n,) towards one pose (4, 4), without restarts: for an end effector that is dragged.
+    def solve_near(self, q: Array, pose: Array, free: Array, tolerance: float, steps: int = MAX_STEPS) -> tuple[Array, bool]:
+        """Solve from q (n,) towards one pose (4, 4), without restarts, for an end effector that is dragged.
 
         Args:
             q: (n,) where the arm is, rad and m.
@@ -292,13 +318,15 @@ class InverseKinematics:
             and within the limits.
         """
         poses = pose[None]
-        run = self._loop_with_locks.run(q[None], np.concatenate([_parameters(poses), free[None]], axis=1), tolerance**2, steps)
-        both = np.concatenate([run.state, q[None]])
-        miss = np.hypot(*self.errors(both, np.repeat(poses, 2, axis=0)))
-        best = both[0] if miss[0] < miss[1] else both[1]
-        return best, bool(self.verdict(best[None], poses, tolerance)[0])
+        run = self._loop_with_locks.run(
+            q[None], np.concatenate([_pose_parameters(poses), free[None]], axis=1), tolerance**2, steps
+        )
+        candidates = np.concatenate([run.state, q[None]])
+        distances = np.hypot(*self.task_errors(candidates, np.repeat(poses, 2, axis=0)))
+        best = candidates[0] if distances[0] < distances[1] else candidates[1]
+        return best, bool(self.check_solutions(best[None], poses, tolerance)[0])
 
-    def _search(
+    def _search_starts(
         self,
         loop: Loop,
         parameters: Array,
@@ -309,9 +337,9 @@ class InverseKinematics:
         prepare: Callable[[Array, NDArray[np.int64]], Array],
         first: Array | None = None,
         accept: Accept | None = None,
-        steps: int = STEPS,
-    ) -> _Found:
-        """Starts until each of the chosen rows is done; several starts of a row run side by side once few rows are left.
+        steps: int = MAX_STEPS,
+    ) -> _StartSearchResult:
+        """Try starts until each of the chosen rows is solved; several starts of a row run in parallel once few rows are left.
 
         What is not accepted counts as if its start had led nowhere.
 
@@ -319,53 +347,59 @@ class InverseKinematics:
         rows are left, on how many starts run side by side, or on how many rows there are.
         """
         count, n = len(parameters), self.arm.n
-        size = 1 << max(12, (restarts - 1).bit_length())
-        pool_of_starts = self.starts(size, np.random.default_rng(seed))
+        pool_size = 1 << max(12, (restarts - 1).bit_length())
+        pool_of_starts = self.sample_starts(pool_size, np.random.default_rng(seed))
         q, residual = np.full((count, n), np.nan), np.full(count, np.inf)
-        used = np.zeros(count, dtype=np.int64)
-        left, k = rows, 0
-        with Count("starts of each pose", restarts, most=True) as tell:
-            while left.size and k < restarts:
+        start_counts = np.zeros(count, dtype=np.int64)
+        unsolved, next_start = rows, 0
+        with ProgressCount("starts of each pose", restarts, most=True) as advance:
+            while unsolved.size and next_start < restarts:
                 # Doubling: most rows converge early, and starts that run beside a successful one are wasted.
-                wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
-                number = np.repeat(np.arange(k, k + wave), left.size)
-                chosen = np.tile(left, wave)
-                start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
-                if k == 0 and first is not None:
-                    start = first[left]
+                wave_size = (
+                    1 if next_start == 0 else min(restarts - next_start, next_start, max(1, _WAVE_ROWS // unsolved.size))
+                )
+                start_number = np.repeat(np.arange(next_start, next_start + wave_size), unsolved.size)
+                chosen = np.tile(unsolved, wave_size)
+                start = pool_of_starts[(chosen * _ROW_MULTIPLIER + start_number * _START_MULTIPLIER) % pool_size]
+                if next_start == 0 and first is not None:
+                    start = first[unsolved]
                 run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, steps)
-                ended, residuals = run.done, run.residual
+                converged, residuals = run.done, run.residual
                 if accept is not None:
-                    at = np.flatnonzero(ended)
-                    ended = np.zeros_like(ended)
-                    ended[at] = accept(run.state[at])
-                    residuals = np.where(run.done & ~ended, np.inf, residuals)
-                done, rest = ended.reshape(wave, -1), residuals.reshape(wave, -1)
-                solved = done.any(axis=0)
+                    indices = np.flatnonzero(converged)
+                    converged = np.zeros_like(converged)
+                    converged[indices] = accept(run.state[indices])
+                    residuals = np.where(run.done & ~converged, np.inf, residuals)
+                done_by_wave, residuals_by_wave = converged.reshape(wave_size, -1), residuals.reshape(wave_size, -1)
+                solved = done_by_wave.any(axis=0)
                 # The first start that reached the target, else the one that came closest; NaN never wins.
-                pick = np.where(solved, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
-                column = np.arange(left.size)
-                best = rest[pick, column]
-                used[left] += np.where(solved, pick + 1, wave)
-                better = best < residual[left]
-                q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
-                residual[left[better]] = best[better]
-                left = left[~solved]
-                k += wave
-                tell(wave)
-        return _Found(q, used)
+                best_wave = np.where(
+                    solved,
+                    done_by_wave.argmax(axis=0),
+                    np.where(np.isnan(residuals_by_wave), np.inf, residuals_by_wave).argmin(axis=0),
+                )
+                column = np.arange(unsolved.size)
+                best_residual = residuals_by_wave[best_wave, column]
+                start_counts[unsolved] += np.where(solved, best_wave + 1, wave_size)
+                is_better = best_residual < residual[unsolved]
+                q[unsolved[is_better]] = run.state.reshape(wave_size, unsolved.size, n)[best_wave, column][is_better]
+                residual[unsolved[is_better]] = best_residual[is_better]
+                unsolved = unsolved[~solved]
+                next_start += wave_size
+                advance(wave_size)
+        return _StartSearchResult(q, start_counts)
 
-    def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
-        """(N,) True where q is on the pose and within the limits."""
-        return self._reached(q, *self.errors(q, poses), tolerance)
+    def check_solutions(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
+        """Return (N,) True where q is on the pose and within the limits."""
+        return self._is_reached(q, *self.task_errors(q, poses), tolerance)
 
-    def _reached(self, q: Array, position_error: Array, rotation_error: Array, tolerance: float) -> NDArray[np.bool_]:
+    def _is_reached(self, q: Array, position_error: Array, rotation_error: Array, tolerance: float) -> NDArray[np.bool_]:
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
         return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
-    def errors(self, q: Array, poses: Array) -> tuple[Array, Array]:
-        """Position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is."""
-        errors = self._errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
+    def task_errors(self, q: Array, poses: Array) -> tuple[Array, Array]:
+        """Return the position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is NaN."""
+        errors = self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])
         return errors[:, 0], errors[:, 1]
 
     def solve(
@@ -376,8 +410,8 @@ class InverseKinematics:
         tolerance: float,
         first: Array | None = None,
         accept: Accept | None = None,
-        steps: int = STEPS,
-    ) -> Reach:
+        steps: int = MAX_STEPS,
+    ) -> PoseSolutions:
         """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses.
 
         Args:
@@ -389,91 +423,96 @@ class InverseKinematics:
             accept: Which configurations (K, n) that meet their poses count, (K,); all of them if not given.
             steps: At most so many from each start.
         """
-        parameters = _parameters(poses)
+        parameters = _pose_parameters(poses)
         finite = np.isfinite(parameters).all(axis=1)
         rows = np.flatnonzero(finite)
-        found = self._search(
+        solutions = self._search_starts(
             self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept, steps
         )
-        q, used = found.q, found.restarts
-        q = joint_space.wrapped(self.arm, q)
+        q, start_counts = solutions.q, solutions.restarts
+        q = joint_space.wrap_joints(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
-        position_error, rotation_error = self.errors(q, poses)
-        reached = self._reached(q, position_error, rotation_error, tolerance)
+        position_error, rotation_error = self.task_errors(q, poses)
+        reached = self._is_reached(q, position_error, rotation_error, tolerance)
         reached &= True if accept is None else accept(q)
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
-        return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)
+        return PoseSolutions(
+            q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=start_counts
+        )
 
-    def prefer(self, reach: Reach, q: Array, poses: Array, tolerance: float) -> Reach:
+    def prefer_configurations(self, reach: PoseSolutions, q: Array, poses: Array, tolerance: float) -> PoseSolutions:
         """Replace the configurations of a result by those of q (N, n) that meet their poses (N, 4, 4) within the limits."""
-        position_error, rotation_error = self.errors(q, poses)
-        kept = self._reached(q, position_error, rotation_error, tolerance)
-        return Reach(
-            q=np.where(kept[:, None], q, reach.q),
-            status=np.where(kept, np.uint8(Status.OK), reach.status),
-            position_error=np.where(kept, position_error, reach.position_error),
-            rotation_error=np.where(kept, rotation_error, reach.rotation_error),
+        position_error, rotation_error = self.task_errors(q, poses)
+        is_reached = self._is_reached(q, position_error, rotation_error, tolerance)
+        return PoseSolutions(
+            q=np.where(is_reached[:, None], q, reach.q),
+            status=np.where(is_reached, np.uint8(Status.OK), reach.status),
+            position_error=np.where(is_reached, position_error, reach.position_error),
+            rotation_error=np.where(is_reached, rotation_error, reach.rotation_error),
             restarts=reach.restarts,
         )
 
 
 def damped_step(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX] | None = None) -> tuple[SX, SX]:
-    """The next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error.
+    """Return the next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error.
 
     Within the limits of the arm, or within ``limits``, two symbols (n,).
     """
     n = arm.n
-    bounds = _bounds(arm) if limits is None else [(limits[0][k], limits[1][k]) for k in range(n)]
-    size = ca.sumsqr(e)
-    pull = [ca.dot(j[:, k], e) for k in range(n)]
+    bounds = _finite_bounds(arm) if limits is None else [(limits[0][k], limits[1][k]) for k in range(n)]
+    square_error = ca.sumsqr(e)
+    gradient = [ca.dot(j[:, k], e) for k in range(n)]
     active = []
     for k in range(n):
         # CasADi has no short way to say "at the lower limit and pulled below it".
         lower, upper = bounds[k]
-        low = ca.SX(0) if lower is None else ca.logic_and(q[k] <= lower, pull[k] < 0)
-        high = ca.SX(0) if upper is None else ca.logic_and(q[k] >= upper, pull[k] > 0)
-        active.append(ca.if_else(ca.logic_or(low, high), 0.0, 1.0))
+        at_lower = ca.SX(0) if lower is None else ca.logic_and(q[k] <= lower, gradient[k] < 0)
+        at_upper = ca.SX(0) if upper is None else ca.logic_and(q[k] >= upper, gradient[k] > 0)
+        active.append(ca.if_else(ca.logic_or(at_lower, at_upper), 0.0, 1.0))
     masked = ca.horzcat(*[j[:, k] * active[k] for k in range(n)])
-    step = damped_least_norm(masked, e, 1e-3 * size + 1e-12)
-    return _clipped(bounds, [q[k] + step[k] for k in range(n)]), size
+    step = damped_least_norm(masked, e, 1e-3 * square_error + 1e-12)
+    return _clip_to_bounds(bounds, [q[k] + step[k] for k in range(n)]), square_error
 
 
-def clipped(arm: Arm, q: Sequence[SX]) -> SX:
-    """Joint values (n,) brought back to the limits."""
-    return _clipped(_bounds(arm), q)
+def clip_to_limits(arm: Arm, q: Sequence[SX]) -> SX:
+    """Clip joint values (n,) to the limits."""
+    return _clip_to_bounds(_finite_bounds(arm), q)
 
 
-def _bounds(arm: Arm) -> list[tuple[Any, Any]]:
-    """The limits of each joint, None where there is none."""
+def _finite_bounds(arm: Arm) -> list[tuple[Any, Any]]:
+    """Return the limits of each joint, None where there is none."""
     ends = zip(arm.lower, arm.upper, strict=True)
-    return [(x if kinematics.limited(x) else None, y if kinematics.limited(y) else None) for x, y in ends]
+    return [
+        (lower if kinematics.is_limited(lower) else None, upper if kinematics.is_limited(upper) else None)
+        for lower, upper in ends
+    ]
 
 
-def _clipped(bounds: Sequence[tuple[Any, Any]], q: Sequence[SX]) -> SX:
-    inside = []
-    for x, (low, high) in zip(q, bounds, strict=True):
-        if low is not None:
-            x = ca.if_else(x < low, low, x)
-        if high is not None:
-            x = ca.if_else(x > high, high, x)
-        inside.append(x)
-    return ca.vertcat(*inside)
+def _clip_to_bounds(bounds: Sequence[tuple[Any, Any]], q: Sequence[SX]) -> SX:
+    clipped_values = []
+    for value, (lower, upper) in zip(q, bounds, strict=True):
+        if lower is not None:
+            value = ca.if_else(value < lower, lower, value)
+        if upper is not None:
+            value = ca.if_else(value > upper, upper, value)
+        clipped_values.append(value)
+    return ca.vertcat(*clipped_values)
 
 
 @lru_cache(maxsize=16)
-def _solver(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> InverseKinematics:
+def _cached_solver(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> InverseKinematics:
     # Keyed by what matters: every call makes a new Task, and the characteristic length plays no part here.
     return InverseKinematics(arm, Task("task", np.array(rows), frame))
 
 
 def solver(arm: Arm, task: Task) -> InverseKinematics:
-    """The solver of an arm and task, compiled once."""
-    return _solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
+    """Return the solver of an arm and task, compiled once."""
+    return _cached_solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
-@checked
-@says("solving inverse kinematics")
+@check_arguments
+@reports_progress("solving inverse kinematics")
 def solve_ik(
     arm: Arm,
     poses: ArrayLike,
@@ -483,8 +522,8 @@ def solve_ik(
     restarts: int = 100,
     tolerance: float = 1e-6,
     start: ArrayLike | None = None,
-) -> Reach:
-    """Configurations that put the end effector at poses, within the joint limits.
+) -> PoseSolutions:
+    """Find configurations that put the end effector at poses, within the joint limits.
 
     Args:
         arm: The arm.
@@ -496,7 +535,7 @@ def solve_ik(
         start: (n,) or (N, n) where to start from the first time; random if not given.
 
     Returns:
-        A :class:`Reach`. It never says OK for a configuration outside the limits or beyond the tolerance.
+        A :class:`PoseSolutions`. It never says OK for a configuration outside the limits or beyond the tolerance.
 
     Raises:
         InputError: Poses that are not 4x4 transforms, or options out of range.
@@ -509,14 +548,16 @@ def solve_ik(
     engine = solver(arm, as_task(arm, task))
     first = None
     if start is not None:
-        given = arm.check_configurations(start)
-        if given.ndim == 2 and len(given) not in (1, len(targets)):
-            raise InputError(f"start has {len(given)} configurations for {len(targets)} poses; give one, or one per pose")
-        first = np.broadcast_to(given, (len(targets), arm.n))
+        start_configurations = arm.check_configurations(start)
+        if start_configurations.ndim == 2 and len(start_configurations) not in (1, len(targets)):
+            raise InputError(
+                f"start has {len(start_configurations)} configurations for {len(targets)} poses; give one, or one per pose"
+            )
+        first = np.broadcast_to(start_configurations, (len(targets), arm.n))
         if not np.isfinite(first).all():
             raise InputError("start holds NaN or infinity; give finite joint values")
         first = np.clip(first, arm.lower, arm.upper)
-    result = engine.solve(targets, np.random.SeedSequence(seed), restarts, engine.within(tolerance), first)
+    result = engine.solve(targets, np.random.SeedSequence(seed), restarts, engine.scale_tolerance(tolerance), first)
     if np.ndim(poses) == 2:
         return result.first
     return result

@@ -1,4 +1,4 @@
-"""Distances between configurations: joints that turn without limits have period 2 pi."""
+"""Distances between configurations, in which joints without limits have period 2 pi."""
 
 from __future__ import annotations
 
@@ -14,73 +14,79 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_FEW = 1 << 20
+_MAX_PAIRWISE_DISTANCES = 1 << 20
 
 
-def turning(arm: Arm) -> NDArray[np.bool_]:
-    """(n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
+def is_unlimited(arm: Arm) -> NDArray[np.bool_]:
+    """Return (n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
     return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
 
 
-def difference(arm: Arm, a: Array, b: Array) -> Array:
-    """``a - b`` (..., n), the short way round where a joint turns without limits."""
-    d = a - b
-    return np.where(turning(arm), np.arctan2(np.sin(d), np.cos(d)), d)
+def joint_difference(arm: Arm, a: Array, b: Array) -> Array:
+    """Return ``a - b`` (..., n), the short way round where a joint has no limits."""
+    raw_difference = a - b
+    return np.where(is_unlimited(arm), np.arctan2(np.sin(raw_difference), np.cos(raw_difference)), raw_difference)
 
 
-def tree(arm: Arm, q: Array) -> KDTree:
-    """For neighbours of configurations (N, n) in that distance."""
+def build_tree(arm: Arm, q: Array) -> KDTree:
+    """Build a k-d tree for neighbors of configurations (N, n) in that distance."""
     from scipy.spatial import KDTree
 
-    return KDTree(folded(arm, q), boxsize=np.where(turning(arm), 2 * np.pi, 0.0))
+    return KDTree(fold_joints(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
 
 
-def nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.intp]]:
-    """Distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and which one that is."""
-    if _few(q, points):
-        away = _distances(arm, q, points)
-        index = away.argmin(axis=1)
-        return away[np.arange(len(q)), index], index
-    distance, index = tree(arm, points).query(folded(arm, q))
+def find_nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.intp]]:
+    """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
+    that point.
+    """
+    if _are_few(q, points):
+        distances = _pairwise_distances(arm, q, points)
+        index = distances.argmin(axis=1)
+        return distances[np.arange(len(q)), index], index
+    distance, index = build_tree(arm, points).query(fold_joints(arm, q))
     return np.asarray(distance), np.asarray(index)
 
 
-def pairs(arm: Arm, q: Array, apart: float) -> NDArray[np.intp]:
-    """Which configurations q (N, n) are no further than ``apart`` from each other, (M, 2), each k < m, in order."""
-    if _few(q, q):
-        return np.argwhere(np.triu(_distances(arm, q, q) <= apart, 1))
-    found = tree(arm, q).query_pairs(apart, output_type="ndarray")
-    return np.asarray(found[np.lexsort(found.T[::-1])])
+def find_close_pairs(arm: Arm, q: Array, max_distance: float) -> NDArray[np.intp]:
+    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
+    m, in order.
+    """
+    if _are_few(q, q):
+        return np.argwhere(np.triu(_pairwise_distances(arm, q, q) <= max_distance, 1))
+    close_pairs = build_tree(arm, q).query_pairs(max_distance, output_type="ndarray")
+    return np.asarray(close_pairs[np.lexsort(close_pairs.T[::-1])])
 
 
-def _few(a: Array, b: Array) -> bool:
-    """All distances take less time than importing SciPy's trees, which give the same bits."""
-    return 0 < len(a) * len(b) <= _FEW
+def _are_few(a: Array, b: Array) -> bool:
+    """Return True if computing all distances takes less time than importing SciPy's trees; the bits are the same."""
+    return 0 < len(a) * len(b) <= _MAX_PAIRWISE_DISTANCES
 
 
-def _distances(arm: Arm, a: Array, b: Array) -> Array:
-    """(N, P) distances of configurations a (N, n) from b (P, n)."""
+def _pairwise_distances(arm: Arm, a: Array, b: Array) -> Array:
+    """Return the distances (N, P) of configurations a (N, n) from b (P, n)."""
     squares = np.zeros((len(a), len(b)))
-    for x, y, turns in zip(folded(arm, a).T, folded(arm, b).T, turning(arm), strict=True):
-        away = np.abs(x[:, None] - y)
-        squares += (np.where(away > np.pi, np.abs(away - 2 * np.pi), away) if turns else away) ** 2
+    for first, second, periodic in zip(fold_joints(arm, a).T, fold_joints(arm, b).T, is_unlimited(arm), strict=True):
+        distance = np.abs(first[:, None] - second)
+        squares += (np.where(distance > np.pi, np.abs(distance - 2 * np.pi), distance) if periodic else distance) ** 2
     return np.sqrt(squares)
 
 
-def wrapped(arm: Arm, q: Array) -> Array:
-    """Configurations (..., n) with joints that turn without limits in -pi to pi."""
-    return np.where(turning(arm), np.arctan2(np.sin(q), np.cos(q)), q)
+def wrap_joints(arm: Arm, q: Array) -> Array:
+    """Return configurations (..., n) with joints without limits in -pi to pi."""
+    return np.where(is_unlimited(arm), np.arctan2(np.sin(q), np.cos(q)), q)
 
 
-def unwound(arm: Arm, q: Array) -> Array:
-    """Configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without limits."""
-    free = turning(arm)
-    middle = (np.where(free, 0.0, arm.lower) + np.where(free, 0.0, arm.upper)) / 2
-    turns = np.rint((q - middle) / (2 * np.pi))
-    return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, turns)
+def unwind_joints(arm: Arm, q: Array) -> Array:
+    """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without
+    limits.
+    """
+    unlimited = is_unlimited(arm)
+    middle = (np.where(unlimited, 0.0, arm.lower) + np.where(unlimited, 0.0, arm.upper)) / 2
+    revolutions = np.rint((q - middle) / (2 * np.pi))
+    return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, revolutions)
 
 
-def folded(arm: Arm, q: Array) -> Array:
-    """Configurations (N, n) with joints that turn without limits in 0 to 2 pi, 2 pi left out."""
-    x = q % (2 * np.pi)
-    return np.where(turning(arm), np.where(x >= 2 * np.pi, 0.0, x), q)
+def fold_joints(arm: Arm, q: Array) -> Array:
+    """Return configurations (N, n) with joints without limits in 0 to 2 pi, 2 pi excluded."""
+    remainder = q % (2 * np.pi)
+    return np.where(is_unlimited(arm), np.where(remainder >= 2 * np.pi, 0.0, remainder), q)

@@ -1,4 +1,4 @@
-"""The best configurations of given poses, side by side with those that an arm has there now."""
+"""The best configurations of given poses, compared with the configurations that an arm has there now."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
@@ -19,14 +19,14 @@ from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
-from holdfast.kernels.threads import in_pool, pool, thread_count
-from holdfast.notice import Count, says
+from holdfast.kernels.threads import in_pool, shared_pool, thread_count
+from holdfast.notice import ProgressCount, reports_progress
 from holdfast.result import Result
-from holdfast.solvers.anywhere import STARTS, best_of_all
-from holdfast.solvers.joint_space import unwound
+from holdfast.solvers.anywhere import FREE_STARTS, optimise_without_pose
+from holdfast.solvers.joint_space import unwind_joints
 from holdfast.solvers.optimum import Optimum, default_starts, objective_ascent
 from holdfast.status import Status
-from holdfast.words import counted, number
+from holdfast.words import format_count, format_number
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SMALL_FRACTION = 0.1  # of a loss, and of the value that is lost
-_ZERO = 1e-9  # of an index after a failure that ends the task: rounding
-_BLOCK = 512  # poses worked on together by one thread; no result depends on it
+_ZERO_TOLERANCE = 1e-9  # of an index after a failure that ends the task: rounding
+_BLOCK_POSES = 512  # poses worked on together by one thread; no result depends on it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,15 +62,17 @@ class Cap:
 
     def __str__(self) -> str:
         return (
-            f"{self.failure} caps the value: after its failure the index is {number(self.before)} before optimisation and "
-            f"{number(self.after)} after it, while after a failure of {self.other} it is {number(self.other_before)} "
-            f"before and {number(self.other_after)} after"
+            f"{self.failure} caps the value: after its failure the index is {format_number(self.before)} before "
+            f"optimisation and "
+            f"{format_number(self.after)} after it, while after a failure of {self.other} it is "
+            f"{format_number(self.other_before)} "
+            f"before and {format_number(self.other_after)} after"
         )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Optima(Optimum, Result):
-    """What :func:`optimise` found for N poses, or for one (then without the leading N), and what was asked.
+    """Result and inputs of :func:`optimise` for N poses, or for one (then without the leading N).
 
     Attributes:
         objective: By which configurations were chosen.
@@ -99,51 +101,52 @@ class Optima(Optimum, Result):
 
     @property
     def rows(self) -> Optima:
-        """Itself with the leading N, also of one pose."""
+        """The result with the leading N, also of one pose."""
         if self.q.ndim == 2:
             return self
-        arrays = {each.name: getattr(self, each.name)[None] for each in fields(Optimum)}
+        arrays = {field.name: getattr(self, field.name)[None] for field in fields(Optimum)}
         initial = None if self.initial is None else self.initial[None]
         return replace(self, **arrays, poses=self.poses[None], initial=initial)
 
     @property
     def before(self) -> Array:
-        """(N, n) the configurations given, or the first that were found (of all, the best random one); NaN where none was."""
+        """Configurations (N, n) that were given or found first (the best random one without poses); NaN where none was."""
         return np.where(self.success[..., None], self.start_q, np.nan) if self.initial is None else self.initial
 
     @property
     def value_before(self) -> Array:
-        """(N,) of the objective at :attr:`before`."""
+        """Value (N,) of the objective at :attr:`before`."""
         return self.start_value if self.initial is None else self.objective(self.initial)
 
     def apart(self, q: Array) -> Array:
-        """(N,) clearance of the arm from itself and its cell, m, at q (N, n); NaN where it is not looked at."""
+        """Compute the clearance of the arm from itself and its cell, (N,) m, at q (N, n); NaN if no clearance is given."""
         return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
 
     def close(self, q: Array) -> NDArray[np.bool_]:
-        """(N,) True where less room is left than the margin at q (N, n); False where it is not looked at."""
-        return np.zeros(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.room(q) < self.margin
+        """Return (N,) True where the clearance is below the margin at q (N, n); False if no clearance is given."""
+        return np.zeros(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.margin_left(q) < self.margin
 
     @property
     def obstacles(self) -> list[str]:
-        """Of each pose the pair, ``panda_joint4 & table``, that bars the best configuration without regard, or nothing.
+        """Name of each pose's pair, ``panda_joint4 & table``, that blocks the unconstrained best configuration, or an empty
+        string.
 
         Of a pose that is INFEASIBLE it is the pair that bars most of the configurations found.
         """
         rows = self.rows
         names = [] if self.clearance is None else self.clearance.pair_names
-        return [names[k] if k >= 0 else "" for k in rows.blocked_by]
+        return [names[pair] if pair >= 0 else "" for pair in rows.blocked_by]
 
     @property
     def worse(self) -> NDArray[np.bool_]:
-        """(N,) True where the configuration given is better than the one found, and as clear."""
-        lost = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
-        better = lost > 1e-9 * np.abs(self.value)
+        """Flags (N,) of the given configurations that are better than those found, and as collision-free."""
+        loss = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
+        better = loss > 1e-9 * np.abs(self.value)
         return np.asarray(better & ~self.close(self.before))
 
     @cached_property
     def cap(self) -> Cap | None:
-        """The failure that caps the value; None if the gain is worth the loss of the others, or there is one failure only.
+        """The failure that caps the value; None if the gain is worth the loss of the others, or there is only one failure.
 
         A failure caps the value if it is the worst one at half of the best configurations or more, and either nothing is left
         after it, or the value gains at most a tenth of the largest loss after another failure.
@@ -158,52 +161,55 @@ class Optima(Optimum, Result):
         lowest = (sign * after).min(axis=1, keepdims=True)
         tied = sign * after <= lowest + 1e-3 * np.abs(lowest)
         worst = np.where(tied, sign * before, np.inf).argmin(axis=1)  # of several, the one that was worst before
-        k = int(np.bincount(worst).argmax())
-        old, new = np.median(before, axis=0), np.median(after, axis=0)
-        losses = sign * (old - new)
-        losses[k] = -np.inf
+        capping = int(np.bincount(worst).argmax())
+        old_medians, new_medians = np.median(before, axis=0), np.median(after, axis=0)
+        losses = sign * (old_medians - new_medians)
+        losses[capping] = -np.inf
         loser, gain = int(losses.argmax()), float(np.median(lowest[:, 0] - (sign * before).min(axis=1)))
-        hopeless = abs(new[k]) <= _ZERO and losses[loser] > 0
-        costly = losses[loser] > _SMALL_FRACTION * abs(old[loser]) and gain <= _SMALL_FRACTION * losses[loser]
-        if 2 * (worst == k).sum() < len(worst) or not (hopeless or costly):
+        hopeless = abs(new_medians[capping]) <= _ZERO_TOLERANCE and losses[loser] > 0
+        costly = losses[loser] > _SMALL_FRACTION * abs(old_medians[loser]) and gain <= _SMALL_FRACTION * losses[loser]
+        if 2 * (worst == capping).sum() < len(worst) or not (hopeless or costly):
             return None
         return Cap(
-            failure=index.failure_names[k],
-            before=float(old[k]),
-            after=float(new[k]),
+            failure=index.failure_names[capping],
+            before=float(old_medians[capping]),
+            after=float(new_medians[capping]),
             other=index.failure_names[loser],
-            other_before=float(old[loser]),
-            other_after=float(new[loser]),
-            remaining=tuple(i for i in range(len(index.failures)) if i != k),
+            other_before=float(old_medians[loser]),
+            other_after=float(new_medians[loser]),
+            remaining=tuple(failure for failure in range(len(index.failures)) if failure != capping),
         )
 
     def describe(self) -> list[str]:
-        """Where the best configurations bring the objective; of several poses the median of those reached."""
-        some, unit = np.atleast_1d(self.success), "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
-        values = [np.atleast_1d(x)[some] for x in (self.value_before, self.value)]
-        before, after = (f"{number(float(np.median(x)))}{unit}" if x.size else "none" for x in values)
-        what = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"
-        reached = f"{counted(int(some.sum()), 'pose')} of {some.size} reached, " if some.size > 1 else ""
-        said = [f"{what}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
-        return said if self.cap is None else [*said, f"{self.cap}; optimise over the other failures alone."]
+        """Describe the objective before and after optimisation; of several poses the median of those reached."""
+        is_reached, unit = (
+            np.atleast_1d(self.success),
+            "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}",
+        )
+        values = [np.atleast_1d(numbers)[is_reached] for numbers in (self.value_before, self.value)]
+        before, after = (f"{format_number(float(np.median(numbers)))}{unit}" if numbers.size else "none" for numbers in values)
+        subject = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"
+        reached = f"{format_count(int(is_reached.sum()), 'pose')} of {is_reached.size} reached, " if is_reached.size > 1 else ""
+        sentences = [f"{subject}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
+        return sentences if self.cap is None else [*sentences, f"{self.cap}; optimise over the other failures alone."]
 
     def require_any(self) -> Optima:
-        """Itself, unless no pose has a configuration.
+        """Return the result, unless no pose has a configuration.
 
         Raises:
             HoldfastError: None has; the message says what to try.
         """
         if self.success.any():
             return self
-        first = Status(int(self.status.flat[0])) if self.status.size else Status.NOT_FOUND
-        advice = first.sentence
-        if first == Status.INFEASIBLE and self.clearance is not None:
-            k, shape = int(self.rows.blocked_by[0]), self.clearance.capsules.describe(self.arm)
-            ours = k < len(self.clearance.pairs)
+        first_status = Status(int(self.status.flat[0])) if self.status.size else Status.NOT_FOUND
+        advice = first_status.sentence
+        if first_status == Status.INFEASIBLE and self.clearance is not None:
+            pair, shape = int(self.rows.blocked_by[0]), self.clearance.capsules.describe(self.arm)
+            is_self_pair = pair < len(self.clearance.pairs)
             advice = (
                 f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), most often by "
-                f"{self.clearance.pair_names[k]}: choose another pose, give the real shape by --capsules or a smaller "
-                "--margin, " + ("or let it by --no-clearance" if ours else "or move the object")
+                f"{self.clearance.pair_names[pair]}: choose another pose, give the real shape by --capsules or a smaller "
+                "--margin, " + ("or let it by --no-clearance" if is_self_pair else "or move the object")
             )
         raise HoldfastError(f"no configuration of {'the pose' if self.status.size == 1 else 'any pose'}: {advice}")
 
@@ -213,12 +219,12 @@ class Optima(Optimum, Result):
         Raises:
             StoreError: It cannot be written.
         """
-        written: Path = self._presented("to_csv", Path(file))
+        written: Path = self._present("to_csv", Path(file))
         return written
 
 
-@checked
-@says("optimising configurations")
+@check_arguments
+@reports_progress("optimising configurations")
 def optimise(
     arm: Arm,
     poses: ArrayLike | None,
@@ -234,7 +240,7 @@ def optimise(
     margin: float = 0.0,
     initial: ArrayLike | None = None,
 ) -> Optima:
-    """The configuration of each pose that is best under an objective, within the joint limits.
+    """Find the configuration of each pose that is best under an objective, within the joint limits.
 
     Args:
         arm: The arm.
@@ -266,17 +272,18 @@ def optimise(
 
     Source: Abdi et al. 2012, eq. (11), (12).
     """
-    asked = np.eye(4) if poses is None else poses
-    free, targets = poses is None, check_poses(asked)
-    given = None if initial is None else arm.check_configurations(initial)
-    if given is not None and given.shape[:-1] != np.shape(asked)[:-2]:
+    requested = np.eye(4) if poses is None else poses
+    without_pose, targets = poses is None, check_poses(requested)
+    initial_q = None if initial is None else arm.check_configurations(initial)
+    if initial_q is not None and initial_q.shape[:-1] != np.shape(requested)[:-2]:
         raise InputError(
-            f"initial has shape {given.shape}, {'no poses are given' if free else f'poses have {np.shape(asked)}'}; "
-            f"give one configuration{'' if free else ' of each pose'}"
+            f"initial has shape {initial_q.shape}, "
+            f"{'no poses are given' if without_pose else f'poses have {np.shape(requested)}'}; "
+            f"give one configuration{'' if without_pose else ' of each pose'}"
         )
     if objective.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the objective belongs to '{objective.arm.name}', not to '{arm.name}'; make it with the same arm")
-    kept = chosen_clearance(arm, clearance, cell, looks=False)
+    resolved_clearance = chosen_clearance(arm, clearance, cell, looks=False)
     for name, value in (("starts", starts), ("restarts", restarts)):
         if value is not None and value < 1:
             raise InputError(f"{name} is {value}; it must be 1 or more")
@@ -284,39 +291,41 @@ def optimise(
         raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), kept, margin, free)
-    within = ascent.engine.within(tolerance)
-    most = (STARTS if free else default_starts(arm, ascent.task)) if starts is None else starts
-    blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
+    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), resolved_clearance, margin, without_pose)
+    scaled_tolerance = ascent.engine.scale_tolerance(tolerance)
+    start_count = (FREE_STARTS if without_pose else default_starts(arm, ascent.task)) if starts is None else starts
+    blocks = [slice(begin, begin + _BLOCK_POSES) for begin in range(0, len(targets), _BLOCK_POSES)] or [slice(0, 0)]
 
-    def work(number: int) -> Optimum:
-        part = targets[blocks[number]]
-        first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
-        if free:
-            return best_of_all(ascent, first, most)
-        reach = ascent.engine.solve(part, first, restarts, within)
-        if given is not None:
-            reach = ascent.engine.prefer(reach, np.atleast_2d(given)[blocks[number]], part, within)
-        found = ascent.solve(part, reach, others, most, within)
-        tell(len(part))
-        return found
+    def optimise_block(number: int) -> Optimum:
+        block_poses = targets[blocks[number]]
+        ik_seed, start_seed = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
+        if without_pose:
+            return optimise_without_pose(ascent, ik_seed, start_count)
+        solutions = ascent.engine.solve(block_poses, ik_seed, restarts, scaled_tolerance)
+        if initial_q is not None:
+            solutions = ascent.engine.prefer_configurations(
+                solutions, np.atleast_2d(initial_q)[blocks[number]], block_poses, scaled_tolerance
+            )
+        optimum = ascent.solve(block_poses, solutions, start_seed, start_count, scaled_tolerance)
+        tell(len(block_poses))
+        return optimum
 
-    with Count("poses", len(targets), whole=len(blocks) > 4 * thread_count()) as tell:
+    with ProgressCount("poses", len(targets), whole=len(blocks) > 4 * thread_count()) as tell:
         if len(blocks) == 1 or in_pool() or thread_count() == 1:
-            parts = [work(k) for k in range(len(blocks))]
+            parts = [optimise_block(block) for block in range(len(blocks))]
         else:
-            parts = list(pool().map(work, range(len(blocks))))
-    single = np.ndim(asked) == 2
-    arrays = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Optimum)}
-    arrays["q"] = unwound(arm, arrays["q"])
+            parts = list(shared_pool().map(optimise_block, range(len(blocks))))
+    single = np.ndim(requested) == 2
+    arrays = {field.name: np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Optimum)}
+    arrays["q"] = unwind_joints(arm, arrays["q"])
     return Optima(
         **{name: value[0] if single else value for name, value in arrays.items()},
         objective=objective,
         task=ascent.task,
-        free=free,
-        poses=arm.forward_kinematics(arrays["q"][0]) if free else targets[0] if single else targets,
-        initial=given,
-        clearance=kept,
+        free=without_pose,
+        poses=arm.forward_kinematics(arrays["q"][0]) if without_pose else targets[0] if single else targets,
+        initial=initial_q,
+        clearance=resolved_clearance,
         margin=margin,
         seed=seed,
     )

@@ -1,4 +1,4 @@
-"""The best configuration of a pose: as good as possible after the worst failure, without moving the end effector.
+"""Ascent to the best configuration of a pose, after the worst failure, without moving the end effector.
 
 Source: Abdi, Maciejewski, Nahavandi 2012, eq. (11), (12), in the epigraph form: ``max t`` subject to ``s_k(q) >= t`` for
 every failure k, the pose and the joint limits. Each step solves that program linearised about q on the self-motion
@@ -22,11 +22,11 @@ from holdfast.errors import TaskError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
-from holdfast.linalg import damped_least_norm, dot, householder
-from holdfast.notice import each
+from holdfast.kernels.recall import cached_kernel
+from holdfast.linalg import damped_least_norm, dot_product, factor_householder
+from holdfast.notice import track
 from holdfast.solvers import joint_space
-from holdfast.solvers.inverse_kinematics import InverseKinematics, Reach, clipped, solver, task_error
+from holdfast.solvers.inverse_kinematics import InverseKinematics, PoseSolutions, clip_to_limits, solver, task_error
 from holdfast.solvers.maximin import maximin_step
 from holdfast.status import Status, require_ok
 
@@ -38,9 +38,9 @@ Array = NDArray[np.float64]
 _MORE_WAVES = 7  # of random starts, for poses that fewer than half of a wave reached
 FIRST_STEPS = 4  # of every start
 LAST_STEPS = 12  # of the few that are kept
-_KEPT = 4
-RADIUS = 0.3  # first step along each null-space direction, rad or m
-_WIDEST = 0.6
+_RETAINED_STARTS = 4
+INITIAL_RADIUS = 0.3  # first step along each null-space direction, rad or m
+_MAX_RADIUS = 0.6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,11 +79,11 @@ class Optimum:
 
     @property
     def success(self) -> NDArray[np.bool_]:
-        """(N,) True where the pose is reached."""
+        """Flags (N,) of the poses that are reached."""
         return np.asarray((self.status == Status.OK) | (self.status == Status.SINGULAR))
 
     def require_ok(self) -> Self:
-        """Itself, or :class:`holdfast.HoldfastError` naming the first row that failed."""
+        """Return the result, or raise :class:`holdfast.HoldfastError` naming the first row that failed."""
         require_ok(self.status, "optimisation")
         return self
 
@@ -96,7 +96,7 @@ def ascent_step(
     around: bool = False,
     free: bool = False,
 ) -> tuple[list[SX], SX]:
-    """One step of the ascent, of an arm whose geometry may be symbols.
+    """Build one step of the ascent, of an arm whose geometry may be symbols.
 
     Args:
         objective: What to raise.
@@ -112,51 +112,57 @@ def ascent_step(
     """
     arm = objective.arm
     q = kinematics.joint_symbols(arm)
-    p, r, radius = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("radius")
-    last = ca.SX.sym("last", arm.n)
-    j = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
-    qr = householder(j)
-    rows = [ca.horzsplit(x) for x in ca.vertsplit(ca.SX.eye(arm.n))] if free else qr.null_rows()
+    position, rotation, radius = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("radius")
+    last_move = ca.SX.sym("last", arm.n)
+    jacobian = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
+    factorization = factor_householder(jacobian)
+    rows = [ca.horzsplit(x) for x in ca.vertsplit(ca.SX.eye(arm.n))] if free else factorization.null_rows()
     directions = [ca.vertcat(*column) for column in zip(*rows, strict=True)]
-    parts = objective.parts(q, j, qr, directions)
+    parts = objective.parts(q, jacobian, factorization, directions)
     # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
-    e, full = task_error(arm, task, q, p, r)
-    back = ca.SX.zeros(arm.n) if free else damped_least_norm(full, e, 1e-12)
-    big = 1e3  # stands for no limit: far beyond any trust region
-    rows_kept: list[list[SX]] = []
-    room: list[tuple[SX, SX]] = []
-    for k, (low, high) in enumerate(zip(arm.lower, arm.upper, strict=True)):
-        if kinematics.limited(low) or kinematics.limited(high):
-            below = low - q[k] - back[k] if kinematics.limited(low) else ca.SX(-big)
-            above = high - q[k] - back[k] if kinematics.limited(high) else ca.SX(big)
-            rows_kept.append(rows[k])
-            room.append((below, above))
+    error, error_jacobian = task_error(arm, task, q, position, rotation)
+    correction = ca.SX.zeros(arm.n) if free else damped_least_norm(error_jacobian, error, 1e-12)
+    no_limit = 1e3  # stands for no limit: far beyond any trust region
+    constraint_rows: list[list[SX]] = []
+    constraint_bounds: list[tuple[SX, SX]] = []
+    for joint, (lower, upper) in enumerate(zip(arm.lower, arm.upper, strict=True)):
+        if kinematics.is_limited(lower) or kinematics.is_limited(upper):
+            lower_room = lower - q[joint] - correction[joint] if kinematics.is_limited(lower) else ca.SX(-no_limit)
+            upper_room = upper - q[joint] - correction[joint] if kinematics.is_limited(upper) else ca.SX(no_limit)
+            constraint_rows.append(rows[joint])
+            constraint_bounds.append((lower_room, upper_room))
     outside = [ca.SX.sym("gap"), ca.SX.sym("slope", arm.n)] if around else []
-    near = [] if clearance is None or not clearance.pairs else [clearance.smallest_with_slopes(q, directions)]
-    near += [(outside[0], [ca.dot(outside[1], v) for v in directions])] if outside else []
-    if near:
-        gap, slope = near[0]
-        for other, slopes in near[1:]:
-            slope = [ca.if_else(other < gap, x, y) for x, y in zip(slopes, slope, strict=True)]
-            gap = ca.if_else(other < gap, other, gap)
-        rows_kept.append(slope)
-        room.append((margin - gap, ca.SX(big)))
-    z = maximin_step(parts, rows_kept, [below for below, _ in room], [above for _, above in room], radius)
-    move = [dot(rows[k], z) for k in range(arm.n)]
-    moved = clipped(arm, [q[k] + back[k] + move[k] for k in range(arm.n)])
+    clearances = [] if clearance is None or not clearance.pairs else [clearance.smallest_with_slopes(q, directions)]
+    clearances += [(outside[0], [ca.dot(outside[1], direction) for direction in directions])] if outside else []
+    if clearances:
+        distance, gradient = clearances[0]
+        for other_distance, other_gradient in clearances[1:]:
+            gradient = [ca.if_else(other_distance < distance, x, y) for x, y in zip(other_gradient, gradient, strict=True)]
+            distance = ca.if_else(other_distance < distance, other_distance, distance)
+        constraint_rows.append(gradient)
+        constraint_bounds.append((margin - distance, ca.SX(no_limit)))
+    z = maximin_step(
+        parts,
+        constraint_rows,
+        [lower_room for lower_room, _ in constraint_bounds],
+        [upper_room for _, upper_room in constraint_bounds],
+        radius,
+    )
+    move = [dot_product(rows[joint], z) for joint in range(arm.n)]
+    next_q = clip_to_limits(arm, [q[joint] + correction[joint] + move[joint] for joint in range(arm.n)])
     # Steps that agree may grow; steps that turn back have passed the best point.
-    d = ca.vertcat(*move)
-    turn = ca.dot(d, last) / (ca.sqrt(ca.sumsqr(d) * ca.sumsqr(last)) + 1e-30)
-    next_radius = radius * ca.if_else(turn < 0, 0.5, ca.if_else(turn > 0.5, 1.3, 0.85))
-    next_radius = ca.if_else(next_radius > _WIDEST, _WIDEST, next_radius)
-    return [q, radius, last, p, r, *outside], ca.vertcat(moved, next_radius, d)
+    displacement = ca.vertcat(*move)
+    cosine = ca.dot(displacement, last_move) / (ca.sqrt(ca.sumsqr(displacement) * ca.sumsqr(last_move)) + 1e-30)
+    next_radius = radius * ca.if_else(cosine < 0, 0.5, ca.if_else(cosine > 0.5, 1.3, 0.85))
+    next_radius = ca.if_else(next_radius > _MAX_RADIUS, _MAX_RADIUS, next_radius)
+    return [q, radius, last_move, position, rotation, *outside], ca.vertcat(next_q, next_radius, displacement)
 
 
-@recalled
+@cached_kernel
 def step_kernel(
     objective: Objective, task: Task, clearance: Clearance | None, margin: float, around: bool, free: bool
 ) -> Kernel:
-    """:func:`ascent_step`, compiled; what an objective measures comes last."""
+    """Compile :func:`ascent_step`; the measure of an objective is the last input."""
     inputs, step = ascent_step(objective, task, clearance, margin, around, free)
     measured = objective.measured
     return Kernel(f"ascent of {objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
@@ -185,100 +191,108 @@ class Ascent:
         return step_kernel(self.objective, self.task, None, 0.0, False, self.free)
 
     @cached_property
-    def _clear_step(self) -> Kernel:
-        """The step that also keeps the arm clear: compiled once it is needed, and for a changed cell not again."""
+    def _collision_free_step(self) -> Kernel:
+        """Kernel of the step that also keeps the arm collision-free, compiled at first use and reused for a changed cell."""
         assert self.clearance is not None
         around = self.clearance.obstacles is not None
         return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, around, self.free)
 
-    def climb(self, clear: bool, q: Array, poses: Array, steps: int, radius: Array | None = None) -> tuple[Array, Array]:
-        """Steps from q (N, n); returns where they led and the last trust radius."""
+    def ascend(
+        self, collision_free: bool, q: Array, poses: Array, steps: int, radius: Array | None = None
+    ) -> tuple[Array, Array]:
+        """Take steps from q (N, n); return the ends and the last trust radius."""
         n = self.arm.n
-        trust = np.full(len(q), RADIUS) if radius is None else radius
+        trust_radius = np.full(len(q), INITIAL_RADIUS) if radius is None else radius
         if self._step is None:
-            return q, trust
-        step = self._clear_step if clear else self._step
-        around = self.clearance.obstacles if clear and self.clearance is not None else None
-        state = np.concatenate([q, trust[:, None], np.zeros_like(q)], axis=1)
-        p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
-        for _ in each("steps of the ascent", range(steps)):
-            before = state
-            more = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
-            if around is not None:
-                room, _, slope = around.nearest(state[:, :n])
-                more = [room, slope, *more]
-            state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], p, r, *more)
+            return q, trust_radius
+        step = self._collision_free_step if collision_free else self._step
+        obstacles = self.clearance.obstacles if collision_free and self.clearance is not None else None
+        state = np.concatenate([q, trust_radius[:, None], np.zeros_like(q)], axis=1)
+        positions, rotations = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
+        for _ in track("steps of the ascent", range(steps)):
+            previous = state
+            extra_inputs = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
+            if obstacles is not None:
+                margin, _, gradient = obstacles.find_nearest(state[:, :n])
+                extra_inputs = [margin, gradient, *extra_inputs]
+            state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], positions, rotations, *extra_inputs)
             # A step that divided by zero (a singular configuration) is not taken.
-            bad = ~np.isfinite(state).all(axis=1)
-            state[bad] = before[bad]
+            is_invalid = ~np.isfinite(state).all(axis=1)
+            state[is_invalid] = previous[is_invalid]
         return state[:, :n], state[:, n]
 
-    def oriented(self, q: Array) -> Array:
-        """The objective with its sign turned so that larger is better."""
+    def oriented_values(self, q: Array) -> Array:
+        """Return the objective with its sign set so that larger is better."""
         value = self.objective(q)
         return value if self.objective.better == "larger" else -value
 
-    def _followed(
-        self, owner: NDArray[np.int64], q: Array, poses: Array, tolerance: float, clear: bool
+    def _refine_starts(
+        self, owner: NDArray[np.int64], q: Array, poses: Array, tolerance: float, collision_free: bool
     ) -> tuple[NDArray[np.int64], Array, Array]:
-        """Starts q of poses ``owner``, climbed, the poor ones dropped: owners, where they ended, oriented values.
+        """Ascend from starts q of poses ``owner`` and drop the poor ones; return owners, ends, and oriented values.
 
         The value is -inf where the end is not on its pose or, if asked, not clear.
         """
-        q, radius = self.climb(clear, q, poses[owner], FIRST_STEPS)
-        value = self.oriented(q)
-        keep = best_of_each(owner, np.where(self.is_clear(q), value, -np.inf) if clear else value, _KEPT)
-        owner, q, radius = owner[keep], q[keep], radius[keep]
-        q, _ = self.climb(clear, q, poses[owner], LAST_STEPS, radius)
+        q, radius = self.ascend(collision_free, q, poses[owner], FIRST_STEPS)
+        value = self.oriented_values(q)
+        retained = best_per_owner(
+            owner, np.where(self.is_collision_free(q), value, -np.inf) if collision_free else value, _RETAINED_STARTS
+        )
+        owner, q, radius = owner[retained], q[retained], radius[retained]
+        q, _ = self.ascend(collision_free, q, poses[owner], LAST_STEPS, radius)
         # Far below the tolerance, so that the pose does not pay for the value.
         q, _ = self.engine.attempt(q, poses[owner], 1e-3 * tolerance)
-        q = joint_space.wrapped(self.engine.arm, q)
-        good = self.engine.verdict(q, poses[owner], tolerance)
-        if clear:
-            good &= self.is_clear(q)
-        return owner, q, np.where(good, self.oriented(q), -np.inf)
+        q = joint_space.wrap_joints(self.engine.arm, q)
+        is_valid = self.engine.check_solutions(q, poses[owner], tolerance)
+        if collision_free:
+            is_valid &= self.is_collision_free(q)
+        return owner, q, np.where(is_valid, self.oriented_values(q), -np.inf)
 
-    def is_clear(self, q: Array) -> NDArray[np.bool_]:
-        """(N,) True where q (N, n) leaves the margin."""
+    def is_collision_free(self, q: Array) -> NDArray[np.bool_]:
+        """Return (N,) True where q (N, n) respects the margin."""
         assert self.clearance is not None
-        return np.asarray(self.clearance.room(q) >= self.margin)
+        return np.asarray(self.clearance.margin_left(q) >= self.margin)
 
     def _most_often_nearest(self, owner: NDArray[np.int64], q: Array, poses: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Of each of some poses (H,), the pair that has the least room at most of its configurations among q (K, n)."""
+        """Return for each of some poses (H,) the pair that has the smallest margin at most of its configurations among q (K,
+        n).
+        """
         assert self.clearance is not None
-        there = np.isin(owner, poses)
+        is_selected = np.isin(owner, poses)
         votes = np.zeros((len(poses), len(self.clearance.pair_names)), dtype=np.int64)
-        np.add.at(votes, (np.searchsorted(poses, owner[there]), self.clearance.closest_pair(q[there])), 1)
+        np.add.at(votes, (np.searchsorted(poses, owner[is_selected]), self.clearance.closest_pair(q[is_selected])), 1)
         return np.asarray(votes.argmax(axis=1), dtype=np.int64)
 
-    def _started(
-        self, poses: Array, first: Reach, seed: np.random.SeedSequence, starts: int, tolerance: float
+    def _sample_starts(
+        self, poses: Array, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
     ) -> tuple[NDArray[np.int64], Array]:
-        """Configurations of the reached poses to climb from, and whose they are.
+        """Sample start configurations of the reached poses; return the pose of each and the configurations.
 
         Where joint limits let few random starts converge, more waves of them follow, so that hard poses are searched as
         well as easy ones. Start k of pose i is the same number whichever other poses are reached.
         """
         reached = np.flatnonzero(first.success)
-        owners, found = [reached], [first.q[reached]]
+        owners, starts_found = [reached], [first.q[reached]]
         converged = first.success.astype(np.int64)
-        for wave, child in enumerate([seed, *seed.spawn(_MORE_WAVES)]):
-            number = starts - 1 if wave == 0 else starts
-            draws = self.engine.starts(len(poses) * number, np.random.default_rng(child)).reshape(
-                len(poses), number, self.arm.n
+        for wave_index, child_seed in enumerate([seed, *seed.spawn(_MORE_WAVES)]):
+            start_count = starts - 1 if wave_index == 0 else starts
+            random_q = self.engine.sample_starts(len(poses) * start_count, np.random.default_rng(child_seed)).reshape(
+                len(poses), start_count, self.arm.n
             )
-            few = reached if wave == 0 else reached[converged[reached] < starts // 2]
-            if not few.size:
+            poses_left = reached if wave_index == 0 else reached[converged[reached] < starts // 2]
+            if not poses_left.size:
                 break
-            owner = np.tile(few, number)
-            q, ok = self.engine.attempt(draws[few].transpose(1, 0, 2).reshape(-1, self.arm.n), poses[owner], tolerance)
-            owners.append(owner[ok])
-            found.append(q[ok])
-            converged += np.bincount(owner[ok], minlength=len(poses))
-        return np.concatenate(owners), np.concatenate(found)
+            owner = np.tile(poses_left, start_count)
+            q, has_converged = self.engine.attempt(
+                random_q[poses_left].transpose(1, 0, 2).reshape(-1, self.arm.n), poses[owner], tolerance
+            )
+            owners.append(owner[has_converged])
+            starts_found.append(q[has_converged])
+            converged += np.bincount(owner[has_converged], minlength=len(poses))
+        return np.concatenate(owners), np.concatenate(starts_found)
 
-    def solve(self, poses: Array, first: Reach, seed: np.random.SeedSequence, starts: int, tolerance: float) -> Optimum:
-        """Best of several starts for (N, 4, 4) poses.
+    def solve(self, poses: Array, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float) -> Optimum:
+        """Find the best of several starts for (N, 4, 4) poses.
 
         Args:
             poses: The poses.
@@ -291,62 +305,67 @@ class Ascent:
         engine, sign = self.engine, 1.0 if self.objective.better == "larger" else -1.0
         reached = np.flatnonzero(first.success)
         best_q = np.where(first.success[:, None], first.q, np.nan)
-        best, agreeing = np.full(count, np.nan), np.full(count, np.nan)
-        found, blocked = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
+        best_value, agreeing = np.full(count, np.nan), np.full(count, np.nan)
+        start_counts, blocked = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
         blocked_by = np.full(count, -1, dtype=np.int64)
         status = first.status.copy()
         if reached.size:
-            best[reached] = self.oriented(first.q[reached])
-        start_value = sign * best
+            best_value[reached] = self.oriented_values(first.q[reached])
+        start_value = sign * best_value
         if reached.size:
-            owner, q = self._started(poses, first, seed, starts, tolerance)
-            found = np.bincount(owner, minlength=count)
+            owner, q = self._sample_starts(poses, first, seed, starts, tolerance)
+            start_counts = np.bincount(owner, minlength=count)
 
-            def choose(owner: NDArray[np.int64], q: Array, value: Array, chosen: NDArray[np.int64]) -> None:
-                top = best_of_each(owner, value, 1)
+            def choose_best(owner: NDArray[np.int64], q: Array, value: Array, chosen: NDArray[np.int64]) -> None:
+                best_index = best_per_owner(owner, value, 1)
                 # A formula of the user's own may have no value at the first configuration: any other is better.
-                top = top[(value[top] > -np.inf) & ~(value[top] <= best[owner[top]])]
-                best_q[owner[top]], best[owner[top]] = q[top], value[top]
-                start = sign * start_value
+                best_index = best_index[(value[best_index] > -np.inf) & ~(value[best_index] <= best_value[owner[best_index]])]
+                best_q[owner[best_index]], best_value[owner[best_index]] = q[best_index], value[best_index]
+                first_value = sign * start_value
                 # Either may be infinite, at a singular configuration or by a formula of the user's own.
-                gain = np.subtract(best, start, out=np.zeros(count), where=np.isfinite(best) & np.isfinite(start))
-                scale = np.where(np.isfinite(best), np.maximum(np.abs(best), np.abs(gain)), 0.0)
-                close = (value >= best[owner] - 1e-3 * scale[owner]) & (value > -np.inf)
-                agreeing[chosen] = np.bincount(owner, close, count)[chosen] / np.maximum(
+                gain = np.subtract(
+                    best_value, first_value, out=np.zeros(count), where=np.isfinite(best_value) & np.isfinite(first_value)
+                )
+                tolerance_scale = np.where(np.isfinite(best_value), np.maximum(np.abs(best_value), np.abs(gain)), 0.0)
+                agrees = (value >= best_value[owner] - 1e-3 * tolerance_scale[owner]) & (value > -np.inf)
+                agreeing[chosen] = np.bincount(owner, agrees, count)[chosen] / np.maximum(
                     np.bincount(owner, minlength=count)[chosen], 1
                 )
 
-            choose(*self._followed(owner, q, poses, tolerance, clear=False), reached)
+            choose_best(*self._refine_starts(owner, q, poses, tolerance, collision_free=False), reached)
             if self.clearance is not None:
-                blocked[reached] = ~self.is_clear(best_q[reached])
-                again = np.flatnonzero(blocked)
-                if again.size:
-                    blocked_by[again] = self.clearance.closest_pair(best_q[again])
+                blocked[reached] = ~self.is_collision_free(best_q[reached])
+                blocked_poses = np.flatnonzero(blocked)
+                if blocked_poses.size:
+                    blocked_by[blocked_poses] = self.clearance.closest_pair(best_q[blocked_poses])
                     # Only the poses whose best configuration is not clear are climbed once more.
-                    best[again], best_q[again], agreeing[again] = -np.inf, np.nan, 0.0
-                    mine = blocked[owner]
-                    mine[mine] = self.is_clear(q[mine])
-                    if mine.any():
-                        choose(owner[mine], q[mine], self.oriented(q[mine]), again)
-                        choose(*self._followed(owner[mine], q[mine], poses, tolerance, clear=True), again)
-                    hopeless = again[best[again] == -np.inf]
+                    best_value[blocked_poses], best_q[blocked_poses], agreeing[blocked_poses] = -np.inf, np.nan, 0.0
+                    is_candidate = blocked[owner]
+                    is_candidate[is_candidate] = self.is_collision_free(q[is_candidate])
+                    if is_candidate.any():
+                        choose_best(owner[is_candidate], q[is_candidate], self.oriented_values(q[is_candidate]), blocked_poses)
+                        choose_best(
+                            *self._refine_starts(owner[is_candidate], q[is_candidate], poses, tolerance, collision_free=True),
+                            blocked_poses,
+                        )
+                    hopeless = blocked_poses[best_value[blocked_poses] == -np.inf]
                     status[hopeless] = Status.INFEASIBLE
-                    best[best == -np.inf] = np.nan
+                    best_value[best_value == -np.inf] = np.nan
                     blocked_by[hopeless] = self._most_often_nearest(owner, q, hopeless)
-            kept = reached[status[reached] != Status.INFEASIBLE]
-            found_there = self.objective.statuses(best_q[kept])
+            feasible = reached[status[reached] != Status.INFEASIBLE]
+            statuses = self.objective.row_statuses(best_q[feasible])
             for code in (Status.SINGULAR, Status.UNDEFINED):
-                status[kept[found_there == code]] = code
-        position_error, rotation_error = engine.errors(best_q, poses)
+                status[feasible[statuses == code]] = code
+        position_error, rotation_error = engine.task_errors(best_q, poses)
         return Optimum(
             q=best_q,
-            value=sign * best,
+            value=sign * best_value,
             start_value=start_value,
             start_q=first.q,
             status=status,
             position_error=position_error,
             rotation_error=rotation_error,
-            starts=found,
+            starts=start_counts,
             agreeing=agreeing,
             blocked=blocked,
             blocked_by=blocked_by,
@@ -354,7 +373,7 @@ class Ascent:
 
 
 def default_starts(arm: Arm, task: Task) -> int:
-    """Random starts per pose if none are given.
+    """Return the number of random starts per pose if none is given.
 
     One degree of redundancy gives curves, often many short ones between joint limits, and each must be hit to be climbed;
     measured on a Panda, 32 starts find the best of 600 on 81 % of poses and 128 on 97 %. More redundancy joins them.
@@ -362,13 +381,13 @@ def default_starts(arm: Arm, task: Task) -> int:
     return 128 if arm.n - task.m <= 1 else 32
 
 
-def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[np.int64]:
-    """Positions of the ``most`` largest values of each owner, ordered by owner, then value."""
+def best_per_owner(owner: NDArray[np.int64], value: Array, count: int) -> NDArray[np.int64]:
+    """Return the positions of the ``count`` largest values of each owner, ordered by owner, then value."""
     order = np.lexsort((-value, owner))
     sorted_owner = owner[order]
-    first = np.flatnonzero(np.r_[True, sorted_owner[1:] != sorted_owner[:-1]])
-    rank = np.arange(len(owner)) - np.repeat(first, np.diff(np.r_[first, len(owner)]))
-    return np.asarray(order[rank < most])
+    first_index = np.flatnonzero(np.r_[True, sorted_owner[1:] != sorted_owner[:-1]])
+    rank = np.arange(len(owner)) - np.repeat(first_index, np.diff(np.r_[first_index, len(owner)]))
+    return np.asarray(order[rank < count])
 
 
 def objective_ascent(
@@ -378,17 +397,19 @@ def objective_ascent(
     margin: float = 0.0,
     free: bool = False,
 ) -> Ascent:
-    """The compiled ascent of an objective, made once for each task, clearance and margin; free: it keeps no pose.
+    """Return the compiled ascent of an objective, made once for each task, clearance and margin; free: without a pose.
 
     Raises:
         TaskError: A task other than the objective's own.
     """
-    own = objective.own_task
-    if own is not None and task is not None and not own.same_rows(task):
-        raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
-    chosen = own or task or as_task(objective.arm, "pose")
-    made: dict[object, Ascent] = objective._ascents
+    own_task = objective.own_task
+    if own_task is not None and task is not None and not own_task.same_rows(task):
+        raise TaskError(
+            f"{objective.name} is defined for the task '{own_task.name}', not for '{task.name}'; make it for that task"
+        )
+    chosen = own_task or task or as_task(objective.arm, "pose")
+    cached_ascents: dict[object, Ascent] = objective._compiled_ascents
     key = (chosen.rows.tobytes(), chosen.frame, clearance, margin, free)
-    if key not in made:
-        made[key] = Ascent(objective, chosen, clearance, margin, free)
-    return made[key]
+    if key not in cached_ascents:
+        cached_ascents[key] = Ascent(objective, chosen, clearance, margin, free)
+    return cached_ascents[key]

@@ -1,4 +1,4 @@
-"""All configurations of a pose: the self-motion manifold, traced where it is made of curves, sampled where it is more.
+"""All configurations of a pose: the self-motion manifold, traced if it consists of curves, sampled in higher dimension.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, section on self-motion manifolds: follow the null vector of the Jacobian
 (predictor) and go back to the pose with Newton steps (corrector), from configurations that inverse kinematics found.
@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, target_pose
@@ -24,16 +24,16 @@ from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError, TaskError
 from holdfast.files.output import write_table
-from holdfast.notice import each, says
+from holdfast.notice import reports_progress, track
 from holdfast.result import Result
 from holdfast.solvers import joint_space
-from holdfast.solvers.clear_parts import Clear
-from holdfast.solvers.curve_tracing import Component, Tracer
+from holdfast.solvers.clear_parts import CurveConstraint
+from holdfast.solvers.curve_tracing import Component, ManifoldTracer
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-STARTS = 128
+TRACING_STARTS = 128
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -74,33 +74,35 @@ class SelfMotion(Result):
         return None if self.clearance is None else self.clearance.cell
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        lines = [f"{self.arm.title}, task {self.task.name}: {self._found()}"]
-        lines += [f"curve {k + 1}: {c.length:.3g} rad, {self.ends(k)}" for k, c in enumerate(self.components)]
+        """Describe the configurations in sentences."""
+        lines = [f"{self.arm.title}, task {self.task.name}: {self._summarise()}"]
+        lines += [
+            f"curve {index + 1}: {curve.length:.3g} rad, {self.ends(index)}" for index, curve in enumerate(self.components)
+        ]
         if self.components and not self.arm.prismatic.all():
-            most = np.count_nonzero(~self.arm.prismatic)
-            lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {most} whole turns")
+            revolute_count = np.count_nonzero(~self.arm.prismatic)
+            lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {revolute_count} whole turns")
         for joint, arcs in zip(self.arm.joints, self.bounds or [], strict=False):
             factor, unit = joint.shown
-            ranges = " or ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
+            ranges = " or ".join(f"{factor * lower:.2f} to {factor * upper:.2f} {unit}" for lower, upper in arcs)
             lines.append(f"{joint.name} may lock {f'at {ranges}' if arcs else 'nowhere'} without losing the target")
         return lines
 
-    def _found(self) -> str:
+    def _summarise(self) -> str:
         if self.status == Status.INFEASIBLE and self.clearance is not None:
             return f"at every configuration found the arm {self.clearance.too_close(self.margin)}"
         if self.status != Status.OK:
             return self.status.sentence
         if self.redundancy > 1:
             return f"{len(self.q)} configurations of a manifold of dimension {self.redundancy}, {self.spacing:.3g} rad apart"
-        closed = sum(c.closed for c in self.components)
-        lengths = ", ".join(f"{c.length:.3g}" for c in self.components)
+        closed = sum(curve.closed for curve in self.components)
+        lengths = ", ".join(f"{curve.length:.3g}" for curve in self.components)
         plural = "s" if len(self.components) != 1 else ""
         return f"{len(self.components)} curve{plural} of configurations, {closed} closed, lengths {lengths} rad"
 
     @property
     def size(self) -> float:
-        """The largest sum over the revolute joints of the measure of angles that each takes on one curve; 0 without curves.
+        """The largest sum over the revolute joints of the measure of angles of each on one curve; 0 without curves.
 
         With n revolute joints at most 2 pi n: then the pose stays within reach whatever joint locks, at whatever angle, and
         all these configurations lie on one curve.
@@ -113,8 +115,8 @@ class SelfMotion(Result):
         if self.redundancy > 1:
             raise TaskError(f"with a redundancy of {self.redundancy} self-motions are no curves, and their size is not defined")
         turning = ~self.arm.prismatic
-        each = [np.minimum(c.ranges[turning], 2 * np.pi).sum() for c in self.components]
-        return float(max(each, default=0.0))
+        curve_sizes = [np.minimum(curve.ranges[turning], 2 * np.pi).sum() for curve in self.components]
+        return float(max(curve_sizes, default=0.0))
 
     @property
     def full(self) -> bool:
@@ -122,16 +124,16 @@ class SelfMotion(Result):
         return bool(self.size >= 2 * np.pi * np.count_nonzero(~self.arm.prismatic) * (1 - 1e-12))
 
     def ends(self, k: int) -> str:
-        """What ends curve k, for people."""
-        c = self.components[k]
-        if c.closed:
+        """Describe the ends of curve k."""
+        curve = self.components[k]
+        if curve.closed:
             return "closed"
         names = self.arm.joint_names
-        limits = ["singular configuration" if i is None else f"limit of {names[i]}" for i in c.bounded_by]
-        return " to ".join(pair or limit for pair, limit in zip(c.barred_by, limits, strict=True))
+        limits = ["singular configuration" if joint is None else f"limit of {names[joint]}" for joint in curve.bounded_by]
+        return " to ".join(pair or limit for pair, limit in zip(curve.barred_by, limits, strict=True))
 
     def arcs(self) -> list[list[tuple[float, float]]]:
-        """For each joint the values that it takes on the curves, ``(low, high)`` each, rad or m: where it may lock.
+        """Return the values of each joint on the curves, ``(low, high)`` each, rad or m, at which it may lock.
 
         Up to curves that no start found. Joints that turn without limits begin within -pi to pi.
 
@@ -143,10 +145,13 @@ class SelfMotion(Result):
                 f"with a redundancy of {self.redundancy} configurations are samples, which do not say where a joint may lock; "
                 "leave the clearance and the cell out"
             )
-        turning = joint_space.turning(self.arm)
+        turning = joint_space.is_unlimited(self.arm)
         return [
-            _joined([(float(c.q[:, k].min()), float(c.q[:, k].max())) for c in self.components], bool(turning[k]))
-            for k in range(self.arm.n)
+            _join_intervals(
+                [(float(curve.q[:, joint].min()), float(curve.q[:, joint].max())) for curve in self.components],
+                bool(turning[joint]),
+            )
+            for joint in range(self.arm.n)
         ]
 
     def to_csv(self, file: str | Path, degrees: bool = False) -> Path:
@@ -156,15 +161,15 @@ class SelfMotion(Result):
             StoreError: It cannot be written.
         """
         turning = degrees & ~self.arm.prismatic
-        units = ["deg" if turns else joint.unit for turns, joint in zip(turning, self.arm.joints, strict=True)]
-        sizes = [len(c.q) for c in self.components] or [len(self.q)]
+        units = ["deg" if is_angle else joint.unit for is_angle, joint in zip(turning, self.arm.joints, strict=True)]
+        sizes = [len(component.q) for component in self.components] or [len(self.q)]
         curve = np.repeat(np.arange(1, len(sizes) + 1), sizes)
         rows = np.column_stack([curve, np.where(turning, np.rad2deg(self.q), self.q)])
         header = ["curve", *(f"{name}_{unit}" for name, unit in zip(self.arm.joint_names, units, strict=True))]
         return write_table(file, "points", header, rows, ["%d", *["%.12g"] * self.arm.n])
 
 
-@checked
+@check_arguments
 def self_motion(
     arm: Arm,
     target: ArrayLike,
@@ -172,12 +177,12 @@ def self_motion(
     *,
     spacing: float = 0.05,
     seed: int = 0,
-    starts: int = STARTS,
+    starts: int = TRACING_STARTS,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> SelfMotion:
-    """All configurations of a target that were found, within the joint limits; ``fibres`` takes many poses.
+    """Find all configurations of a target, within the joint limits; ``fibres`` takes many poses.
 
     Args:
         arm: The arm.
@@ -197,9 +202,10 @@ def self_motion(
 
     Source: Goel et al. 2005.
     """
-    rows = as_task(arm, task)
+    resolved_task = as_task(arm, task)
     options = {"clearance": clearance, "cell": cell, "margin": margin}
-    return fibres(arm, target_pose(rows, target), rows, spacing=spacing, seed=seed, starts=starts, **options)[0]  # type: ignore[arg-type]
+    pose = target_pose(resolved_task, target)
+    return fibres(arm, pose, resolved_task, spacing=spacing, seed=seed, starts=starts, **options)[0]  # type: ignore[arg-type]
 
 
 def fibres(
@@ -209,13 +215,13 @@ def fibres(
     *,
     spacing: float = 0.05,
     seed: int = 0,
-    starts: int = STARTS,
+    starts: int = TRACING_STARTS,
     follow: bool = False,
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> list[SelfMotion]:
-    """The self-motion manifold of each pose, within the joint limits.
+    """Find the self-motion manifold of each pose, within the joint limits.
 
     With one degree of redundancy every curve on which a start of inverse kinematics converges is traced, both ways, until it
     closes or a joint reaches its limit. Curves that no start converges to are missed: more starts find shorter ones. With
@@ -248,23 +254,31 @@ def fibres(
     Source: Goel et al. 2005.
     """
     targets = check_poses(poses)
-    rows = as_task(arm, task)
-    if arm.n <= rows.m:
+    resolved_task = as_task(arm, task)
+    if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows: without redundancy a pose has no "
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
+            f"redundancy a pose has no "
             "self-motion; choose a task with fewer rows"
         )
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    kept = chosen_clearance(arm, clearance, cell, looks=False)
-    engine = tracer(arm, rows)
-    options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": follow, "clearance": kept, "margin": margin}
-    return traced(engine, rows, targets, **options)  # type: ignore[arg-type]
+    resolved_clearance = chosen_clearance(arm, clearance, cell, looks=False)
+    engine = make_tracer(arm, resolved_task)
+    options = {
+        "spacing": spacing,
+        "seed": seed,
+        "starts": starts,
+        "follow": follow,
+        "clearance": resolved_clearance,
+        "margin": margin,
+    }
+    return trace_self_motions(engine, resolved_task, targets, **options)  # type: ignore[arg-type]
 
 
-@says("tracing self-motions")
-def traced(
-    engine: Tracer,
+@reports_progress("tracing self-motions")
+def trace_self_motions(
+    engine: ManifoldTracer,
     task: Task,
     targets: Array,
     *,
@@ -275,73 +289,83 @@ def traced(
     clearance: Clearance | None,
     margin: float,
 ) -> list[SelfMotion]:
-    """As :func:`fibres`, of what has been read; joints that the tracer holds stay where it does."""
+    """Trace as :func:`fibres`, of arguments that are already read; fixed joints of the tracer stay fixed."""
     if not (np.isfinite(spacing) and 0 < spacing <= 0.5):
         raise InputError(f"spacing is {spacing:g}; it must be above 0 and at most 0.5 rad")
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
     arm = engine.arm
-    clear = None if clearance is None or not clearance.pair_names else Clear.of(clearance, margin)
+    constraint = None if clearance is None or not clearance.pair_names else CurveConstraint.from_clearance(clearance, margin)
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
-    owner, q = engine.seeds(targets, np.flatnonzero(finite), seed, starts)
+    owner, q = engine.find_seeds(targets, np.flatnonzero(finite), seed, starts)
     components: list[list[Component]] = [[] for _ in targets]
-    if engine.free == 1:
-        engine.curves(targets, owner, q, spacing, components)
+    if engine.dimension == 1:
+        engine.trace_curves(targets, owner, q, spacing, components)
         if follow:
-            engine.passed_on(targets, spacing, components)
-        there = [bool(found) for found in components]
-        if clear is not None:
+            engine.propagate_curves(targets, spacing, components)
+        was_found = [bool(pose_curves) for pose_curves in components]
+        if constraint is not None:
             components = [
-                [part for c in found for part in clear.parts(engine, t, c)]
-                for t, found in zip(targets, components, strict=True)
+                [part for curve in pose_curves for part in constraint.find_free_parts(engine, target, curve)]
+                for target, pose_curves in zip(targets, components, strict=True)
             ]
-        points = [np.concatenate([c.q for c in found]) if found else np.empty((0, arm.n)) for found in components]
+        points = [
+            np.concatenate([curve.q for curve in pose_curves]) if pose_curves else np.empty((0, arm.n))
+            for pose_curves in components
+        ]
     else:
-        points = [engine.sample(t, q[owner == i], spacing) for i, t in enumerate(each("poses", targets, whole=True))]
-        there = [bool(len(p)) for p in points]
-        points = points if clear is None else [p[clear.keeps(p)] for p in points]
-    found_any = [
-        Status.OK if len(p) else Status.INFEASIBLE if was else Status.NOT_FOUND for p, was in zip(points, there, strict=True)
+        points = [
+            engine.sample_manifold(target, q[owner == index], spacing)
+            for index, target in enumerate(track("poses", targets, whole=True))
+        ]
+        was_found = [bool(len(pose_points)) for pose_points in points]
+        points = points if constraint is None else [pose_points[constraint.is_satisfied(pose_points)] for pose_points in points]
+    statuses = [
+        Status.OK if len(pose_points) else Status.INFEASIBLE if had_points else Status.NOT_FOUND
+        for pose_points, had_points in zip(points, was_found, strict=True)
     ]
-    status = [s if ok else Status.BAD_INPUT for s, ok in zip(found_any, finite, strict=True)]
-    common = {"arm": arm, "task": task, "redundancy": engine.free, "spacing": spacing}
+    status = [pose_status if is_finite else Status.BAD_INPUT for pose_status, is_finite in zip(statuses, finite, strict=True)]
+    common = {"arm": arm, "task": task, "redundancy": engine.dimension, "spacing": spacing}
     common |= {"clearance": clearance, "margin": margin}
     return [
-        SelfMotion(pose=t, components=tuple(c), q=p, status=s, **common)  # type: ignore[arg-type]
-        for t, c, p, s in zip(targets, components, points, status, strict=True)
+        SelfMotion(pose=target, components=tuple(curve), q=pose_points, status=pose_status, **common)  # type: ignore[arg-type]
+        for target, curve, pose_points, pose_status in zip(targets, components, points, status, strict=True)
     ]
 
 
-def tracer(arm: Arm, task: Task, held: Mapping[int, float] | None = None) -> Tracer:
-    """The predictor and corrector of an arm and task, compiled once; with joints held at values, once for as many."""
-    engine = _tracer(arm, tuple(map(tuple, task.rows.tolist())), task.frame, len(held or {}))
-    return engine.holding(held) if held else engine
+def make_tracer(arm: Arm, task: Task, fixed_joints: Mapping[int, float] | None = None) -> ManifoldTracer:
+    """Return the predictor and corrector of an arm and task, compiled once; for fixed joints once for each number of them."""
+    engine = _cached_tracer(arm, tuple(map(tuple, task.rows.tolist())), task.frame, len(fixed_joints or {}))
+    return engine.with_fixed_joints(fixed_joints) if fixed_joints else engine
 
 
-def _joined(spans: list[tuple[float, float]], circle: bool) -> list[tuple[float, float]]:
-    """Intervals that overlap as one; on a circle those that begin beyond -pi to pi are moved there by whole turns."""
-    turn = 2 * np.pi
-    if circle:
-        if any(high - low >= turn for low, high in spans):
+def _join_intervals(spans: list[tuple[float, float]], is_periodic: bool) -> list[tuple[float, float]]:
+    """Join intervals that overlap; on a circle intervals that begin outside -pi to pi are moved there by full turns."""
+    period = 2 * np.pi
+    if is_periodic:
+        if any(upper - lower >= period for lower, upper in spans):
             return [(-np.pi, np.pi)]
         spans = [
-            (low - np.floor((low + np.pi) / turn) * turn, high - np.floor((low + np.pi) / turn) * turn) for low, high in spans
+            (lower - np.floor((lower + np.pi) / period) * period, upper - np.floor((lower + np.pi) / period) * period)
+            for lower, upper in spans
         ]
-        spans += [(-np.pi, high - turn) for _, high in spans if high > np.pi]
-    found: list[tuple[float, float]] = []
-    for low, high in sorted(spans):
-        if found and low <= found[-1][1]:
-            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        spans += [(-np.pi, upper - period) for _, upper in spans if upper > np.pi]
+    joined: list[tuple[float, float]] = []
+    for lower, upper in sorted(spans):
+        if joined and lower <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(upper, joined[-1][1]))
         else:
-            found.append((low, high))
-    if circle and len(found) > 1 and found[-1][1] >= found[0][0] + turn:
-        found[-1] = (found[-1][0], max(found[-1][1], found[0][1] + turn))
-        found.pop(0)
-    if circle and len(found) == 1 and found[0][1] - found[0][0] >= turn:
+            joined.append((lower, upper))
+    if is_periodic and len(joined) > 1 and joined[-1][1] >= joined[0][0] + period:
+        joined[-1] = (joined[-1][0], max(joined[-1][1], joined[0][1] + period))
+        joined.pop(0)
+    if is_periodic and len(joined) == 1 and joined[0][1] - joined[0][0] >= period:
         return [(-np.pi, np.pi)]
-    return found
+    return joined
 
 
 @lru_cache(maxsize=16)
-def _tracer(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"], holds: int) -> Tracer:
-    return Tracer(arm, Task("task", np.array(rows), frame), holds)
+def _cached_tracer(
+    arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"], fixed_count: int
+) -> ManifoldTracer:
+    return ManifoldTracer(arm, Task("task", np.array(rows), frame), fixed_count)

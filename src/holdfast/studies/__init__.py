@@ -1,4 +1,4 @@
-"""What a study may compute: assessments, maps of convergence, workspaces and task banks, from a study file."""
+"""Studies from a study file: assessments, convergence maps, workspaces, and task banks."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""How long a study would take and how large it would be, from trying a little of each cell."""
+"""Estimate the duration and size of a study by computing a small part of each cell."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.engine.job import Cell
+from holdfast.engine.job import SweepCell
 from holdfast.engine.store import Store
-from holdfast.kernels.threads import pool
+from holdfast.kernels.threads import shared_pool
 
-_ENOUGH_S = 0.2  # of processor time: what whole chunks are tried for, so that one slow chunk does not decide
-_CHUNKS_WRITTEN = 8  # chunks written to a folder for a while, to know what that takes
+_MIN_TRIAL_S = 0.2  # of processor time: what whole chunks are tried for, so that one slow chunk does not decide
+_TRIAL_WRITES = 8  # chunks written to a folder for a while, to know what that takes
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """Of one cell.
+class CellEstimate:
+    """Estimated cost of one cell.
 
     Attributes:
         cell: The cell.
@@ -32,14 +32,15 @@ class Estimate:
         tried: Rows that were computed to know.
     """
 
-    cell: Cell
+    cell: SweepCell
     seconds: float
     size: int
     tried: int
 
 
-def estimates(cells: Sequence[Cell], seed: int, most: float = 3.0) -> Iterator[Estimate]:
-    """Try each cell: few rows, more of them while that takes less than ``most`` seconds, and whole chunks if it does.
+def estimate_cells(cells: Sequence[SweepCell], seed: int, max_seconds: float = 3.0) -> Iterator[CellEstimate]:
+    """Try each cell: few rows, more of them while that takes less than ``max_seconds``, and whole chunks if that is fast
+    enough.
 
     The first rows pay once for compilation, which does not count; writing a chunk counts. Times are processor time, which
     other programs do not lengthen.
@@ -49,63 +50,67 @@ def estimates(cells: Sequence[Cell], seed: int, most: float = 3.0) -> Iterator[E
     """
     for cell in cells:
         cell.job.prepare(alone=False)
-        rows, last = min(8, cell.chunk, cell.rows), min(cell.chunk, cell.rows)
-        _try(cell, min(1, rows), seed)
-        _try(cell, rows, seed)
-        tried = [(rows, _try(cell, rows, seed)[0])]
+        rows, most_rows = min(8, cell.chunk, cell.rows), min(cell.chunk, cell.rows)
+        _time_rows(cell, min(1, rows), seed)
+        _time_rows(cell, rows, seed)
+        tried = [(rows, _time_rows(cell, rows, seed)[0])]
         columns: Mapping[str, NDArray[Any]] = {}
-        while rows < last and 4 * tried[-1][1] <= most:
-            rows = min(4 * rows, last)
-            seconds, columns = _try(cell, rows, seed)
+        while rows < most_rows and 4 * tried[-1][1] <= max_seconds:
+            rows = min(4 * rows, most_rows)
+            seconds, columns = _time_rows(cell, rows, seed)
             tried.append((rows, seconds))
-        if rows == last:
-            tried[-1] = rows, _seconds_of_a_chunk(cell, seed, tried[-1][1])
-        compute = _extended(tried, cell)
-        each = sum(np.dtype(c.dtype).itemsize * math.prod(n for _, n in c.dims) for c in cell.job.columns())
-        yield Estimate(cell, compute + cell.count * _seconds_of_a_write(cell, columns), each * cell.stored[0], rows)
+        if rows == most_rows:
+            tried[-1] = rows, _time_chunk(cell, seed, tried[-1][1])
+        compute = _extrapolate_seconds(tried, cell)
+        row_bytes = sum(
+            np.dtype(column.dtype).itemsize * math.prod(length for _, length in column.dims) for column in cell.job.columns()
+        )
+        yield CellEstimate(cell, compute + cell.count * _time_write(cell, columns), row_bytes * cell.stored_shape[0], rows)
 
 
-def _try(cell: Cell, rows: int, seed: int, number: int = 0) -> tuple[float, Mapping[str, NDArray[Any]]]:
+def _time_rows(cell: SweepCell, rows: int, seed: int, number: int = 0) -> tuple[float, Mapping[str, NDArray[Any]]]:
     """Compute a number of rows and return the processor time in seconds, and the columns."""
-    chunk = cell.smaller(rows).part(0, seed) if number == 0 else cell.part(number, seed)
+    chunk = cell.with_rows(rows).chunk_at(0, seed) if number == 0 else cell.chunk_at(number, seed)
 
-    def timed() -> tuple[float, Mapping[str, NDArray[Any]]]:
-        begin = time.thread_time()
+    def run_timed() -> tuple[float, Mapping[str, NDArray[Any]]]:
+        start_time = time.thread_time()
         columns = cell.job.run(chunk)
-        return time.thread_time() - begin, columns
+        return time.thread_time() - start_time, columns
 
     # In one thread of the pool, as when the study runs: what is compiled in the background meanwhile does not count.
-    return pool().submit(timed).result()
+    return shared_pool().submit(run_timed).result()
 
 
-def _seconds_of_a_chunk(cell: Cell, seed: int, first: float) -> float:
+def _time_chunk(cell: SweepCell, seed: int, first_seconds: float) -> float:
     """Compute whole chunks until the median of their processor times can be trusted."""
-    times, full = [first], cell.rows // cell.chunk
-    while len(times) < full and (len(times) < 3 or sum(times) < _ENOUGH_S):
-        times.append(_try(cell, cell.chunk, seed, len(times))[0])
+    times, full_chunks = [first_seconds], cell.rows // cell.chunk
+    while len(times) < full_chunks and (len(times) < 3 or sum(times) < _MIN_TRIAL_S):
+        times.append(_time_rows(cell, cell.chunk, seed, len(times))[0])
     return float(np.median(times))  # the first one may have waited for what is compiled
 
 
-def _seconds_of_a_write(cell: Cell, columns: Mapping[str, NDArray[Any]]) -> float:
+def _time_write(cell: SweepCell, columns: Mapping[str, NDArray[Any]]) -> float:
     """Write a chunk several times into a folder that is removed, and return the processor time of one."""
     if not columns:
         return 0.0
     size = len(next(iter(columns.values())))
     with TemporaryDirectory() as folder:
-        store = Store.create(Path(folder) / "tried", {}, cell.job.columns(), rows=_CHUNKS_WRITTEN * size, chunk=size)
-        with store.writing():
-            clock = [time.process_time()]
-            for k in range(_CHUNKS_WRITTEN):
-                store.write(k, columns)
-                clock.append(time.process_time())
-            return float(np.median(np.diff(clock)))
+        store = Store.create(Path(folder) / "tried", {}, cell.job.columns(), rows=_TRIAL_WRITES * size, chunk=size)
+        with store.lock_for_writing():
+            clock_times = [time.process_time()]
+            for number in range(_TRIAL_WRITES):
+                store.commit_chunk(number, columns)
+                clock_times.append(time.process_time())
+            return float(np.median(np.diff(clock_times)))
 
 
-def _extended(tried: Sequence[tuple[int, float]], cell: Cell) -> float:
-    """Seconds of all chunks of a cell, from rows and seconds of the tries: so much for a chunk, and so much for each row."""
-    (first, least), (rows, seconds) = tried[0], tried[-1]
-    if rows == first:
+def _extrapolate_seconds(tried: Sequence[tuple[int, float]], cell: SweepCell) -> float:
+    """Return the seconds of all chunks of a cell, from rows and seconds of the trials: a constant time per chunk
+    and per row.
+    """
+    (first_rows, first_seconds), (rows, seconds) = tried[0], tried[-1]
+    if rows == first_rows:
         return seconds * cell.rows / rows
-    a_row = max(seconds - least, 0.0) / (rows - first)
-    a_chunk = max(seconds - a_row * rows, 0.0)
-    return a_chunk * cell.count + a_row * cell.rows
+    per_row = max(seconds - first_seconds, 0.0) / (rows - first_rows)
+    per_chunk = max(seconds - per_row * rows, 0.0)
+    return per_chunk * cell.count + per_row * cell.rows

@@ -1,4 +1,4 @@
-"""Which arm for what: for each question of a study the ranking of the arms, and whether the first is really ahead."""
+"""Rank the arms for each question of a study, and show whether the first arm is significantly ahead."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from holdfast.assessment.answer import EMPTY
+from holdfast.assessment.answer import MIN_INFORMATIVE_PROBABILITY
 from holdfast.probability.intervals import Interval
-from holdfast.studies.results import Assessed, Driven
-from holdfast.words import as_given, number
+from holdfast.studies.results import AssessedCell, DrivenCell
+from holdfast.words import format_as_given, format_number
 
 Key = tuple[str, str]  # index and task
 Ended = tuple[str, str, str]  # arm, task and failures
@@ -17,8 +17,8 @@ _NOT_ZERO = ("mean-singular-value",)  # at a singular configuration
 
 
 @dataclass(frozen=True)
-class Standing:
-    """The ranking of the arms for one question.
+class ArmRanking:
+    """Ranking of the arms for one question.
 
     Attributes:
         question: For people, short.
@@ -41,97 +41,118 @@ class Standing:
     worst: str = ""
 
     @property
-    def ranked(self) -> tuple[tuple[str, Interval], ...]:
-        """The entries, best first."""
-        return tuple(sorted(self.entries, key=lambda e: (-e[1].value, e[0] in self.ended)))
+    def ranked_entries(self) -> tuple[tuple[str, Interval], ...]:
+        """Entries, best first."""
+        return tuple(sorted(self.entries, key=lambda entry: (-entry[1].value, entry[0] in self.ended)))
 
     @property
-    def level(self) -> list[str]:
-        """The first, and the arms whose interval overlaps its own; an arm that is 0 by structure is level with none."""
-        first, top = self.ranked[0]
-        return [name for name, p in self.ranked if name == first or (p.high >= top.low and name not in self.ended)]
+    def tied_with_first(self) -> list[str]:
+        """First arm, and the arms whose interval overlaps its interval, except arms that are 0 by structure."""
+        first_name, first_interval = self.ranked_entries[0]
+        return [
+            name
+            for name, interval in self.ranked_entries
+            if name == first_name or (interval.high >= first_interval.low and name not in self.ended)
+        ]
 
     @property
-    def empty(self) -> bool:
-        """No arm has a share worth mentioning."""
-        return self.ranked[0][1].value < EMPTY
+    def is_uninformative(self) -> bool:
+        """True if no arm has a probability worth reporting."""
+        return self.ranked_entries[0][1].value < MIN_INFORMATIVE_PROBABILITY
 
 
-def standings(
-    found: Sequence[Assessed], laws: Sequence[Driven], asked: Mapping[Key, float], ended: Mapping[Ended, str] | None = None
-) -> list[Standing]:
-    """One for each index and task, as found and optimised, and for each law.
+def rank_arms(
+    assessments: Sequence[AssessedCell],
+    laws: Sequence[DrivenCell],
+    thresholds: Mapping[Key, float],
+    fatal_locks: Mapping[Ended, str] | None = None,
+) -> list[ArmRanking]:
+    """Return one ranking for each index and task, as found and optimised, and for each law.
 
     Args:
-        found: Indices over regions.
+        assessments: Indices over regions.
         laws: Motions under laws.
-        asked: Thresholds.
-        ended: Joints, as text, whose lock ends a task in every configuration, where there are any.
+        thresholds: Thresholds.
+        fatal_locks: Joints, as text, whose lock ends a task in every configuration, where there are any.
     """
-    out: list[Standing] = []
-    tasks = len({task for _, task in asked}) > 1
-    for (index, task), h in asked.items():
-        mine = [a for a in found if (a.labels["index"], a.labels["task"]) == (index, task)]
-        if not mine:
+    rankings: list[ArmRanking] = []
+    tasks = len({task for _, task in thresholds}) > 1
+    for (index, task), threshold in thresholds.items():
+        own = [cell for cell in assessments if (cell.labels["index"], cell.labels["task"]) == (index, task)]
+        if not own:
             continue
-        sign = "≥" if mine[0].plan.index.better == "larger" else "≤"
-        asks = f"{mine[0].plan.index.name} {sign} {as_given(h)}" + (f", {task}" if tasks else "")
+        sign = "≥" if own[0].plan.index.better == "larger" else "≤"
+        condition = f"{own[0].plan.index.name} {sign} {format_as_given(threshold)}" + (f", {task}" if tasks else "")
         for optimised in (False, True):
-            shares = [(a, a.interval(h, optimised)) for a in mine]
-            named = [(place(a.labels, [x.labels for x in mine]), a, p) for a, p in shares if p is not None]
-            entries = [(name, p) for name, _, p in named]
+            intervals = [(cell, cell.interval(threshold, optimised)) for cell in own]
+            candidates = [
+                (label_arm(cell.labels, [other.labels for other in own]), cell, interval)
+                for cell, interval in intervals
+                if interval is not None
+            ]
+            entries = [(name, interval) for name, _, interval in candidates]
             # A mean of singular values is not 0 where one of them is, and a threshold of 0 is met there too.
-            hit = index not in _NOT_ZERO and (h > 0 or sign == "≤")
-            over = {name: why for name, a, _ in named if hit and (why := (ended or {}).get(row_of(a))) is not None}
+            structure_matters = index not in _NOT_ZERO and (threshold > 0 or sign == "≤")
+            fatal_by_arm = {
+                name: fatal_text
+                for name, cell, _ in candidates
+                if structure_matters and (fatal_text := (fatal_locks or {}).get(make_structure_key(cell))) is not None
+            }
             if entries:
-                counts = [a.plain.samples for a in mine if a.plain is not None]
-                about = f"{counted_range(counts)} poses"
-                question = asks + ", best configuration" * optimised
-                unit = said(mine[0].plan.index.unit, "")
-                first = _best_median(named, over, optimised)
-                median = () if first is None else (first[0], f"{number(first[1])}{said(mine[0].plan.index.unit)}")
-                worst = "" if first is None or first[2].worst is None else first[2].worst[0]
-                out.append(Standing(question, about, tuple(entries), unit=unit, ended=over, median=median, worst=worst))
-    for law, task in dict.fromkeys((d.labels["law"], d.labels["task"]) for d in laws):
-        mine_ = [d for d in laws if (d.labels["law"], d.labels["task"]) == (law, task)]
-        entries = [(d.labels["arm"], d.any) for d in mine_]
-        more = f", {task}" if len({d.labels["task"] for d in laws}) > 1 else ""
-        joints = counted_range([len(d.reaches) - 1 for d in mine_])
-        about = f"{counted_range([d.motions for d in mine_])} motions × {joints} joints"
-        out.append(Standing(f"converges under {law}{more}", about, tuple(entries), law + more))
-    return out
+                counts = [cell.plain.samples for cell in own if cell.plain is not None]
+                about = f"{format_count_range(counts)} poses"
+                question = condition + ", best configuration" * optimised
+                unit = format_unit(own[0].plan.index.unit, "")
+                best_entry = _find_best_median(candidates, fatal_by_arm, optimised)
+                median = (
+                    ()
+                    if best_entry is None
+                    else (best_entry[0], f"{format_number(best_entry[1])}{format_unit(own[0].plan.index.unit)}")
+                )
+                worst = "" if best_entry is None or best_entry[2].worst is None else best_entry[2].worst[0]
+                rankings.append(
+                    ArmRanking(question, about, tuple(entries), unit=unit, ended=fatal_by_arm, median=median, worst=worst)
+                )
+    for law, task in dict.fromkeys((driven.labels["law"], driven.labels["task"]) for driven in laws):
+        law_cells = [driven for driven in laws if (driven.labels["law"], driven.labels["task"]) == (law, task)]
+        entries = [(driven.labels["arm"], driven.mean_fraction) for driven in law_cells]
+        task_suffix = f", {task}" if len({driven.labels["task"] for driven in laws}) > 1 else ""
+        joints = format_count_range([len(driven.reaches) - 1 for driven in law_cells])
+        about = f"{format_count_range([driven.motions for driven in law_cells])} motions × {joints} joints"
+        rankings.append(ArmRanking(f"converges under {law}{task_suffix}", about, tuple(entries), law + task_suffix))
+    return rankings
 
 
-def row_of(a: Assessed) -> Ended:
-    """Arm, task and failures."""
-    return a.labels["arm"], a.labels["task"], a.labels.get("failures", "single")
+def make_structure_key(cell: AssessedCell) -> Ended:
+    """Return arm, task, and failures of a cell."""
+    return cell.labels["arm"], cell.labels["task"], cell.labels.get("failures", "single")
 
 
-def _best_median(
-    named: Sequence[tuple[str, Assessed, Interval]], over: Mapping[str, str], optimised: bool
-) -> tuple[str, float, Assessed] | None:
-    """Of the arms that are not 0 by structure the one with the best median over the reached poses."""
+def _find_best_median(
+    candidates: Sequence[tuple[str, AssessedCell, Interval]], fatal_by_arm: Mapping[str, str], optimised: bool
+) -> tuple[str, float, AssessedCell] | None:
+    """Return the arm with the best median over the reached poses, among arms that are not 0 by structure."""
     medians = []
-    for name, a, _ in named:
-        d = a.optimised if optimised else a.plain
-        if d is not None and d.reached and name not in over:
-            medians.append((name, float(d.quantile(0.5)), a))
-    choose = max if named[0][1].plan.index.better == "larger" else min
+    for name, cell, _ in candidates:
+        distribution = cell.optimised if optimised else cell.plain
+        if distribution is not None and distribution.reached and name not in fatal_by_arm:
+            medians.append((name, float(distribution.quantile(0.5)), cell))
+    choose = max if candidates[0][1].plan.index.better == "larger" else min
     return choose(medians, key=lambda entry: entry[1]) if medians else None
 
 
-def place(labels: Mapping[str, Any], among: Sequence[Mapping[str, Any]]) -> str:
-    """An arm, and where and with which failures if it is there more than once."""
-    twice = sum(other["arm"] == labels["arm"] for other in among) > 1
-    more = f", {labels.get('region', '')}, {labels.get('failures', 'single')}" if twice else ""
-    return f"{labels['arm']}{more}"
+def label_arm(labels: Mapping[str, Any], among: Sequence[Mapping[str, Any]]) -> str:
+    """Return the name of an arm, with region and failures if the arm occurs more than once."""
+    is_repeated = sum(other["arm"] == labels["arm"] for other in among) > 1
+    suffix = f", {labels.get('region', '')}, {labels.get('failures', 'single')}" if is_repeated else ""
+    return f"{labels['arm']}{suffix}"
 
 
-def counted_range(counts: Sequence[int]) -> str:
-    """``2,000``, or ``1,900 to 2,000``."""
-    return " to ".join(f"{c:,}" for c in dict.fromkeys((min(counts), max(counts))))
+def format_count_range(counts: Sequence[int]) -> str:
+    """Format a range of counts: ``2,000``, or ``1,900 to 2,000``."""
+    return " to ".join(f"{count:,}" for count in dict.fromkeys((min(counts), max(counts))))
 
 
-def said(unit: str, before: str = " ") -> str:
-    """A unit behind a number."""
-    return "" if unit in ("", "1") else f"{before}{unit}"
+def format_unit(unit: str, prefix: str = " ") -> str:
+    """Format a unit after a number."""
+    return "" if unit in ("", "1") else f"{prefix}{unit}"

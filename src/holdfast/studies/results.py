@@ -1,4 +1,4 @@
-"""What the cells of a study found, read a chunk at a time, whatever their number."""
+"""Read the results of the cells of a study, a chunk at a time, for any number of chunks."""
 
 from __future__ import annotations
 
@@ -9,137 +9,144 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assessment.answer import ZERO
+from holdfast.assessment.answer import ZERO_INDEX
 from holdfast.assessment.bins import add_chunks
-from holdfast.assessment.plan import Plan
-from holdfast.assessment.rows import Tally
-from holdfast.convergence.maps import NONE, shared
+from holdfast.assessment.plan import AssessmentPlan
+from holdfast.assessment.rows import AssessmentTally
+from holdfast.convergence.maps import NO_CONFIGURATION, shared
 from holdfast.convergence.origins import mean_intervals, mean_over
 from holdfast.engine.store import Store
 from holdfast.engine.study import Study
 from holdfast.errors import StoreError
 from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Difference, Interval
-from holdfast.simulation.runs import Outcome
+from holdfast.simulation.runs import RunOutcome
 from holdfast.teleop.trials.recordings import End
 
 Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 
-def chunks(study: Study, cell: int) -> Iterator[Rows]:
-    """The committed chunks of a cell, each checked against its checksum.
+def read_chunks(study: Study, cell: int) -> Iterator[Rows]:
+    """Yield the committed chunks of a cell after comparing their checksums.
 
     Raises:
         StoreError: A chunk is damaged.
     """
-    if not study.folder(cell).exists():
+    if not study.cell_folder(cell).exists():
         return
-    store = study.store(cell)
-    for k in store.done:
+    store = study.cell_store(cell)
+    for chunk in store.committed_chunks:
         try:
-            rows = store.checked(k)
+            rows = store.read_checked(chunk)
         except StoreError as error:
             raise StoreError(
-                f"chunk {k + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged ({error}); give "
+                f"chunk {chunk + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged ({error}); give "
                 f"'holdfast study verify {study.path}', then the run again"
             ) from error
         yield rows
 
 
-_SWEPT = ("index", "task", "region", "failures")
-_LABELS = {"assess": (*_SWEPT, "keep"), "designs": _SWEPT}
+_SWEPT_LABELS = ("index", "task", "region", "failures")
+_LABELS_BY_JOB = {"assess": (*_SWEPT_LABELS, "keep"), "designs": _SWEPT_LABELS}
 
 
-def labels_of(study: Study, cell: int) -> dict[str, Any]:
-    """What a cell is in the sweep.
+def read_labels(study: Study, cell: int) -> dict[str, Any]:
+    """Return the labels of a cell in the sweep.
 
     Raises:
         StoreError: A label is missing.
     """
-    found: dict[str, Any] = study.cells[cell]["labels"]
-    for name in ("job", "arm", *_LABELS.get(str(found.get("job")), ("law", "task"))):
-        if not isinstance(found.get(name), str):
+    labels: dict[str, Any] = study.cells[cell]["labels"]
+    for name in ("job", "arm", *_LABELS_BY_JOB.get(str(labels.get("job")), ("law", "task"))):
+        if not isinstance(labels.get(name), str):
             raise StoreError(
                 f"'{study.path}' is damaged: cell '{study.cells[cell]['name']}' has no label '{name}'; give the study file to "
                 "'holdfast study run' again, which writes it anew"
             )
-    return found
+    return labels
 
 
 @dataclass(frozen=True)
-class Assessed:
-    """An index over a region.
+class AssessedCell:
+    """Result of a cell with an index over a region.
 
     Attributes:
         labels: Of the cell.
         plan: What was computed.
         plain, optimised: Distributions; None where nothing is computed, or was not asked for.
         worst: Name of the failure that is the worst most often, and its share; None if there is none.
-        left: Share of the poses left after a lock, mean over the joints; None if not asked for.
+        survival_fraction: Share of the poses left after a lock, mean over the joints; None if not asked for.
     """
 
     labels: dict[str, Any]
-    plan: Plan
+    plan: AssessmentPlan
     plain: Distribution | None
     optimised: Distribution | None
     worst: tuple[str, float] | None
-    left: float | None
+    survival_fraction: float | None
 
     def interval(self, threshold: float, optimised: bool) -> Interval | None:
-        """Probability that the index meets a threshold."""
-        d = self.optimised if optimised else self.plain
-        if d is None or not d.samples:
+        """Return the probability that the index meets a threshold, or None."""
+        distribution = self.optimised if optimised else self.plain
+        if distribution is None or not distribution.samples:
             return None
         larger = self.plan.index.better == "larger"
-        return d.interval(at_least=threshold) if larger else d.interval(at_most=threshold)
+        return distribution.interval(at_least=threshold) if larger else distribution.interval(at_most=threshold)
 
 
-def assessed(study: Study, cell: int) -> Assessed:
-    """The result of an assessment."""
-    labels = labels_of(study, cell)
-    store = study.store(cell)
-    plan = Plan.stored(store, study.cells[cell]["rows"], rows=labels["keep"] == "rows")
+def read_assessment(study: Study, cell: int) -> AssessedCell:
+    """Read the result of an assessment."""
+    labels = read_labels(study, cell)
+    store = study.cell_store(cell)
+    plan = AssessmentPlan.from_store(store, study.cells[cell]["rows"], rows=labels["keep"] == "rows")
     if labels["keep"] == "counts":
-        return _from_counts(study, cell, labels, plan)
-    tally, some = Tally(plan), False
-    for rows in chunks(study, cell):
+        return _read_counts(study, cell, labels, plan)
+    tally, has_rows = AssessmentTally(plan), False
+    for rows in read_chunks(study, cell):
         tally.add(rows)
-        some = True
-    plain = tally.found.finish() if some else None
-    best = tally.optimised.finish() if some and tally.optimised is not None else None
-    left = None
-    if some and tally.survivors is not None and plain is not None:
-        left = float(np.mean(tally.survivors) / plain.total_weight())
-    return Assessed(labels, plan, plain, best, _worst(plan, tally.found.worst), left)
+        has_rows = True
+    plain = tally.unoptimised.finish() if has_rows else None
+    best = tally.optimised.finish() if has_rows and tally.optimised is not None else None
+    survival_fraction = None
+    if has_rows and tally.survivors is not None and plain is not None:
+        survival_fraction = float(np.mean(tally.survivors) / plain.total_weight())
+    return AssessedCell(labels, plan, plain, best, _find_worst_failure(plan, tally.unoptimised.worst_counts), survival_fraction)
 
 
-def _from_counts(study: Study, cell: int, labels: dict[str, Any], plan: Plan) -> Assessed:
-    parts = add_chunks(plan.index, plan.optimise, chunks(study, cell))
-    found = [counts.finish() if counts.facts[:2].any() else None for counts, _ in parts]
-    return Assessed(labels, plan, found[0], found[1] if plan.optimise else None, _worst(plan, parts[0][1]), None)
+def _read_counts(study: Study, cell: int, labels: dict[str, Any], plan: AssessmentPlan) -> AssessedCell:
+    parts = add_chunks(plan.index, plan.optimise, read_chunks(study, cell))
+    distributions = [counts.finish() if counts.facts[:2].any() else None for counts, _ in parts]
+    return AssessedCell(
+        labels,
+        plan,
+        distributions[0],
+        distributions[1] if plan.optimise else None,
+        _find_worst_failure(plan, parts[0][1]),
+        None,
+    )
 
 
-def _worst(plan: Plan, counts: NDArray[Any]) -> tuple[str, float] | None:
+def _find_worst_failure(plan: AssessmentPlan, counts: NDArray[Any]) -> tuple[str, float] | None:
     if not counts.sum() > 0:
         return None
     return plan.index.failure_names[int(counts.argmax())], float(counts.max() / counts.sum())
 
 
-def threshold(found: list[Assessed]) -> float:
-    """One for several arms where none is given: half of the smallest bound, or about the middle of the medians."""
-    bounds = [a.plan.index.bound for a in found]
-    some = [b for b in bounds if b is not None]
-    if some and len(some) == len(bounds):
-        return float(f"{min(some) / 2:.2g}")
-    medians = [float(a.plain.quantile(0.5)) for a in found if a.plain is not None and a.plain.reached]
-    medians = [m for m in medians if np.isfinite(m) and abs(m) > ZERO]
+def choose_threshold(cells: list[AssessedCell]) -> float:
+    """Choose a threshold for several arms: half of the smallest bound, or about the median of the medians."""
+    bounds = [cell.plan.index.bound for cell in cells]
+    known_bounds = [bound for bound in bounds if bound is not None]
+    if known_bounds and len(known_bounds) == len(bounds):
+        return float(f"{min(known_bounds) / 2:.2g}")
+    medians = [float(cell.plain.quantile(0.5)) for cell in cells if cell.plain is not None and cell.plain.reached]
+    medians = [median for median in medians if np.isfinite(median) and abs(median) > ZERO_INDEX]
     return float(f"{np.median(medians):.2g}") if medians else 1.0
 
 
 @dataclass(frozen=True)
-class Driven:
-    """Motions under a law; shares are over the motions, each the mean over the joints that may have locked.
+class DrivenCell:
+    """Motions under a law; fractions are over the motions, each a mean over the joints that may have locked.
 
     Attributes:
         labels: Of the cell.
@@ -147,8 +154,9 @@ class Driven:
         motions: Those that had a configuration to start from.
         ends: Shares of converged, stuck, moving and undecided, of each locked joint and of none, (n + 1, 4).
         reaches: (n + 1,) fractions that reach the target, with intervals.
-        each: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was no start.
-        any: Its mean, with its interval.
+        fraction_by_motion: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was
+            no start.
+        mean_fraction: Its mean, with its interval.
         in_reach: Share of the runs with a locked joint in which the target was in reach.
         touched: Share of them in which something is touched on the way, at most; None if nobody looked.
     """
@@ -158,45 +166,53 @@ class Driven:
     motions: int
     ends: Array
     reaches: tuple[Interval, ...]
-    each: Array
-    any: Interval
+    fraction_by_motion: Array
+    mean_fraction: Interval
     in_reach: float
     touched: float | None = None
 
 
-def driven(study: Study, cell: int) -> Driven | None:
-    """The result of a map of convergence; None where there is none."""
-    store = study.store(cell)
-    parts = [(rows["code"], rows["in_reach"], rows.get("touched")) for rows in chunks(study, cell)]
+def read_convergence(study: Study, cell: int) -> DrivenCell | None:
+    """Read the result of a convergence map; None if there is none."""
+    store = study.cell_store(cell)
+    parts = [(rows["code"], rows["in_reach"], rows.get("touched")) for rows in read_chunks(study, cell)]
     if not parts:
         return None
-    code, reach = (np.concatenate([part[k] for part in parts]) for k in (0, 1))
-    looked = [part[2] for part in parts if part[2] is not None]
-    known = code[:, 0] != NONE
-    runs = int(known.sum())
+    codes, in_reach = (np.concatenate([part[number] for part in parts]) for number in (0, 1))
+    contact_flags = [part[2] for part in parts if part[2] is not None]
+    is_known = codes[:, 0] != NO_CONFIGURATION
+    runs = int(is_known.sum())
     if not runs:
         return None
-    ends = np.stack([(code[known] == k).mean(axis=0) for k in Outcome], axis=1)
-    there = code == Outcome.CONVERGED
-    each = np.where(known, there[:, :-1].mean(axis=1), np.nan)
-    reaches = tuple(Interval.of(int(there[known, k].sum()), runs) for k in range(code.shape[1]))
-    joints = tuple(j["name"] for j in store.plan["arm"]["joints"] if j["type"] != "fixed")
-    whole = shared(each, code.shape[1] - 1, 0.95)
-    labels = labels_of(study, cell)
-    near = float(reach[known, :-1].mean())
-    touched = float(np.concatenate(looked)[known, :-1].mean()) if looked else None
-    return Driven(labels, joints, runs, ends, reaches, each, whole, near, touched)
+    ends = np.stack([(codes[is_known] == number).mean(axis=0) for number in RunOutcome], axis=1)
+    has_converged = codes == RunOutcome.CONVERGED
+    fraction_by_motion = np.where(is_known, has_converged[:, :-1].mean(axis=1), np.nan)
+    reaches = tuple(Interval.of(int(has_converged[is_known, number].sum()), runs) for number in range(codes.shape[1]))
+    joints = tuple(joint["name"] for joint in store.plan["arm"]["joints"] if joint["type"] != "fixed")
+    whole = shared(fraction_by_motion, codes.shape[1] - 1, 0.95)
+    labels = read_labels(study, cell)
+    in_reach_fraction = float(in_reach[is_known, :-1].mean())
+    touched = float(np.concatenate(contact_flags)[is_known, :-1].mean()) if contact_flags else None
+    return DrivenCell(labels, joints, runs, ends, reaches, fraction_by_motion, whole, in_reach_fraction, touched)
 
 
-def gain(first: Driven, second: Driven) -> Difference | None:
-    """What the second law gains over the first, on the same motions."""
-    both = ~np.isnan(first.each) & ~np.isnan(second.each) if first.each.shape == second.each.shape else np.zeros(1, bool)
-    return Difference.of_fractions(second.each[both] - first.each[both]) if both.any() else None
+def compare_laws(first_cell: DrivenCell, second_cell: DrivenCell) -> Difference | None:
+    """Return the gain of the second law over the first, on the same motions; None if there are none."""
+    in_both = (
+        ~np.isnan(first_cell.fraction_by_motion) & ~np.isnan(second_cell.fraction_by_motion)
+        if first_cell.fraction_by_motion.shape == second_cell.fraction_by_motion.shape
+        else np.zeros(1, bool)
+    )
+    return (
+        Difference.of_fractions(second_cell.fraction_by_motion[in_both] - first_cell.fraction_by_motion[in_both])
+        if in_both.any()
+        else None
+    )
 
 
 @dataclass(frozen=True)
-class Table:
-    """What else was computed: names of quantities, with values and ends of intervals as text.
+class MeasureTable:
+    """Further measures of a cell: names of quantities, with values and interval ends.
 
     Attributes:
         labels: Of the cell.
@@ -209,39 +225,39 @@ class Table:
     values: dict[str, tuple[float, float, float]]
 
 
-def workspace(study: Study, cell: int) -> Table | None:
-    """Means over the starts of the measures of a workspace, for an arbitrary joint, percent."""
-    parts = list(chunks(study, cell))
+def read_workspace(study: Study, cell: int) -> MeasureTable | None:
+    """Read the means over the starts of the measures of a workspace, for an arbitrary joint, percent."""
+    parts = list(read_chunks(study, cell))
     if not parts:
         return None
-    found = {}
+    values = {}
     for name in ("R100", "Ravg", "F100", "Favg"):
-        column = np.concatenate([p[name][:, -1] for p in parts])
-        low, high = mean_intervals(column[:, None], 0.95)[0]
-        found[name] = (float(mean_over(column[:, None], 0)[0]), float(low), float(high))
-    return Table(labels_of(study, cell), sum(len(p["lost"]) for p in parts), found)
+        column = np.concatenate([part[name][:, -1] for part in parts])
+        lower, upper = mean_intervals(column[:, None], 0.95)[0]
+        values[name] = (float(mean_over(column[:, None], 0)[0]), float(lower), float(upper))
+    return MeasureTable(read_labels(study, cell), sum(len(part["lost"]) for part in parts), values)
 
 
-def bank(study: Study, cell: int) -> Table | None:
-    """Shares of the tasks that the computer completes, healthy and failed, and the median time, cycles."""
-    parts = list(chunks(study, cell))
+def read_bank(study: Study, cell: int) -> MeasureTable | None:
+    """Read the fractions of the tasks completed without an operator, healthy and failed, and the median time, cycles."""
+    parts = list(read_chunks(study, cell))
     if not parts:
         return None
-    end = np.concatenate([p["end"] for p in parts])
-    cycles = np.concatenate([p["measures"][..., 0] for p in parts])
-    found = {}
-    for k, case in enumerate(("healthy", "failed")):
-        there = end[..., k] == End.ARRIVED
-        share = Interval.of(int(there.sum()), there.size)
-        found[f"reached, {case}"] = (100 * share.value, 100 * share.low, 100 * share.high)
-        middle = float(np.median(cycles[..., k][there])) if there.any() else np.nan
-        found[f"time, {case}"] = (middle, np.nan, np.nan)
-    return Table(labels_of(study, cell), len(end), found)
+    endings = np.concatenate([part["end"] for part in parts])
+    cycles = np.concatenate([part["measures"][..., 0] for part in parts])
+    values = {}
+    for number, case in enumerate(("healthy", "failed")):
+        has_arrived = endings[..., number] == End.ARRIVED
+        interval = Interval.of(int(has_arrived.sum()), has_arrived.size)
+        values[f"reached, {case}"] = (100 * interval.value, 100 * interval.low, 100 * interval.high)
+        median = float(np.median(cycles[..., number][has_arrived])) if has_arrived.any() else np.nan
+        values[f"time, {case}"] = (median, np.nan, np.nan)
+    return MeasureTable(read_labels(study, cell), len(endings), values)
 
 
 @dataclass(frozen=True)
-class Swept:
-    """Designs of one arm, the given arm first if it is computed.
+class DesignSweep:
+    """Designs of one arm, the baseline arm first if it is computed.
 
     Attributes:
         labels: Of the cell.
@@ -263,18 +279,18 @@ class Swept:
     start: int | None
 
 
-def swept(study: Study, cell: int) -> Swept | None:
-    """The result of a sweep of designs; None where there is none."""
-    parts = list(chunks(study, cell))
+def read_design_sweep(study: Study, cell: int) -> DesignSweep | None:
+    """Read the result of a sweep of designs; None if there is none."""
+    parts = list(read_chunks(study, cell))
     if not parts:
         return None
     names = ("design", "guaranteed", "median", "reached", "reach")
-    values, guaranteed, median, reached, reach = (np.concatenate([p[name] for p in parts]) for name in names)
-    store = study.store(cell)
-    start = 0 if 0 in store.done else None
-    return Swept(labels_of(study, cell), store.plan, values, guaranteed, median, reached, reach, start)
+    values, guaranteed, median, reached, reach = (np.concatenate([part[name] for part in parts]) for name in names)
+    store = study.cell_store(cell)
+    start = 0 if 0 in store.committed_chunks else None
+    return DesignSweep(read_labels(study, cell), store.plan, values, guaranteed, median, reached, reach, start)
 
 
-def store_size(store: Store) -> int:
-    """Bytes of the committed chunks of a store."""
-    return sum(e.size for e in store.entries.values())
+def measure_store(store: Store) -> int:
+    """Return the bytes of the committed chunks of a store."""
+    return sum(entry.size for entry in store.entries.values())

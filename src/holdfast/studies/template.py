@@ -1,4 +1,4 @@
-"""A study file to start from, every line of it explained."""
+"""Template of a study file, with an explanation of every line."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from holdfast import arms
 from holdfast.arms.spec import ArmSpec
 from holdfast.errors import InputError
 from holdfast.files import reading
-from holdfast.files.output import replaced
-from holdfast.grammar import FAILURES_HELP, TASKS
-from holdfast.registry import INDICES, LAWS, Registry
+from holdfast.files.output import replace_file
+from holdfast.grammar import FAILURES_HELP, TASK_SIZES
+from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, Registry
 
 _SMALL_CHUNK = 500
-_MOST_CHUNKS = 1000
-_BLOCK = 1024  # poses of a block of a box region, which draw from one seed
+_MAX_CHUNKS = 1000
+_BLOCK_POSES = 1024  # poses of a block of a box region, which draw from one seed
 
-_TEXT = """\
+_STUDY_TEXT = """\
 # A study of holdfast: what is computed is every combination of the lists below.
 #
 #   holdfast study run {file} --dry-run        what it would compute, how long it would take, how large it would be
@@ -65,7 +65,7 @@ assess:
 # "From laptop to cluster".
 """
 
-_LAWS = """\
+_LAWS_TEXT = """\
 convergence:
 {known_laws}
   laws: {laws}
@@ -104,36 +104,39 @@ def write(
 
     path = Path(file)
     chunk = choose_chunk(poses) if chunk is None else chunk
-    for what, number, least in (("--poses", poses, 1), ("--chunk", chunk, 1), ("--seed", seed, 0)):
-        if number < least:
-            raise InputError(f"{what} is {number}; it must be {least} or more")
+    for option, number, minimum in (("--poses", poses, 1), ("--chunk", chunk, 1), ("--seed", seed, 0)):
+        if number < minimum:
+            raise InputError(f"{option} is {number}; it must be {minimum} or more")
     if not arm:
         raise InputError("no arm is named; give --arm, a built-in name or a file")
     for spec in arm:
         spec.load()
-    if reading.exists(path):
+    if reading.path_exists(path):
         raise InputError(f"'{path}' exists; give another name, or remove it first")
     motions = min(poses, 200)
-    block = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
+    convergence_text = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
     if laws:
-        block = _LAWS.format(
-            known_laws=_known(LAWS), laws=_listed(laws), motions=motions, motions_chunk=min(chunk, 50, motions)
+        convergence_text = _LAWS_TEXT.format(
+            known_laws=_list_known(LAW_REGISTRY),
+            laws=_format_list(laws),
+            motions=motions,
+            motions_chunk=min(chunk, 50, motions),
         )
-    text = _TEXT.format(
+    study_text = _STUDY_TEXT.format(
         file=path.name,
-        name=_one_line(path.stem),
+        name=_format_on_one_line(path.stem),
         seed=seed,
         poses=poses,
         chunk=min(chunk, poses),
-        arms=_listed(_beside(spec, path) for spec in arm),
-        known_indices=_known(INDICES),
-        known_tasks=", ".join(TASKS),
+        arms=_format_list(_make_arm_entry(spec, path) for spec in arm),
+        known_indices=_list_known(INDEX_REGISTRY),
+        known_tasks=", ".join(TASK_SIZES),
         known_failures=FAILURES_HELP,
-        indices=_listed(indices),
+        indices=_format_list(indices),
         optimise=str(optimise).lower(),
-        convergence=block,
+        convergence=convergence_text,
     )
-    replaced(path, text, "study file")
+    replace_file(path, study_text, "study file")
     try:
         read(path)
     except InputError:
@@ -148,30 +151,30 @@ def choose_chunk(poses: int) -> int:
     A study of at most half a million samples has chunks of 500. A larger one has at most a thousand chunks of whole blocks,
     because each chunk costs a file per column and a line of the journal.
     """
-    if poses <= _SMALL_CHUNK * _MOST_CHUNKS:
+    if poses <= _SMALL_CHUNK * _MAX_CHUNKS:
         return _SMALL_CHUNK
-    return _BLOCK * -(-poses // (_BLOCK * _MOST_CHUNKS))
+    return _BLOCK_POSES * -(-poses // (_BLOCK_POSES * _MAX_CHUNKS))
 
 
-def _beside(arm: ArmSpec, file: Path) -> str | dict[str, Any]:
-    """A built-in name, or the path of an arm file as seen from the study file, with what was chosen of it."""
-    place = arm.spec if arm.spec in arms.names() else Path(os.path.relpath(arm.spec, file.parent)).as_posix()
-    more = {"base": arm.base, "tip": arm.tip, "hold": dict(arm.hold), "name": arm.name}
-    chosen = {key: value for key, value in more.items() if value}
-    return {"file": place, **chosen} if chosen else place
+def _make_arm_entry(arm: ArmSpec, file: Path) -> str | dict[str, Any]:
+    """Return a built-in name, or the path of an arm file relative to the study file, with its options."""
+    source = arm.spec if arm.spec in arms.names() else Path(os.path.relpath(arm.spec, file.parent)).as_posix()
+    options = {"base": arm.base, "tip": arm.tip, "hold": dict(arm.hold), "name": arm.name}
+    chosen = {key: value for key, value in options.items() if value}
+    return {"file": source, **chosen} if chosen else source
 
 
-def _known(registry: Registry) -> str:
-    """Comment lines with all that a list may hold."""
-    text = ", ".join(entry.usage for entry in registry.values())
-    return textwrap.fill(text, 120, initial_indent="  # ", subsequent_indent="  # ", break_on_hyphens=False)
+def _list_known(registry: Registry) -> str:
+    """Return comment lines with all values that a list may contain."""
+    usages = ", ".join(entry.usage for entry in registry.values())
+    return textwrap.fill(usages, 120, initial_indent="  # ", subsequent_indent="  # ", break_on_hyphens=False)
 
 
-def _listed(items: Iterable[str | dict[str, Any]]) -> str:
-    return _one_line(list(items))
+def _format_list(items: Iterable[str | dict[str, Any]]) -> str:
+    return _format_on_one_line(list(items))
 
 
-def _one_line(data: object) -> str:
-    """YAML in one line."""
+def _format_on_one_line(data: object) -> str:
+    """Return data as YAML on one line."""
     text: str = yaml.safe_dump(data, default_flow_style=True, width=10_000, allow_unicode=True)
     return text.removesuffix("...\n").strip()

@@ -1,4 +1,4 @@
-"""A process beside the page for what takes long: building a law keeps Python busy for seconds, and a page must not wait.
+"""Worker process next to the server for long computations, because building a law keeps Python busy for seconds.
 
 The parent sends pickled requests to its standard input and reads pickled answers from its standard output.
 """
@@ -23,25 +23,25 @@ from holdfast.studio.state import State
 from holdfast.studio.work import Cancelled
 
 Progress = Callable[[int, int], None]
-PATIENCE = 2.0  # s that a request gets to give up before its process is ended
-_POLL = 0.02  # s
+CANCEL_TIMEOUT_S = 2.0  # s that a request gets to give up before its process is ended
+_POLL_INTERVAL_S = 0.02  # s
 
 
-class Aside:
-    """The process, started when it is first needed, ended and started again where a request does not give up in time."""
+class WorkerProcess:
+    """Worker process, started on first use, and killed and restarted if a request is not cancelled in time."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
-        self._of = replace(arm), task, cell  # without what has been compiled
+        self._inputs = replace(arm), task, cell  # without what has been compiled
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
-        self._turn = threading.Lock()
-        self._number = 0
+        self._request_lock = threading.Lock()
+        self._request_number = 0
 
-    def run(self, job: str, state: State, check: Callable[[], None], progress: Progress) -> Any:
-        """Do a job of :mod:`holdfast.studio.compute` for a state.
+    def run(self, job_name: str, state: State, check: Callable[[], None], progress: Progress) -> Any:
+        """Run a job of :mod:`holdfast.studio.compute` for a state.
 
         Args:
-            job: Its name.
+            job_name: Its name.
             state: What it is of.
             check: Called 50 times a second; raises to give up.
             progress: Told of (done, in all).
@@ -50,23 +50,23 @@ class Aside:
             Cancelled: As ``check`` raises it.
             HoldfastError: What the job raised, or that its process ended.
         """
-        while not self._turn.acquire(timeout=_POLL):
+        while not self._request_lock.acquire(timeout=_POLL_INTERVAL_S):
             check()
         try:
             check()
-            self._start()
-            self._number += 1
-            self._send((self._number, job, state))
-            return self._wait(check, progress)
+            self._ensure_started()
+            self._request_number += 1
+            self._send_message((self._request_number, job_name, state))
+            return self._await_answer(check, progress)
         except BaseException as error:
             if not isinstance(error, (HoldfastError, Cancelled)):
                 self.stop()
             raise
         finally:
-            self._turn.release()
+            self._request_lock.release()
 
     def stop(self) -> None:
-        """End the process."""
+        """Kill the process."""
         process, self._process = self._process, None
         if process is not None:
             process.kill()
@@ -78,19 +78,19 @@ class Aside:
                     except OSError:
                         continue  # what was not sent yet cannot be sent any more
 
-    def _start(self) -> None:
+    def _ensure_started(self) -> None:
         if self._process is not None and self._process.poll() is None:
             return
         self.stop()
-        environment = os.environ | {"PYTHONPATH": os.pathsep.join(x for x in sys.path if x)}
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(entry for entry in sys.path if entry)}
         command = [sys.executable, "-c", "from holdfast.studio.aside import main; main()"]
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
         answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._process, self._answers = process, answers
-        threading.Thread(target=_listen, args=(process.stdout, answers), daemon=True, name="studio answers").start()
-        self._send(self._of)
+        threading.Thread(target=_collect_answers, args=(process.stdout, answers), daemon=True, name="studio answers").start()
+        self._send_message(self._inputs)
 
-    def _send(self, message: Any) -> None:
+    def _send_message(self, message: Any) -> None:
         if self._process is None or self._process.stdin is None:
             raise HoldfastError("the computation was ended; ask again")
         try:
@@ -99,15 +99,15 @@ class Aside:
         except (OSError, ValueError) as error:
             raise HoldfastError("the computation ended unexpectedly; ask again") from error
 
-    def _wait(self, check: Callable[[], None], progress: Progress) -> Any:
+    def _await_answer(self, check: Callable[[], None], progress: Progress) -> Any:
         while True:
             try:
                 check()
             except BaseException:
-                self._give_up()
+                self._cancel_job()
                 raise
             try:
-                kind, value = self._answers.get(timeout=_POLL)
+                kind, value = self._answers.get(timeout=_POLL_INTERVAL_S)
             except queue.Empty:
                 continue
             if kind == "done":
@@ -117,17 +117,17 @@ class Aside:
             if kind == "progress":
                 progress(*value)
 
-    def _give_up(self) -> None:
-        """Have the job end, or end its process."""
-        self._send((self._number, "cancel", None))
+    def _cancel_job(self) -> None:
+        """Cancel the job, or kill its process if it does not stop."""
+        self._send_message((self._request_number, "cancel", None))
         try:
-            while self._answers.get(timeout=PATIENCE)[0] == "progress":
+            while self._answers.get(timeout=CANCEL_TIMEOUT_S)[0] == "progress":
                 continue
         except queue.Empty:
             self.stop()
 
 
-def _listen(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> None:
+def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> None:
     while True:
         try:
             answers.put(pickle.load(pipe))
@@ -140,44 +140,44 @@ def _listen(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> None:
 
 
 def main() -> None:
-    """Answer requests until the parent is gone."""
+    """Answer requests until the parent process ends."""
     requests, answers = sys.stdin.buffer, sys.stdout.buffer
     sys.stdout = sys.stderr  # what a library prints must not get between the answers
     arm, task, cell = pickle.load(requests)
 
-    from holdfast.studio.compute import JOBS
-    from holdfast.studio.scene.machine import Machine, sentence
+    from holdfast.studio.compute import JOB_FUNCTIONS
+    from holdfast.studio.scene.machine import CompiledArm, describe_error
 
-    machine, waiting = Machine(arm, task, cell), queue.SimpleQueue[Any]()
-    given_up = [0]  # the newest request that is of no interest any more
+    machine, pending = CompiledArm(arm, task, cell), queue.SimpleQueue[Any]()
+    newest_cancelled = [0]  # the newest request that is of no interest any more
 
-    def read() -> None:
+    def read_requests() -> None:
         while True:
             try:
                 message = pickle.load(requests)
             except (EOFError, OSError, pickle.UnpicklingError):
                 os._exit(0)  # the parent is gone: nobody waits for what is under way
             if message[1] == "cancel":
-                given_up[0] = message[0]
+                newest_cancelled[0] = message[0]
             else:
-                waiting.put(message)
+                pending.put(message)
 
-    def tell(kind: str, value: Any) -> None:
+    def send_answer(kind: str, value: Any) -> None:
         pickle.dump((kind, value), answers)
         answers.flush()
 
-    threading.Thread(target=read, daemon=True).start()
+    threading.Thread(target=read_requests, daemon=True).start()
     while True:
-        number, job, state = waiting.get()
+        number, job, state = pending.get()
 
-        def progress(done: int, total: int, number: int = number) -> None:
-            if given_up[0] >= number:
+        def report_progress(done: int, total: int, number: int = number) -> None:
+            if newest_cancelled[0] >= number:
                 raise Cancelled
-            tell("progress", (done, total))
+            send_answer("progress", (done, total))
 
         try:
-            tell("done", JOBS[job](machine, state, progress))
+            send_answer("done", JOB_FUNCTIONS[job](machine, state, report_progress))
         except HoldfastError as error:
-            tell("error", error)
+            send_answer("error", error)
         except Exception as error:
-            tell("error", HoldfastError(sentence(error)))
+            send_answer("error", HoldfastError(describe_error(error)))

@@ -1,4 +1,4 @@
-"""What takes long, as functions of an arm and plain data: they run in a process beside the page."""
+"""Long computations as functions of an arm and plain data, run in the worker process."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.studio.motions import Motion, law_motions, swing_motion
-from holdfast.studio.scene.cloud import Cloud, around, read_cloud
-from holdfast.studio.scene.machine import Machine
+from holdfast.studio.motions import PlayedMotion, simulate_law_motions, simulate_swing_motion
+from holdfast.studio.scene.cloud import RegionCloud, assess_around_tool, read_cloud
+from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
-from holdfast.studio.watching import watched
+from holdfast.studio.watching import simulate_monitor_demo
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
-STARTS = 64  # of the search for a best configuration
+OPTIMUM_RESTARTS = 64  # of the search for a best configuration
 
 
 @dataclass(frozen=True)
-class Extremes:
-    """The best and the worst configuration of a pose.
+class ExtremeConfigurations:
+    """Best and worst configuration of a pose.
 
     Attributes:
         q: Two configurations (n,), rad and m.
@@ -33,61 +33,70 @@ class Extremes:
     values: tuple[float, float, float]
 
 
-def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
-    """The best and the worst configuration of the present pose by the objective of the state.
+def find_best_and_worst(machine: CompiledArm, state: State, progress: Progress) -> ExtremeConfigurations:
+    """Find the best and the worst configuration of the present pose by the objective of the state.
 
     Raises:
         InputError: The arm has no such objective, or no configuration of the pose was found.
     """
     from holdfast.solvers.optima import optimise
 
-    both = machine.objectives(state.objective)
-    if isinstance(both, str):
-        raise InputError(both)
-    q, clear = np.array(state.q), machine.clearance(state.moved)
-    found = []
-    for k, wanted in enumerate(both):
-        progress(k, 2)
-        found.append(optimise(machine.arm, machine.hand(q), wanted, task=machine.task, starts=STARTS, clearance=clear))
-    if not all(bool(f.success) for f in found):
+    objectives = machine.get_objectives(state.objective)
+    if isinstance(objectives, str):
+        raise InputError(objectives)
+    q, collision_model = np.array(state.q), machine.get_clearance(state.moved)
+    optima = []
+    for number, objective in enumerate(objectives):
+        progress(number, 2)
+        optima.append(
+            optimise(
+                machine.arm,
+                machine.tool_pose(q),
+                objective,
+                task=machine.task,
+                starts=OPTIMUM_RESTARTS,
+                clearance=collision_model,
+            )
+        )
+    if not all(bool(optimum.success) for optimum in optima):
         raise InputError("no configuration of this pose was found; move the end effector and try again")
     # The searches are local: where the arm is may beat what they found.
-    here, sign = float(both[0](q)), 1.0 if both[0].better == "larger" else -1.0
-    best, worst = ((f.q, float(f.value)) for f in found)
-    best = (q, here) if sign * here > sign * best[1] else best
-    worst = (q, here) if sign * here < sign * worst[1] else worst
-    return Extremes((best[0], worst[0]), (best[1], worst[1], here))
+    current_value, sign = float(objectives[0](q)), 1.0 if objectives[0].better == "larger" else -1.0
+    best, worst = ((optimum.q, float(optimum.value)) for optimum in optima)
+    best = (q, current_value) if sign * current_value > sign * best[1] else best
+    worst = (q, current_value) if sign * current_value < sign * worst[1] else worst
+    return ExtremeConfigurations((best[0], worst[0]), (best[1], worst[1], current_value))
 
 
-def laws(machine: Machine, state: State, progress: Progress) -> list[Motion]:
-    """The motion to the target under both laws; see :func:`holdfast.studio.motions.law_motions`."""
-    return law_motions(machine, state, progress)
+def simulate_both_laws(machine: CompiledArm, state: State, progress: Progress) -> list[PlayedMotion]:
+    """Simulate the motion to the target under both laws; see :func:`holdfast.studio.motions.simulate_law_motions`."""
+    return simulate_law_motions(machine, state, progress)
 
 
-def swing(machine: Machine, state: State, progress: Progress) -> list[Motion]:
-    """The free swing of the joint that is free; see :func:`holdfast.studio.motions.swing_motion`."""
+def simulate_swing(machine: CompiledArm, state: State, progress: Progress) -> list[PlayedMotion]:
+    """Simulate the free swing of the free joint; see :func:`holdfast.studio.motions.simulate_swing_motion`."""
     progress(0, 1)
-    return [swing_motion(machine.arm, state)]
+    return [simulate_swing_motion(machine.arm, state)]
 
 
-def region(machine: Machine, state: State, progress: Progress) -> Cloud:
-    """The region of the state's results folder, or one around the end effector, assessed now.
+def load_or_assess_region(machine: CompiledArm, state: State, progress: Progress) -> RegionCloud:
+    """Load the region of the state's results folder, or assess one around the end effector.
 
     Raises:
         InputError: The arm has no such index.
     """
     if state.region is not None:
         return read_cloud(machine.arm, state.region)
-    index = machine.index(state.index)
+    index = machine.get_index(state.index)
     if isinstance(index, str):
         raise InputError(index)
-    return around(index, machine.hand(np.array(state.q)), machine.size, progress)
+    return assess_around_tool(index, machine.tool_pose(np.array(state.q)), machine.size, progress)
 
 
-JOBS: dict[str, Callable[[Machine, State, Progress], object]] = {
-    "best-worst": best_worst,
-    "laws": laws,
-    "swing": swing,
-    "region": region,
-    "watch": watched,
+JOB_FUNCTIONS: dict[str, Callable[[CompiledArm, State, Progress], object]] = {
+    "best-worst": find_best_and_worst,
+    "laws": simulate_both_laws,
+    "swing": simulate_swing,
+    "region": load_or_assess_region,
+    "watch": simulate_monitor_demo,
 }

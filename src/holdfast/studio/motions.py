@@ -1,4 +1,4 @@
-"""Motions that are played: from files, from the closed loop, from the physics."""
+"""Motions for playback, from files, closed-loop simulations, and physics."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.paths.joint_table import joint_columns, read_joint_table
-from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
-TIMES = ("time_s", "time_cycles", "travel_rad")
-SAMPLES = 240
-WORTH_SEEING = 15.0  # 1/Ke
+TIME_COLUMNS = ("time_s", "time_cycles", "travel_rad")
+MOTION_SAMPLES = 240
+SHOWN_TIME_CONSTANTS = 15.0  # 1/Ke
 
 
 @dataclass(frozen=True)
-class Motion:
+class PlayedMotion:
     """Configurations over time.
 
     Attributes:
@@ -37,17 +37,17 @@ class Motion:
     unit: str
     q: Array
 
-    def at(self, time: float) -> Array:
-        """The configuration (n,) at a time, in between linear; the first or last one outside."""
-        k = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
-        if len(self.time) == 1 or self.time[k + 1] <= self.time[k]:
-            return np.array(self.q[k])
-        share = float(np.clip((time - self.time[k]) / (self.time[k + 1] - self.time[k]), 0.0, 1.0))
-        return np.asarray((1 - share) * self.q[k] + share * self.q[k + 1])
+    def configuration_at(self, time: float) -> Array:
+        """Return the configuration (n,) at a time by linear interpolation, and the first or last one outside the motion."""
+        segment = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
+        if len(self.time) == 1 or self.time[segment + 1] <= self.time[segment]:
+            return np.array(self.q[segment])
+        fraction = float(np.clip((time - self.time[segment]) / (self.time[segment + 1] - self.time[segment]), 0.0, 1.0))
+        return np.asarray((1 - fraction) * self.q[segment] + fraction * self.q[segment + 1])
 
 
-def read_motion(arm: Arm, path: str | Path) -> Motion:
-    """The motion in a CSV file of ``holdfast follow``, ``simulate`` or ``recover``, or in the folder that one of them wrote.
+def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:
+    """Read the motion from a CSV file of ``holdfast follow``, ``simulate`` or ``recover``, or from their output folder.
 
     Raises:
         InputError: There is no such file, or a column or number is missing or wrong; the message names it.
@@ -55,24 +55,25 @@ def read_motion(arm: Arm, path: str | Path) -> Motion:
     file = Path(path)
     if file.is_dir():
         names = ("trajectory.csv", "run.csv", "waypoints.csv", "motion.csv")
-        inside = [file / name for name in names if (file / name).is_file()]
-        if not inside:
+        motion_files = [file / name for name in names if (file / name).is_file()]
+        if not motion_files:
             raise InputError(
                 f"folder '{file}' holds no motion; give one that follow, simulate, recover or endure wrote with --out"
             )
-        file = inside[0]
-    table = read_joint_table(arm, file, "motion", TIMES[0])
-    time = next((name for name in TIMES if name in table.head), None)
-    if time is None:
-        raise InputError(f"{table.title}: a column '{TIMES[0]}' is missing; it says when the arm is there")
-    rows = table.numbers([time, *joint_columns(arm)])
-    if (np.diff(rows[:, 0]) < 0).any():
-        raise InputError(f"{table.title}: time must not run backwards; sort the lines by '{time}'")
-    return Motion(file.name, rows[:, 0], time.rpartition("_")[2], rows[:, 1:])
+        file = motion_files[0]
+    table = read_joint_table(arm, file, "motion", TIME_COLUMNS[0])
+    time_column = next((name for name in TIME_COLUMNS if name in table.header), None)
+    if time_column is None:
+        raise InputError(f"{table.title}: a column '{TIME_COLUMNS[0]}' is missing; it says when the arm is there")
+    samples = table.read_columns([time_column, *joint_columns(arm)])
+    if (np.diff(samples[:, 0]) < 0).any():
+        raise InputError(f"{table.title}: time must not run backwards; sort the lines by '{time_column}'")
+    return PlayedMotion(file.name, samples[:, 0], time_column.rpartition("_")[2], samples[:, 1:])
 
 
-def law_motions(machine: Machine, state: State, progress: Callable[[int, int], None]) -> list[Motion]:
-    """The motion to a target under each of the two laws, failed joints locked from the start, with how it ended.
+def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> list[PlayedMotion]:
+    """Simulate the motion to a target under each of the two laws, with failed joints locked from the start, and describe its
+    end.
 
     Args:
         machine: The arm and its laws.
@@ -82,32 +83,36 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
     Raises:
         InputError: A law that is not known, or no target.
     """
-    from holdfast.arm.poses import pose_of
-    from holdfast.present.simulation.errors import error_text
+    from holdfast.arm.poses import pose_from_quaternion
+    from holdfast.present.simulation.errors import format_errors
     from holdfast.simulation.closed_loop import simulate
     from holdfast.simulation.errors import error_history
 
     if state.target is None:
         raise InputError("there is no target; choose one first")
-    target = pose_of(state.target[:3], state.target[3:])
+    target = pose_from_quaternion(state.target[:3], state.target[3:])
     motions = []
-    for k, text in enumerate(state.laws):
-        progress(2 * k, 4)
-        law = machine.law(text)
+    for law_number, law_label in enumerate(state.laws):
+        progress(2 * law_number, 4)
+        law = machine.get_law(law_label)
         runs = simulate(law, np.array(state.q), target, locked=list(state.failed))
-        progress(2 * k + 1, 4)
+        progress(2 * law_number + 1, 4)
         # The last approach to rest takes most of the time and moves nothing.
-        path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain) or None)
+        sampled_path = runs.path(samples=MOTION_SAMPLES, until=min(float(runs.time), SHOWN_TIME_CONSTANTS / law.gain) or None)
         history = error_history(runs)
-        off = f"error {error_text(law, history.end.position, history.end.angle)}"
-        past = [name for name, passed in zip(state.names, runs.limits_passed, strict=True) if passed]
-        limits = f", past the limits of {' and '.join(past)}" if past else ""
-        motions.append(Motion(f"{text}: {runs.ending_sentence()}{limits} ({off})", path.time, "s", path.q))
+        error_note = f"error {format_errors(law, history.end.position, history.end.angle)}"
+        exceeded_joints = [name for name, is_exceeded in zip(state.names, runs.limits_passed, strict=True) if is_exceeded]
+        limits_note = f", past the limits of {' and '.join(exceeded_joints)}" if exceeded_joints else ""
+        motions.append(
+            PlayedMotion(
+                f"{law_label}: {runs.ending_sentence()}{limits_note} ({error_note})", sampled_path.time, "s", sampled_path.q
+            )
+        )
     return motions
 
 
-def swing_motion(arm: Arm, state: State) -> Motion:
-    """The free swing of the first joint that is set free, from the physics, the others held.
+def simulate_swing_motion(arm: Arm, state: State) -> PlayedMotion:
+    """Simulate the free swing of the first free joint with the physics engine, with the other joints fixed.
 
     Raises:
         InputError: No joint is free.
@@ -117,16 +122,17 @@ def swing_motion(arm: Arm, state: State) -> Motion:
 
     if not state.free:
         raise InputError("no joint is free; set one free first")
-    k = state.free[0]
-    found = free_swing(arm, np.array(state.q), k)
-    q = np.tile(np.array(state.q), (len(found.time), 1))
-    q[:, k] += found.angle
-    every = max(1, len(q) // (8 * SAMPLES))
-    factor, unit = arm.joints[k].shown
-    rest = f", rests {factor * found.rest_angle:.3g} {unit} away" if found.settled else ""
-    drops = "".join(
-        f"; braked after {d.after_ms:g} ms it has moved {factor * d.angle:.3g} {unit}, the tool {1000 * d.distance:.3g} mm"
-        for d in found.drops
+    joint = state.free[0]
+    free_motion = free_swing(arm, np.array(state.q), joint)
+    q = np.tile(np.array(state.q), (len(free_motion.time), 1))
+    q[:, joint] += free_motion.angle
+    stride = max(1, len(q) // (8 * MOTION_SAMPLES))
+    factor, unit = arm.joints[joint].shown
+    rest_note = f", rests {factor * free_motion.rest_angle:.3g} {unit} away" if free_motion.settled else ""
+    drop_notes = "".join(
+        f"; braked after {drop.after_ms:g} ms it has moved {factor * drop.angle:.3g} {unit}, the tool "
+        f"{1000 * drop.distance:.3g} mm"
+        for drop in free_motion.drops
     )
-    label = f"{arm.joint_names[k]} swings: farthest {factor * found.peak:.3g} {unit}{rest}{drops}"
-    return Motion(label, found.time[::every], "s", q[::every])
+    label = f"{arm.joint_names[joint]} swings: farthest {factor * free_motion.peak:.3g} {unit}{rest_note}{drop_notes}"
+    return PlayedMotion(label, free_motion.time[::stride], "s", q[::stride])

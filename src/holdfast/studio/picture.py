@@ -1,4 +1,4 @@
-"""A view as a drawing: the arm from the side and from above, with what has failed marked."""
+"""Drawing of a view: the arm from the side and from above, with its failures marked."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from holdfast.present.stick_figure import views_of
-from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, plain, style, svg
-from holdfast.studio.scene.machine import Machine
+from holdfast.present.stick_figure import choose_views
+from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, format_label, style, svg
+from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
 
 
-def png(picture: NDArray[np.uint8]) -> bytes:
-    """A rendered picture (H, W, 4) as a PNG on white: the scene has no background of its own."""
+def encode_png(picture: NDArray[np.uint8]) -> bytes:
+    """Encode a rendered picture (H, W, 4) as a PNG on white, because the scene has no background of its own."""
     import imageio.v3 as images
 
     alpha = picture[..., 3:].astype(np.float64) / 255
-    flat = (picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
-    data = io.BytesIO()
-    images.imwrite(data, flat, extension=".png")
-    return data.getvalue()
+    on_white = (picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
+    buffer = io.BytesIO()
+    images.imwrite(buffer, on_white, extension=".png")
+    return buffer.getvalue()
 
 
-def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str:
-    """SVG text of a view.
+def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[Array] = ()) -> str:
+    """Draw a view as SVG text.
 
     Args:
         machine: The arm.
@@ -39,35 +39,40 @@ def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str
     from matplotlib.figure import Figure
 
     chains = machine.arm.frames(np.array([*ghosts, state.q]))[..., :3, 3]
-    views = views_of(machine.arm, chains)
+    views = choose_views(machine.arm, chains)
     with style():
         figure = Figure(figsize=(WIDTH, WIDTH / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH))
-        for number, view in enumerate(views, 1):
-            axes = figure.add_subplot(1, len(views), number)
+        for position, view in enumerate(views, 1):
+            axes = figure.add_subplot(1, len(views), position)
             for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
                 axes.plot(*view.of(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
-            _arm(axes, view.of(chains[-1]), state)
+            _draw_arm(axes, view.of(chains[-1]), state)
             axes.set_aspect("equal", adjustable="datalim")
             axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
-        figure.suptitle(plain(_caption(state)), x=0.01, ha="left", fontsize=9.5)
+        figure.suptitle(format_label(_format_caption(state)), x=0.01, ha="left", fontsize=9.5)
         finished(figure)
-    return svg(figure, "studio", _caption(state))
+    return svg(figure, "studio", _format_caption(state))
 
 
-def _arm(axes: Axes, chain: Array, state: State) -> None:
+def _draw_arm(axes: Axes, chain: Array, state: State) -> None:
     axes.plot(*chain.T, color=INK, linewidth=2.6, solid_capstyle="round", zorder=3)
     axes.plot(*chain[0], marker="s", color=INK, markersize=8, zorder=3.1)
     axes.plot(*chain[-1], marker="D", color=SOFT, markersize=6, zorder=3.5)
-    for k, (place, condition) in enumerate(zip(chain[1:-1], state.conditions, strict=True)):
+    for joint, (point, condition) in enumerate(zip(chain[1:-1], state.conditions, strict=True)):
         color, marker = {"healthy": ("white", "o"), "locked": (ORANGE, "X"), "free": (PURPLE, "P")}[condition]
         size = 6 if condition == "healthy" else 11
-        axes.plot(*place, marker=marker, color=color, markeredgecolor=INK, markersize=size, zorder=3.2 + 0.1 * (size > 6))
+        axes.plot(*point, marker=marker, color=color, markeredgecolor=INK, markersize=size, zorder=3.2 + 0.1 * (size > 6))
         if condition != "healthy":
             axes.annotate(
-                plain(f"{state.names[k]} {condition}"), tuple(place), (8, 6), textcoords="offset points", color=INK, zorder=4
+                format_label(f"{state.names[joint]} {condition}"),
+                tuple(point),
+                (8, 6),
+                textcoords="offset points",
+                color=INK,
+                zorder=4,
             )
 
 
-def _caption(state: State) -> str:
+def _format_caption(state: State) -> str:
     failed = ", ".join(f"{state.names[k]} {state.conditions[k]}" for k in state.failed)
     return f"{state.arm}: {failed or 'all joints healthy'}"

@@ -1,4 +1,4 @@
-"""What a person saves, pictures and the cell: made beside the page, and handed to the browser as files."""
+"""Pictures and cells saved by the user: created by a worker thread, and sent to the browser as files."""
 
 from __future__ import annotations
 
@@ -10,66 +10,66 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.scene.stage import Stage
 from holdfast.studio.state import State
-from holdfast.studio.work import Worker
+from holdfast.studio.work import LongJobWorker
 
-PICTURE = (900, 1200)  # largest height and width of a PNG
+MAX_PICTURE_PX = (900, 1200)  # largest height and width of a PNG
 
 
-class Saver:
-    """Saves what one client sees, named after the arm.
+class ViewSaver:
+    """Saver of one client's view; the files are named after the arm.
 
     Args:
         client: Of Viser; it is sent the files.
         machine: The arm.
         stage: What the client sees of it.
-        saved: Is told in a sentence what was saved.
-        complain: Is told what went wrong.
+        on_saved: Is told in a sentence what was saved.
+        on_error: Is told what went wrong.
     """
 
     def __init__(
         self,
         client: Any,
-        machine: Machine,
+        machine: CompiledArm,
         stage: Stage,
-        saved: Callable[[str], None],
-        complain: Callable[[BaseException], None],
+        on_saved: Callable[[str], None],
+        on_error: Callable[[BaseException], None],
     ) -> None:
-        self._client, self._machine, self._stage, self._saved = client, machine, stage, saved
-        self._worker = Worker(complain)
+        self._client, self._machine, self._stage, self._on_saved = client, machine, stage, on_saved
+        self._worker = LongJobWorker(on_error)
 
     def stop(self) -> None:
-        """Save nothing any more."""
+        """Stop the worker thread."""
         self._worker.stop()
 
-    def save(self, what: str, state: State, ghosts: list[NDArray[np.float64]]) -> None:
-        """The scene as ``png`` or ``svg``, or the ``cell-file``.
+    def save(self, file_kind: str, state: State, ghosts: list[NDArray[np.float64]]) -> None:
+        """Save the scene as ``png`` or ``svg``, or the cell as ``cell-file``.
 
         Args:
-            what: Which of them.
+            file_kind: Which of them.
             state: What is shown.
             ghosts: Configurations (n,) of ghost arms.
         """
-        match what:
+        match file_kind:
             case "png":
-                self._png()
+                self._save_png()
             case "svg":
-                self._svg(state, ghosts)
+                self._save_svg(state, ghosts)
             case _:
-                self._cell(state)
+                self._save_cell(state)
 
-    def _png(self) -> None:
-        """The scene as the client's camera sees it, without the handles."""
+    def _save_png(self) -> None:
+        """Save the scene from the client's camera, without the handles."""
         camera = self._client.camera
-        height = min(PICTURE[0], int(camera.image_height))
-        width = min(PICTURE[1], int(camera.image_width))
+        height = min(MAX_PICTURE_PX[0], int(camera.image_height))
+        width = min(MAX_PICTURE_PX[1], int(camera.image_width))
 
-        def job(_: Callable[[], None]) -> None:
-            from holdfast.studio.picture import png
+        def render_and_send(_: Callable[[], None]) -> None:
+            from holdfast.studio.picture import encode_png
 
-            handles = [h for h in (self._stage.gizmo, self._stage.target) if h.visible]
+            handles = [control for control in (self._stage.gizmo, self._stage.target) if control.visible]
             for handle in handles:
                 handle.visible = False
             try:
@@ -77,33 +77,33 @@ class Saver:
             finally:
                 for handle in handles:
                     handle.visible = True
-            self._send(f"{self._machine.arm.name}.png", png(picture))
+            self._send_file(f"{self._machine.arm.name}.png", encode_png(picture))
 
-        self._worker.ask(job)
+        self._worker.submit(render_and_send)
 
-    def _svg(self, state: State, ghosts: list[NDArray[np.float64]]) -> None:
-        """A drawing of a state, with ghost arms at configurations (n,)."""
+    def _save_svg(self, state: State, ghosts: list[NDArray[np.float64]]) -> None:
+        """Save a drawing of a state, with ghost arms at configurations (n,)."""
 
-        def job(_: Callable[[], None]) -> None:
-            from holdfast.studio.picture import drawing
+        def draw_and_send(_: Callable[[], None]) -> None:
+            from holdfast.studio.picture import draw_view_svg
 
-            self._send(f"{self._machine.arm.name}.svg", drawing(self._machine, state, ghosts).encode())
+            self._send_file(f"{self._machine.arm.name}.svg", draw_view_svg(self._machine, state, ghosts).encode())
 
-        self._worker.ask(job)
+        self._worker.submit(draw_and_send)
 
-    def _cell(self, state: State) -> None:
-        """The cell with its objects where they are now; meshes and clouds are named by their whole paths."""
+    def _save_cell(self, state: State) -> None:
+        """Save the cell with the current poses of its objects; meshes and clouds are named by absolute paths."""
 
-        def job(_: Callable[[], None]) -> None:
+        def write_and_send(_: Callable[[], None]) -> None:
             from holdfast.cell import cell_file
 
-            cell = self._machine.cell_with(state.moved)
+            cell = self._machine.cell_with_moved(state.moved)
             name = f"{re.sub(r'[^A-Za-z0-9._-]+', '-', cell.name).strip('-.') or 'cell'}.yaml"
-            content = cell_file.text(cell.to_dict()).encode()
-            self._send(name, content, f" From its folder: {replace(state, cell=name, moved=()).to_command()}")
+            content = cell_file.format_cell(cell.to_dict()).encode()
+            self._send_file(name, content, f" From its folder: {replace(state, cell=name, moved=()).to_command()}")
 
-        self._worker.ask(job)
+        self._worker.submit(write_and_send)
 
-    def _send(self, name: str, content: bytes, more: str = "") -> None:
+    def _send_file(self, name: str, content: bytes, note: str = "") -> None:
         self._client.send_file_download(name, content, save_immediately=True)
-        self._saved(f"Saved {name}.{more}")
+        self._on_saved(f"Saved {name}.{note}")

@@ -1,4 +1,4 @@
-"""Moving along the self-motion of a pose while a slider is held away from 0."""
+"""Motion along the self-motion of a pose while a slider is dragged away from 0."""
 
 from __future__ import annotations
 
@@ -7,73 +7,82 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.studio.page.panel import Panel
-from holdfast.studio.scene.machine import SLIDE, Machine
-from holdfast.studio.work import TICK, Clock
+from holdfast.studio.page.panel import ControlPanel
+from holdfast.studio.scene.machine import MAX_SLIDE_STEP, CompiledArm
+from holdfast.studio.work import TICK_S, Clock
 
 Array = NDArray[np.float64]
-SPEED = 0.8  # rad/s at the end of the slider
+MAX_SLIDE_SPEED_RAD_S = 0.8  # rad/s at the end of the slider
 
 
-class Sliding:
-    """The slider of one window.
+class SelfMotionSlider:
+    """Self-motion slider of one window.
 
     Args:
         machine: The arm.
         panel: The controls.
         clock: What moves it on; nothing else uses it at the same time.
-        where: The configuration (n,) and the failed joints now.
-        place: Is told every new configuration (n,).
+        current_state: The configuration (n,) and the failed joints now.
+        set_configuration: Is told every new configuration (n,).
     """
 
     def __init__(
         self,
-        machine: Machine,
-        panel: Panel,
+        machine: CompiledArm,
+        panel: ControlPanel,
         clock: Clock,
         *,
-        where: Callable[[], tuple[Array, Sequence[int]]],
-        place: Callable[[Array], None],
+        current_state: Callable[[], tuple[Array, Sequence[int]]],
+        set_configuration: Callable[[Array], None],
     ) -> None:
-        self._machine, self._panel, self._clock, self._where, self._place = machine, panel, clock, where, place
-        self._rate, self._way = 0.0, 0
-        self._along = np.zeros(machine.arm.n)
+        self._machine, self._panel, self._clock, self._current_state, self._set_configuration = (
+            machine,
+            panel,
+            clock,
+            current_state,
+            set_configuration,
+        )
+        self._rate, self._direction_number = 0.0, 0
+        self._direction = np.zeros(machine.arm.n)
 
-    def start(self, rate: float) -> None:
-        """Move on at a rate from -1 to 1; stop at 0."""
-        self._rate = rate
-        if rate:
-            self._clock.start(self._on)
+    def start(self, rate_fraction: float) -> None:
+        """Move at a rate from -1 to 1; 0 stops the motion."""
+        self._rate = rate_fraction
+        if rate_fraction:
+            self._clock.start(self._advance)
 
-    def turn(self, way: int | None = None) -> None:
-        """Look for the direction anew, the one of several if a number is given: another joint has failed, or a person chose."""
-        self._way, self._along = self._way if way is None else way, np.zeros(self._machine.arm.n)
+    def reset_direction(self, direction_number: int | None = None) -> None:
+        """Choose the direction again after a failure, or by its number if one is given."""
+        self._direction_number, self._direction = (
+            self._direction_number if direction_number is None else direction_number,
+            np.zeros(self._machine.arm.n),
+        )
 
-    def _on(self) -> None:
+    def _advance(self) -> None:
         if self._rate == 0.0:
             self._clock.stop()
             return
-        q, failed = self._where()
-        ways = self._machine.self_motions(q, failed)
-        if not len(ways):
-            self._end("There is no self-motion here: every joint that is left is needed to hold the tool.")
+        q, failed = self._current_state()
+        directions = self._machine.self_motion_directions(q, failed)
+        if not len(directions):
+            self._stop_with_reason("There is no self-motion here: every joint that is left is needed to hold the tool.")
             return
-        if not np.any(self._along):
-            along = ways[min(self._way, len(ways) - 1)]
+        if not np.any(self._direction):
+            chosen_direction = directions[min(self._direction_number, len(directions) - 1)]
             # Always the same way at the same place: the largest part counts up.
-            self._along = along * np.sign(along[int(np.abs(along).argmax())])
-        length = min(abs(self._rate) * SPEED * TICK, SLIDE)
+            self._direction = chosen_direction * np.sign(chosen_direction[int(np.abs(chosen_direction).argmax())])
+        length = min(abs(self._rate) * MAX_SLIDE_SPEED_RAD_S * TICK_S, MAX_SLIDE_STEP)
         sign = np.sign(self._rate)
-        new, direction = self._machine.slide(q, sign * length * self._along, failed)
+        q_next, direction = self._machine.step_self_motion(q, sign * length * self._direction, failed)
         if not np.any(direction):
-            self.turn()
-            self._end("The self-motion ends here, at a joint limit.")
+            self.reset_direction()
+            self._stop_with_reason("The self-motion ends here, at a joint limit.")
             return
-        self._along = sign * direction
-        self._panel.say("Sliding along the self-motion: the end effector is still.")
-        self._place(new)
+        self._direction = sign * direction
+        self._panel.show_message("Sliding along the self-motion: the end effector is still.")
+        self._set_configuration(q_next)
 
-    def _end(self, why: str) -> None:
+    def _stop_with_reason(self, reason: str) -> None:
         self._clock.stop()
         self._panel.slide.value = self._rate = 0.0
-        self._panel.say(why, bad=True)
+        self._panel.show_message(reason, is_error=True)

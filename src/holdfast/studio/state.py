@@ -1,4 +1,4 @@
-"""What a window of the studio shows, as one value that can be written down as a command line."""
+"""State of a studio window as one value that can be written as a command line."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from holdfast.errors import InputError
 
 Condition = Literal["healthy", "locked", "free"]
 Show = Literal["arm", "best-worst", "laws", "swing", "region", "file", "watch"]
-CONDITIONS: tuple[Condition, ...] = ("healthy", "locked", "free")
-SHOWS: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file", "watch")
+JOINT_CONDITIONS: tuple[Condition, ...] = ("healthy", "locked", "free")
+DISPLAY_MODES: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file", "watch")
 
 
 @dataclass(frozen=True)
 class State:
-    """One view, without the place from which it is looked at.
+    """View of the studio, without its camera position.
 
     Attributes:
         arm: The arm as given on the command line: a built-in name or a file.
@@ -71,10 +71,12 @@ class State:
         if len(self.q) != n:
             raise InputError(f"q has {len(self.q)} values; '{self.arm}' has {n} joints, so it must have {n}")
         conditions = self.conditions or ("healthy",) * n
-        if len(conditions) != n or any(c not in CONDITIONS for c in conditions):
-            raise InputError(f"conditions are {conditions}; give one of {', '.join(CONDITIONS)} for each of the {n} joints")
-        if self.show not in SHOWS:
-            raise InputError(f"show is '{self.show}'; use one of {', '.join(SHOWS)}")
+        if len(conditions) != n or any(condition not in JOINT_CONDITIONS for condition in conditions):
+            raise InputError(
+                f"conditions are {conditions}; give one of {', '.join(JOINT_CONDITIONS)} for each of the {n} joints"
+            )
+        if self.show not in DISPLAY_MODES:
+            raise InputError(f"show is '{self.show}'; use one of {', '.join(DISPLAY_MODES)}")
         if self.target is not None and len(self.target) != 7:
             raise InputError(f"target has {len(self.target)} numbers; it needs x,y,z in m and the quaternion x,y,z,w")
         object.__setattr__(self, "conditions", tuple(conditions))
@@ -92,34 +94,34 @@ class State:
         return tuple(k for k, c in enumerate(self.conditions) if c == "free")
 
     def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
-        """The same view with an object of the cell elsewhere."""
-        return replace(self, moved=(*(other for other in self.moved if other[0] != name), (name, numbers)))
+        """Return the same view with an object of the cell in another pose."""
+        return replace(self, moved=(*(entry for entry in self.moved if entry[0] != name), (name, numbers)))
 
     def arguments(self) -> list[str]:
-        """The arguments of ``holdfast`` that bring this state back; only what differs from the defaults, and q."""
-        plain = State(self.arm, self.names, self.q)
-        out = ["studio", self.arm, f"--q={','.join(repr(float(x)) for x in self.q)}", f"--task={self.task}"]
+        """Return the arguments of ``holdfast`` that restore this state: q and the differences from the defaults."""
+        defaults = State(self.arm, self.names, self.q)
+        options = ["studio", self.arm, f"--q={','.join(repr(float(number)) for number in self.q)}", f"--task={self.task}"]
         for option, value in (("base", self.base), ("tip", self.tip)):
-            out += [] if value is None else [f"--{option}={value}"]
-        out += [f"--hold={name}={value!r}" for name, value in self.hold]
+            options += [] if value is None else [f"--{option}={value}"]
+        options += [f"--hold={name}={value!r}" for name, value in self.hold]
         for name, condition in zip(self.names, self.conditions, strict=True):
-            out += [] if condition == "healthy" else [f"--{'lock' if condition == 'locked' else 'free'}={name}"]
+            options += [] if condition == "healthy" else [f"--{'lock' if condition == 'locked' else 'free'}={name}"]
         for option in ("index", "susceptibility", "objective", "show"):
             value = getattr(self, option)
-            value = plain.show if value == "watch" else value
-            out += [] if value == getattr(plain, option) else [f"--{option}={value}"]
-        if self.laws != plain.laws:
-            out += [f"--law={law}" for law in self.laws]
+            value = defaults.show if value == "watch" else value
+            options += [] if value == getattr(defaults, option) else [f"--{option}={value}"]
+        if self.laws != defaults.laws:
+            options += [f"--law={law}" for law in self.laws]
         if self.target is not None:
-            out.append(f"--target={','.join(repr(float(x)) for x in self.target)}")
+            options.append(f"--target={','.join(repr(float(number)) for number in self.target)}")
         for option in ("file", "region", "cell", "meshes"):
             text = getattr(self, option)
-            out += [] if text is None else [f"--{option}={text}"]
-        out += [f"--move={name}={','.join(repr(float(x)) for x in numbers)}" for name, numbers in self.moved]
+            options += [] if text is None else [f"--{option}={text}"]
+        options += [f"--move={name}={','.join(repr(float(number)) for number in numbers)}" for name, numbers in self.moved]
         if self.time:
-            out.append(f"--time={self.time!r}")
-        return out
+            options.append(f"--time={self.time!r}")
+        return options
 
     def to_command(self) -> str:
-        """The command line that brings this state back."""
+        """Return the command line that restores this state."""
         return f"holdfast {shlex.join(self.arguments())}"

@@ -1,4 +1,4 @@
-"""What one client sees: the scene and the controls, as a state says."""
+"""Scene and controls of one client, as determined by a state."""
 
 from __future__ import annotations
 
@@ -9,146 +9,148 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.poses import pose_of
+from holdfast.arm.poses import pose_from_quaternion
 from holdfast.errors import HoldfastError
-from holdfast.present.arm.body import Part
-from holdfast.studio.page.guide import Guide
-from holdfast.studio.page.panel import Panel
+from holdfast.present.arm.body import MeshPart
+from holdfast.studio.page.guide import TourGuide
+from holdfast.studio.page.panel import ControlPanel
 from holdfast.studio.player import Player
-from holdfast.studio.scene.cloud import Cloud
-from holdfast.studio.scene.machine import TOLERANCE, Machine, Reading, sentence
-from holdfast.studio.scene.objects import Objects
+from holdfast.studio.scene.cloud import RegionCloud
+from holdfast.studio.scene.machine import REACH_TOLERANCE, CompiledArm, LiveReading, describe_error
+from holdfast.studio.scene.objects import CellObjects
 from holdfast.studio.scene.stage import Stage
 from holdfast.studio.state import State
-from holdfast.studio.watching import Watched
-from holdfast.studio.work import TICK, Clock, Latest
+from holdfast.studio.watching import MonitorDemo
+from holdfast.studio.work import TICK_S, Clock, LatestRequests
 
 Array = NDArray[np.float64]
 
 
-class View:
-    """The scene and the controls of one client, and the state that they show.
+class StudioView:
+    """Scene and controls of one client, and the state that they show.
 
     Args:
         client: Of viser.
         machine: The arm.
         state: What is shown at first.
         parts: What the arm is made of.
-        ask: ``ask(what, value)`` is told of everything that a person does.
+        request_action: ``ask(what, value)`` is told of everything that a person does.
     """
 
-    def __init__(self, client: Any, machine: Machine, state: State, parts: list[Part], ask: Callable[[str, Any], None]) -> None:
+    def __init__(
+        self, client: Any, machine: CompiledArm, state: State, parts: list[MeshPart], request_action: Callable[[str, Any], None]
+    ) -> None:
         self.client, self.machine, self.state = client, machine, state
-        self._start = state
+        self._initial_state = state
         self.updates = 0  # pictures sent
-        self.held: str | int | None = None  # what a person holds: the end effector, or a slider
-        self.cloud: Cloud | None = None
-        self.watched: Watched | None = None
-        self._reading: Reading | None = None
-        self._busy = self._closed = False
-        self.live = Latest(self._complain)
-        self._clock = Clock(self.live, TICK)
+        self.dragged: str | int | None = None  # what a person holds: the end effector, or a slider
+        self.cloud: RegionCloud | None = None
+        self.monitor_demo: MonitorDemo | None = None
+        self._reading: LiveReading | None = None
+        self._is_busy = self._is_closed = False
+        self.live = LatestRequests(self._show_error)
+        self._clock = Clock(self.live, TICK_S)
         with client.atomic():
             self.stage = Stage(client.scene, machine, parts)
-            self.stage.move(machine.arm.frames(self.q), gizmo=True)
-            self.panel = Panel(client.gui, machine, state, ask)
-            self.objects = None if machine.cell is None else Objects(client.scene, machine, state.moved, ask)
-        self.player = Player(self.stage, self.panel, self._clock, self._moved)
-        self._guide = Guide(ask, self.panel.guide)
+            self.stage.move_arm(machine.arm.frames(self.q), moves_gizmo=True)
+            self.panel = ControlPanel(client.gui, machine, state, request_action)
+            self.objects = None if machine.cell is None else CellObjects(client.scene, machine, state.moved, request_action)
+        self.player = Player(self.stage, self.panel, self._clock, self._follow_motion)
+        self._guide = TourGuide(request_action, self.panel.show_tour)
 
     @property
     def q(self) -> Array:
-        """(n,) where the arm is, rad and m."""
+        """Configuration (n,) of the arm, rad and m."""
         return np.array(self.state.q)
 
-    def _place(self, q: Array) -> None:
-        self.state = replace(self.state, q=tuple(float(x) for x in q))
+    def _set_configuration(self, q: Array) -> None:
+        self.state = replace(self.state, q=tuple(float(value) for value in q))
         self._refresh()
 
     def _refresh(self) -> None:
-        """Show the state: the arm at once, and what a failure takes."""
+        """Show the state: the arm at once, then the effect of a failure."""
         q, state = self.q, self.state
         frames = self.machine.arm.frames(q)
         with self.client.atomic():
-            self.stage.move(frames, gizmo=self.held != "hand")
-            self.panel.follow(q, self.held if isinstance(self.held, int) else None)
-        reading = self._reading = self.machine.read(q, state.failed, state.index, state.susceptibility)
+            self.stage.move_arm(frames, moves_gizmo=self.dragged != "hand")
+            self.panel.move_sliders(q, self.dragged if isinstance(self.dragged, int) else None)
+        reading = self._reading = self.machine.evaluate(q, state.failed, state.index, state.susceptibility)
         with self.client.atomic():
-            self.stage.read(reading, frames[-1])
-            self.panel.read(reading, state)
-            self.panel.enable(self._possible(reading))
-            self.panel.tell_watched(self.watched if state.show == "watch" else None, state)
+            self.stage.show_reading(reading, frames[-1])
+            self.panel.show_reading(reading, state)
+            self.panel.enable_controls(self._possible_actions(reading))
+            self.panel.show_monitor(self.monitor_demo if state.show == "watch" else None, state)
             if self.objects is not None:
-                self.panel.tell_nearest(*self.objects.read(q))
-            self._guide.tell(reading, state.names, self._busy)
+                self.panel.show_nearest(*self.objects.show_nearest(q))
+            self._guide.show_step(reading, state.names, self._is_busy)
         self.updates += 1
 
-    def _possible(self, reading: Reading) -> dict[str, bool]:
-        """Which buttons can do something now."""
+    def _possible_actions(self, reading: LiveReading) -> dict[str, bool]:
+        """Return for each button whether it has an effect now."""
         state, machine = self.state, self.machine
         ghosts = len(self.player.ghosts) if state.show in ("best-worst", "laws") else 0
-        beside = state.show != "arm" or state.target is not None or bool(self.player.ghosts) or self.cloud is not None
+        has_extras = state.show != "arm" or state.target is not None or bool(self.player.ghosts) or self.cloud is not None
         return {
-            "home": state.q != self._start.q,
+            "home": state.q != self._initial_state.q,
             "heal": bool(state.failed),
-            "swing": bool(state.free) and machine.swings,
-            "best-worst": not isinstance(machine.objectives(state.objective), str),
+            "swing": bool(state.free) and machine.can_swing,
+            "best-worst": not isinstance(machine.get_objectives(state.objective), str),
             "take0": ghosts > 0,
             "take1": ghosts > 1,
             "target": state.target is None,
-            "laws": state.target is not None and not self._arrived(),
+            "laws": state.target is not None and not self._is_at_target(),
             "region": not isinstance(reading.bars, str),
-            "watch": machine.swings and not state.failed,
-            "inject": state.show == "watch" and self.watched is not None and not self._busy,
-            "clear": beside or self._busy,
+            "watch": machine.can_swing and not state.failed,
+            "inject": state.show == "watch" and self.monitor_demo is not None and not self._is_busy,
+            "clear": has_extras or self._is_busy,
             "tour": True,
-            "next": not self._busy,
-            "slide": len(machine.self_motions(self.q, state.failed)) > 0,
+            "next": not self._is_busy,
+            "slide": len(machine.self_motion_directions(self.q, state.failed)) > 0,
         }
 
-    def refuse(self, text: str) -> None:
-        """Say that something was not taken."""
-        self.live.put("refuse", lambda: self.panel.say(text, bad=True))
+    def show_refusal(self, text: str) -> None:
+        """Show that an input was rejected."""
+        self.live.submit("refuse", lambda: self.panel.show_message(text, is_error=True))
 
-    def _saved(self, text: str) -> None:
-        self.live.put("saved", lambda: self.panel.say(text))
+    def _show_saved(self, text: str) -> None:
+        self.live.submit("saved", lambda: self.panel.show_message(text))
 
-    def _complain(self, error: BaseException) -> None:
-        if self._closed:
+    def _show_error(self, error: BaseException) -> None:
+        if self._is_closed:
             return
         if not isinstance(error, HoldfastError):
             import traceback
 
             traceback.print_exception(error)
-        self.panel.say(sentence(error), bad=True)
-        if self._busy:
-            self._busy = False
-            self.live.put("refresh", self._refresh)
+        self.panel.show_message(describe_error(error), is_error=True)
+        if self._is_busy:
+            self._is_busy = False
+            self.live.submit("refresh", self._refresh)
 
     def _on_pick(self, name: str) -> None:
         if self.objects is not None:
-            self.objects.pick(name)
-            self.panel.say(f"Drag {name} by its handle; click it again to leave it there.")
+            self.objects.toggle_handle(name)
+            self.panel.show_message(f"Drag {name} by its handle; click it again to leave it there.")
 
     def _on_object(self, value: tuple[str, tuple[float, ...]]) -> None:
         if self.objects is not None:
-            self.objects.move(*value, self.state.moved)
+            self.objects.move_object(*value, self.state.moved)
             self.state = self.state.with_object(*value)
             self._refresh()
 
-    def _moved(self, time: float, q: Array | None) -> None:
+    def _follow_motion(self, time: float, q: Array | None) -> None:
         self.state = replace(self.state, time=time)
         if q is None:
             self._refresh()
         else:
-            self._place(q)
+            self._set_configuration(q)
 
     def _on_time(self, value: float) -> None:
         self.player.pause()  # who takes the slider stops what plays
         self.player.seek(value)
 
     def _on_play(self, _: Any) -> None:
-        self.player.play()
+        self.player.toggle_play()
 
     def _on_labels(self, value: bool) -> None:
         self.stage.show_labels(value)
@@ -163,7 +165,10 @@ class View:
         self.stage.target.wxyz = (numbers[6], *numbers[3:6])
         self.stage.target.visible = True
 
-    def _arrived(self) -> bool:
-        """The end effector is where the target says, as far as the task looks."""
+    def _is_at_target(self) -> bool:
+        """Return whether the end effector is at the target, by the rows of the task."""
         target = self.state.target
-        return target is not None and self.machine.apart(self.q, pose_of(target[:3], target[3:])) < TOLERANCE
+        return (
+            target is not None
+            and self.machine.pose_error_norm(self.q, pose_from_quaternion(target[:3], target[3:])) < REACH_TOLERANCE
+        )

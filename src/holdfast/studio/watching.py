@@ -1,4 +1,5 @@
-"""A joint fails while the arm moves, and a monitor that was calibrated on the healthy arm says which: computed, then drawn.
+"""Demonstration of a monitor, calibrated on the healthy arm, that identifies a joint fault during a motion: simulation and
+drawing.
 
 The page has that monitor too, and runs it over what the robot told so far: what is said of the alarm comes from there.
 """
@@ -15,11 +16,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.poses import pose_of, rotations_of_quaternions
-from holdfast.diagnosis.decision import AGAIN, CLASSIFY, ISOLATE
+from holdfast.arm.poses import pose_from_quaternion, rotations_of_quaternions
+from holdfast.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S, SENSOR_REVISION_TIME_S
 from holdfast.errors import InputError
-from holdfast.studio.motions import SAMPLES, Motion
-from holdfast.studio.scene.machine import Machine
+from holdfast.studio.motions import MOTION_SAMPLES, PlayedMotion
+from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-KINDS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
+FAULT_PARAMETERS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
     {
         "locked": {"at": "here"},
         "limp": {},
@@ -42,48 +43,52 @@ KINDS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
         "none": {},
     }
 )
-LATEST = 4.0  # s: the last time at which a fault can begin
-SPEED, GAIN, LONGEST = 0.25, 2.0, 8.0  # m/s, 1/s, s: of the motions
-HEALTHY, FACTOR = 4, 2.0  # motions that the bounds are of, and what these are multiplied by: few records need more room
-POINTS, STEPS = 150, 60  # of a line, and of the time as it plays
-_LOW, _HIGH = 0.1, 30.0  # of a bound: what the drawing shows
-_WIDE, _TALL = 300, 74  # of one panel
+LATEST_ONSET_S = 4.0  # s: the last time at which a fault can begin
+SPEED_LIMIT_M_S, LAW_GAIN_PER_S, MOTION_TIME_LIMIT_S = 0.25, 2.0, 8.0  # m/s, 1/s, s: of the motions
+HEALTHY_MOTIONS, THRESHOLD_FACTOR = (
+    4,
+    2.0,
+)  # motions that the bounds are of, and what these are multiplied by: few records need more room
+MAX_LINE_POINTS, PLAYBACK_STEPS = 150, 60  # of a line, and of the time as it plays
+_MIN_DRAWN_RATIO, _MAX_DRAWN_RATIO = 0.1, 30.0  # of a bound: what the drawing shows
+_PANEL_WIDTH_PX, _PANEL_HEIGHT_PX = 300, 74  # of one panel
 
 
 @dataclass(frozen=True, kw_only=True)
-class Watched:
-    """What happened, and what the monitor saw.
+class MonitorDemo:
+    """Motion with a fault, and the output of the monitor.
 
     Attributes:
         motion: Of the arm with its fault.
         time: (T,) s.
         residuals: By what is watched, in units of its bound: (T, n), of the tool (T, 1).
         onset: Of the fault, s; infinite without one.
-        alarm: s; infinite without one.
+        alarm_time: s; infinite without one.
         joint: The one that was named, from 0; None if none was.
-        named: When, s; infinite if none was.
-        said: What was known, each with the time from which on, s.
-        untold: What could not be told.
-        record: HTML that shows nothing: what the robot told, and the monitor as a module of JavaScript.
+        isolation_time: When, s; infinite if none was.
+        findings: What was known, each with the time from which on, s.
+        inconclusive: What could not be told.
+        record_html: HTML that shows nothing: what the robot told, and the monitor as a module of JavaScript.
     """
 
-    motion: Motion
+    motion: PlayedMotion
     time: Array
     residuals: Mapping[str, Array]
     onset: float
-    alarm: float
+    alarm_time: float
     joint: int | None
-    named: float
-    said: tuple[tuple[float, str], ...]
-    untold: tuple[str, ...]
-    record: str
+    isolation_time: float
+    findings: tuple[tuple[float, str], ...]
+    inconclusive: tuple[str, ...]
+    record_html: str
 
 
-_known: dict[object, Bounds] = {}  # of the last question: to inject another fault takes one motion, not five
+_last_thresholds: dict[object, Bounds] = {}  # of the last question: to inject another fault takes one motion, not five
 
 
-def watched(machine: Machine, state: State, progress: Callable[[int, int], None]) -> Watched:
-    """Move to the target under the first law while a joint fails and nobody reacts, and what a monitor makes of it.
+def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> MonitorDemo:
+    """Simulate a motion to the target under the first law during which a joint fails, without any reaction, and run a monitor
+    on its log.
 
     Everything is simulated: masses and friction of the robot are up to 20 % off the arm's model, and its sensors are noisy.
 
@@ -103,130 +108,162 @@ def watched(machine: Machine, state: State, progress: Callable[[int, int], None]
     if state.target is None:
         raise InputError("there is no target; choose one first")
     arm, q = machine.arm, np.array(state.q)
-    there, here = pose_of(state.target[:3], state.target[3:]), machine.hand(q)
-    law = hf.control.by_name(state.laws[0], arm, task=machine.task, gain=GAIN, speed_limit=SPEED)
-    body, start, logs = hf.Body(), q, list[hf.faults.Log]()
-    question = (arm.fingerprint, machine.task.name, state.laws[0], state.q, state.target)
-    for k in range(HEALTHY if question not in _known else 0):
-        progress(k, HEALTHY + 1)
-        goal = _rows(machine, here if k % 2 else there)
-        run = hf.simulate_faults(law, start, goal, body=body, seed=k, time_limit=LONGEST)
+    target_pose, start_pose = pose_from_quaternion(state.target[:3], state.target[3:]), machine.tool_pose(q)
+    law = hf.control.by_name(state.laws[0], arm, task=machine.task, gain=LAW_GAIN_PER_S, speed_limit=SPEED_LIMIT_M_S)
+    robot, start, logs = hf.Body(), q, list[hf.faults.Log]()
+    calibration_key = (arm.fingerprint, machine.task.name, state.laws[0], state.q, state.target)
+    for number in range(HEALTHY_MOTIONS if calibration_key not in _last_thresholds else 0):
+        progress(number, HEALTHY_MOTIONS + 1)
+        motion_target = _to_task_target(machine, start_pose if number % 2 else target_pose)
+        run = hf.simulate_faults(law, start, motion_target, body=robot, seed=number, time_limit=MOTION_TIME_LIMIT_S)
         logs, start = [*logs, run.log()], np.asarray(run.q[-1])
     if logs:
-        dry, viscous = np.full(arm.n, body.coulomb), np.full(arm.n, body.viscous)
-        _known.clear()
-        _known[question] = hf.diagnosis.calibrate(arm, logs, factor=FACTOR, coulomb=dry, viscous=viscous)
-    monitor = hf.diagnosis.Monitor(arm, _known[question])
-    progress(HEALTHY, HEALTHY + 1)
-    faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=KINDS[kind])]  # type: ignore[arg-type]
-    run = hf.simulate_faults(law, q, _rows(machine, there), faults=faults, body=body, seed=HEALTHY, time_limit=LONGEST)
-    return _told(run, monitor.run(run.log()), onset if faults else np.inf, state.names)
+        coulomb, viscous = np.full(arm.n, robot.coulomb), np.full(arm.n, robot.viscous)
+        _last_thresholds.clear()
+        _last_thresholds[calibration_key] = hf.diagnosis.calibrate(
+            arm, logs, factor=THRESHOLD_FACTOR, coulomb=coulomb, viscous=viscous
+        )
+    monitor = hf.diagnosis.Monitor(arm, _last_thresholds[calibration_key])
+    progress(HEALTHY_MOTIONS, HEALTHY_MOTIONS + 1)
+    faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=FAULT_PARAMETERS[kind])]  # type: ignore[arg-type]
+    run = hf.simulate_faults(
+        law,
+        q,
+        _to_task_target(machine, target_pose),
+        faults=faults,
+        body=robot,
+        seed=HEALTHY_MOTIONS,
+        time_limit=MOTION_TIME_LIMIT_S,
+    )
+    return _evaluate_monitor(run, monitor.run(run.log()), onset if faults else np.inf, state.names)
 
 
-def _rows(machine: Machine, pose: Array) -> Array:
-    """A target as the task takes it."""
+def _to_task_target(machine: CompiledArm, pose: Array) -> Array:
+    """Convert a pose to a target of the task."""
     return pose if machine.task.angular else np.asarray(machine.task.rows[:, :3] @ pose[:3, 3])
 
 
-def _told(run: FaultRun, found: Diagnosis, onset: float, names: tuple[str, ...]) -> Watched:
+def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: tuple[str, ...]) -> MonitorDemo:
     import holdfast as hf
 
-    verdict, scaled, every = found.verdict, found.scaled, max(1, len(run.time) // POINTS)
-    said: list[tuple[float, str]] = []
-    alarm = float(verdict.time) if verdict.alarm else np.inf
-    named = alarm + (AGAIN if verdict.kind == "sensor" else ISOLATE)
+    verdict, scaled, stride = diagnosis.verdict, diagnosis.scaled, max(1, len(run.time) // MAX_LINE_POINTS)
+    findings: list[tuple[float, str]] = []
+    alarm_time = float(verdict.time) if verdict.alarm else np.inf
+    isolation_time = alarm_time + (SENSOR_REVISION_TIME_S if verdict.kind == "sensor" else ISOLATION_TIME_S)
     if verdict.alarm:
-        first, *more = [line for line in found.describe() if line.startswith("alarm at")] + list(verdict.evidence)
-        known = named if verdict.kind == "sensor" else named + CLASSIFY
-        said = [(known, text) for text in (first.partition(": ")[2], *more)]
-    untold = [f"did not move enough to tell: {', '.join(found.untold)}"] if found.untold else []
+        alarm_line, *evidence = [line for line in diagnosis.describe() if line.startswith("alarm at")] + list(verdict.evidence)
+        known_time = isolation_time if verdict.kind == "sensor" else isolation_time + CLASSIFICATION_TIME_S
+        findings = [(known_time, text) for text in (alarm_line.partition(": ")[2], *evidence)]
+    inconclusive = [f"did not move enough to tell: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
     if verdict.alarm and len(verdict.candidates) > 1:
-        untold.append(f"not told apart: {', '.join(verdict.candidates)}")
+        inconclusive.append(f"not told apart: {', '.join(verdict.candidates)}")
     if not verdict.alarm:
-        untold.insert(0, "no fault was seen, which does not prove that there is none")
-    residuals = {"torques": _largest(scaled.torque, every), "joint sensors": _largest(scaled.tracking, every)}
+        inconclusive.insert(0, "no fault was seen, which does not prove that there is none")
+    residuals = {
+        "torques": _downsample_maxima(scaled.torque, stride),
+        "joint sensors": _downsample_maxima(scaled.tracking, stride),
+    }
     if np.isfinite(scaled.tool).any():
-        residuals["the tool's measured pose"] = _largest(scaled.tool[:, None], every)
-    often = slice(None, None, max(1, len(run.time) // (4 * SAMPLES)))
-    return Watched(
-        motion=Motion("the arm with the fault, nobody reacts", run.time[often], "s", run.q[often]),
-        time=run.time[::every],
+        residuals["the tool's measured pose"] = _downsample_maxima(scaled.tool[:, None], stride)
+    motion_samples = slice(None, None, max(1, len(run.time) // (4 * MOTION_SAMPLES)))
+    return MonitorDemo(
+        motion=PlayedMotion("the arm with the fault, nobody reacts", run.time[motion_samples], "s", run.q[motion_samples]),
+        time=run.time[::stride],
         residuals=residuals,
         onset=onset,
-        alarm=alarm,
+        alarm_time=alarm_time,
         joint=names.index(verdict.joint) if verdict.joint in names else None,
-        named=np.inf if verdict.joint is None else named,
-        said=tuple(said),
-        untold=tuple(untold),
-        record=_record(found.log, hf.diagnosis.javascript_of(run.arm, found.bounds), onset),
+        isolation_time=np.inf if verdict.joint is None else isolation_time,
+        findings=tuple(findings),
+        inconclusive=tuple(inconclusive),
+        record_html=_encode_record(diagnosis.log, hf.diagnosis.javascript_of(run.arm, diagnosis.bounds), onset),
     )
 
 
-def _record(log: Log, monitor: str, onset: float) -> str:
-    """Rows of joints, references and torques; the poses that were measured, (4, 4) by rows; the monitor; for the page."""
+def _encode_record(log: Log, monitor: str, onset: float) -> str:
+    """Encode for the page the rows of joints, references and torques, the measured poses, (4, 4) by rows, and the monitor."""
     assert log.tau is not None
     assert log.x is not None
     assert log.quat is not None
-    seen = np.flatnonzero(np.isfinite(log.x[:, 0]))
-    poses = np.tile(np.eye(4), (len(seen), 1, 1))
-    poses[:, :3, :3], poses[:, :3, 3] = rotations_of_quaternions(log.quat[seen]), log.x[seen]
-    numbers = (np.concatenate([log.q, log.q_ref, log.tau], axis=1), poses)
-    texts = (*(b64encode(part.tobytes()).decode() for part in numbers), monitor)
-    inside, every = "".join(f"<b>{escape(text)}</b>" for text in texts), int(np.diff(seen)[0])
-    begins = onset if np.isfinite(onset) else ""
-    return f'<div hidden class="hf-record" data-rate="{log.rate:g}" data-every="{every}" data-onset="{begins}">{inside}</div>'
+    measured_rows = np.flatnonzero(np.isfinite(log.x[:, 0]))
+    poses = np.tile(np.eye(4), (len(measured_rows), 1, 1))
+    poses[:, :3, :3], poses[:, :3, 3] = rotations_of_quaternions(log.quat[measured_rows]), log.x[measured_rows]
+    arrays = (np.concatenate([log.q, log.q_ref, log.tau], axis=1), poses)
+    texts = (*(b64encode(array.tobytes()).decode() for array in arrays), monitor)
+    elements, pose_stride = "".join(f"<b>{escape(text)}</b>" for text in texts), int(np.diff(measured_rows)[0])
+    onset_text = onset if np.isfinite(onset) else ""
+    return (
+        f'<div hidden class="hf-record" data-rate="{log.rate:g}" data-every="{pose_stride}" '
+        f'data-onset="{onset_text}">{elements}</div>'
+    )
 
 
-def _largest(values: Array, every: int) -> Array:
-    """The largest of each few samples, so that no peak is lost: (T', n); NaN where there is none."""
-    rows = -(-len(values) // every)
-    padded = np.full((rows * every, values.shape[1]), -np.inf)
+def _downsample_maxima(values: Array, stride: int) -> Array:
+    """Return the largest value of each group of samples, so that no peak is lost: (T', n); NaN without values."""
+    groups = -(-len(values) // stride)
+    padded = np.full((groups * stride, values.shape[1]), -np.inf)
     padded[: len(values)] = np.where(np.isfinite(values), values, -np.inf)
-    top = padded.reshape(rows, every, -1).max(axis=1)
-    return np.where(np.isfinite(top), top, np.nan)
+    maxima = padded.reshape(groups, stride, -1).max(axis=1)
+    return np.where(np.isfinite(maxima), maxima, np.nan)
 
 
 # ---- drawn -----------------------------------------------------------------------------------------------------------
 
 
-def watched_html(found: Watched, names: tuple[str, ...], now: float) -> str:
-    """Residuals up to now, each in units of its bound, and what the monitor has said so far."""
-    end = float(found.time[-1])
-    now = now if now >= end else end * np.floor(now / end * STEPS) / STEPS  # or the page would be sent thirty times a second
-    panels = [_panel(what, found, values, now, names) for what, values in found.residuals.items() if np.isfinite(values).any()]
-    so_far = [text for time, text in found.said if time <= now]
-    lines = [*so_far, *(found.untold if now >= end * (1 - 1e-9) else ())]
+def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
+    """Draw the residuals up to the current time, each in units of its threshold, and the findings of the monitor so far."""
+    end = float(demo.time[-1])
+    current = (
+        current if current >= end else end * np.floor(current / end * PLAYBACK_STEPS) / PLAYBACK_STEPS
+    )  # or the page would be sent thirty times a second
+    panels = [
+        _draw_panel(quantity, demo, values, current, names)
+        for quantity, values in demo.residuals.items()
+        if np.isfinite(values).any()
+    ]
+    past_findings = [text for time, text in demo.findings if time <= current]
+    lines = [*past_findings, *(demo.inconclusive if current >= end * (1 - 1e-9) else ())]
     items = "".join(f"<li>{escape(line)}</li>" for line in lines)
-    key = "Each line is a joint; dashes: its bound, purple: the fault begins, orange: the alarm."
+    legend = "Each line is a joint; dashes: its bound, purple: the fault begins, orange: the alarm."
     return (
-        f'<div class="hf-watch"><strong class="hf-head" data-now="{now:.6g}"></strong><div class="hf-soft">{key}</div>'
+        f'<div class="hf-watch"><strong class="hf-head" data-now="{current:.6g}"></strong><div class="hf-soft">{legend}</div>'
         f"{''.join(panels)}<ul>{items}</ul></div>"
     )
 
 
-def _panel(what: str, found: Watched, values: Array, now: float, names: tuple[str, ...]) -> str:
-    end = float(found.time[-1]) or 1.0
-    seen = found.time <= now
-    x = _WIDE * found.time / end
-    y = _TALL - _TALL * np.log(np.clip(values, _LOW, _HIGH) / _LOW) / np.log(_HIGH / _LOW)
-    bound = _TALL - _TALL * np.log(1 / _LOW) / np.log(_HIGH / _LOW)
+def _draw_panel(quantity: str, demo: MonitorDemo, values: Array, current: float, names: tuple[str, ...]) -> str:
+    end = float(demo.time[-1]) or 1.0
+    is_past = demo.time <= current
+    x = _PANEL_WIDTH_PX * demo.time / end
+    y = _PANEL_HEIGHT_PX - _PANEL_HEIGHT_PX * np.log(
+        np.clip(values, _MIN_DRAWN_RATIO, _MAX_DRAWN_RATIO) / _MIN_DRAWN_RATIO
+    ) / np.log(_MAX_DRAWN_RATIO / _MIN_DRAWN_RATIO)
+    bound = _PANEL_HEIGHT_PX - _PANEL_HEIGHT_PX * np.log(1 / _MIN_DRAWN_RATIO) / np.log(_MAX_DRAWN_RATIO / _MIN_DRAWN_RATIO)
     lines = []
-    for k in range(values.shape[1]):
-        good = seen & np.isfinite(values[:, k])
-        named = k == found.joint and values.shape[1] > 1 and now >= found.named
-        points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x[good], y[good, k], strict=True))
-        lines.append((named, f'<polyline{" class=hf-named" if named else ""} points="{points}"/>'))
+    for column in range(values.shape[1]):
+        is_drawn = is_past & np.isfinite(values[:, column])
+        is_isolated = column == demo.joint and values.shape[1] > 1 and current >= demo.isolation_time
+        points = " ".join(
+            f"{point_x:.1f},{point_y:.1f}" for point_x, point_y in zip(x[is_drawn], y[is_drawn, column], strict=True)
+        )
+        lines.append((is_isolated, f'<polyline{" class=hf-named" if is_isolated else ""} points="{points}"/>'))
     marks = [
-        f'<line class="{mark}" x1="{_WIDE * t / end:.1f}" x2="{_WIDE * t / end:.1f}" y1="0" y2="{_TALL}"/>'
-        for mark, t in (("hf-onset", found.onset), ("hf-alarm", found.alarm))
-        if t <= min(now, end)
+        f'<line class="{mark}" x1="{_PANEL_WIDTH_PX * mark_time / end:.1f}" x2="{_PANEL_WIDTH_PX * mark_time / end:.1f}" '
+        f'y1="0" y2="{_PANEL_HEIGHT_PX}"/>'
+        for mark, mark_time in (("hf-onset", demo.onset), ("hf-alarm", demo.alarm_time))
+        if mark_time <= min(current, end)
     ]
-    over = [names[k] for k in range(values.shape[1]) if values.shape[1] > 1 and np.nanmax(np.append(values[seen, k], 0)) > 1]
-    label = f"{what}, in units of their bounds, to {now:.2f} s; over: {', '.join(over) or 'none'}"
-    drawn = "".join(text for _, text in sorted(lines))
+    exceeding = [
+        names[column]
+        for column in range(values.shape[1])
+        if values.shape[1] > 1 and np.nanmax(np.append(values[is_past, column], 0)) > 1
+    ]
+    label = f"{quantity}, in units of their bounds, to {current:.2f} s; over: {', '.join(exceeding) or 'none'}"
+    polylines = "".join(text for _, text in sorted(lines))
     return (
-        f"<figure><figcaption>{escape(what)}, of the bound</figcaption>"
-        f'<svg viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label, quote=True)}">{drawn}'
-        f'<line class="hf-bound" x1="0" x2="{_WIDE}" y1="{bound:.1f}" y2="{bound:.1f}"/>{"".join(marks)}'
+        f"<figure><figcaption>{escape(quantity)}, of the bound</figcaption>"
+        f'<svg viewBox="0 0 {_PANEL_WIDTH_PX} {_PANEL_HEIGHT_PX}" role="img" '
+        f'aria-label="{escape(label, quote=True)}">{polylines}'
+        f'<line class="hf-bound" x1="0" x2="{_PANEL_WIDTH_PX}" y1="{bound:.1f}" y2="{bound:.1f}"/>{"".join(marks)}'
         f'<text x="2" y="{bound - 2:.1f}">1</text></svg></figure>'
     )

@@ -1,4 +1,4 @@
-"""One open page: its state, and what its controls do."""
+"""Open page with its state and the actions of its controls."""
 
 from __future__ import annotations
 
@@ -11,250 +11,271 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.poses import pose_numbers, pose_of
+from holdfast.arm.poses import pose_from_quaternion, pose_numbers
 from holdfast.errors import HoldfastError, InputError
-from holdfast.present.arm.body import Part
-from holdfast.studio.aside import Aside
-from holdfast.studio.compute import Extremes
-from holdfast.studio.motions import Motion, read_motion
+from holdfast.present.arm.body import MeshPart
+from holdfast.studio.aside import WorkerProcess
+from holdfast.studio.compute import ExtremeConfigurations
+from holdfast.studio.motions import PlayedMotion, read_motion
 from holdfast.studio.page import upload
-from holdfast.studio.saving import Saver
-from holdfast.studio.scene.cloud import Cloud
-from holdfast.studio.scene.machine import Machine
-from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE
-from holdfast.studio.sliding import Sliding
+from holdfast.studio.saving import ViewSaver
+from holdfast.studio.scene.cloud import RegionCloud
+from holdfast.studio.scene.machine import CompiledArm
+from holdfast.studio.scene.stage import GREEN_RGB, ORANGE_RGB, PURPLE_RGB
+from holdfast.studio.sliding import SelfMotionSlider
 from holdfast.studio.state import State
-from holdfast.studio.view import View
-from holdfast.studio.watching import Watched
-from holdfast.studio.work import Worker
+from holdfast.studio.view import StudioView
+from holdfast.studio.watching import MonitorDemo
+from holdfast.studio.work import LongJobWorker
 
 Array = NDArray[np.float64]
 Check = Callable[[], None]
 Load = Callable[[Any, str, bytes], None]
 
-OF_HERE = ("best-worst", "laws", "swing", "watch")  # what is of where the arm is, and of what has failed
-ROUNDING = 1e-9  # of an index: below it a number says nothing
+STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "swing", "watch")  # what is of where the arm is, and of what has failed
+INDEX_ROUNDING = 1e-9  # of an index: below it a number says nothing
 
 
-class Window(View):
-    """One client of the studio, with an arm of its own.
+class Window(StudioView):
+    """Client of the studio, with an arm of its own.
 
     All changes of the state happen on one thread (``live``), in the order in which people ask, the newest of a kind only; what
-    takes long is done beside it (``work``), where a newer request cancels the older one, and comes back as a change.
+    takes long is done beside it (``worker``), where a newer request cancels the older one, and comes back as a change.
 
     Args:
         client: Of viser.
         machine: The arm.
-        aside: The process for what takes long.
+        worker_process: The process for what takes long.
         state: What is shown at first.
         parts: What the arm is made of.
         note: A sentence for people about these parts.
-        load: ``load(client, name, content)`` opens a file of another arm in place of this window, or raises and leaves it.
+        load_arm: ``load(client, name, content)`` opens a file of another arm in place of this window, or raises and leaves it.
     """
 
     def __init__(
-        self, client: Any, machine: Machine, aside: Aside, state: State, *, parts: list[Part], note: str, load: Load
+        self,
+        client: Any,
+        machine: CompiledArm,
+        worker_process: WorkerProcess,
+        state: State,
+        *,
+        parts: list[MeshPart],
+        note: str,
+        load_arm: Load,
     ) -> None:
-        super().__init__(client, machine, state, parts, self.ask)
-        self._aside, self._load = aside, load
-        self.work = Worker(self._complain)
-        self._sliding = Sliding(machine, self.panel, self._clock, where=lambda: (self.q, self.state.failed), place=self._place)
-        self._saver = Saver(client, machine, self.stage, self._saved, self._complain)
-        for k, handles in self.stage.figure.joints.items():
+        super().__init__(client, machine, state, parts, self.request_action)
+        self._worker_process, self._load_arm = worker_process, load_arm
+        self.worker = LongJobWorker(self._show_error)
+        self._self_motion_slider = SelfMotionSlider(
+            machine,
+            self.panel,
+            self._clock,
+            current_state=lambda: (self.q, self.state.failed),
+            set_configuration=self._set_configuration,
+        )
+        self._saver = ViewSaver(client, machine, self.stage, self._show_saved, self._show_error)
+        for joint, handles in self.stage.figure.joints.items():
             for handle in handles:
-                self._click(handle, k)
-        self._handle(self.stage.gizmo, "hand")
-        self._handle(self.stage.target, "goal")
+                self._attach_click(handle, joint)
+        self._attach_gizmo(self.stage.gizmo, "hand")
+        self._attach_gizmo(self.stage.target, "goal")
         if note:
-            self.panel.say(note)
-        self.live.put("begin", self._begin)
+            self.panel.show_message(note)
+        self.live.submit("begin", self._show_initial_state)
 
     def close(self) -> None:
-        """Stop all work for this window."""
-        self._closed = True
+        """Stop all work of this window."""
+        self._is_closed = True
         self._clock.stop()
-        for thread in (self.live, self.work, self._saver):
+        for thread in (self.live, self.worker, self._saver):
             thread.stop()
 
-    def settle(self, seconds: float = 30.0) -> bool:
-        """Wait until all work is done; False if that took too long."""
+    def wait_until_done(self, seconds: float = 30.0) -> bool:
+        """Wait until all work is done; return False if the time runs out."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
-            if not (self.work.settle(max(end - time.monotonic(), 0)) and self.live.settle(max(end - time.monotonic(), 0))):
+            if not (
+                self.worker.wait_until_done(max(end - time.monotonic(), 0))
+                and self.live.wait_until_done(max(end - time.monotonic(), 0))
+            ):
                 return False
-            if not self.work.busy:
+            if not self.worker.is_busy:
                 return True
         return False
 
     # ---- what people do --------------------------------------------------------------------------------------------
 
-    def ask(self, what: str, value: Any = None) -> None:
-        """Do something as soon as possible; of several requests of a kind that wait, only the newest is done."""
-        key = (what, value[0]) if what in ("joint", "fail") else what
-        self.live.put(key, lambda: self._do(what, value))
+    def request_action(self, action: str, value: Any = None) -> None:
+        """Request an action as soon as possible; of several waiting requests of one kind, only the newest is executed."""
+        key = (action, value[0]) if action in ("joint", "fail") else action
+        self.live.submit(key, lambda: self._perform_action(action, value))
 
-    def _do(self, what: str, value: Any) -> None:
-        action = getattr(self, f"_on_{what.replace('-', '_')}", None)
+    def _perform_action(self, name: str, value: Any) -> None:
+        action = getattr(self, f"_on_{name.replace('-', '_')}", None)
         if action is not None:
             action(value)
-        elif what in ("take0", "take1"):
-            self._take(int(what[-1]))
-        elif what in ("png", "svg", "cell-file"):
-            self._saver.save(what, self.state, list(self.player.ghosts))
+        elif name in ("take0", "take1"):
+            self._move_to_ghost(int(name[-1]))
+        elif name in ("png", "svg", "cell-file"):
+            self._saver.save(name, self.state, list(self.player.ghosts))
         else:  # a choice that is a field of the state
-            self.state = replace(self.state, **{what: value})
+            self.state = replace(self.state, **{name: value})
             self._refresh()
 
-    def _click(self, handle: Any, joint: int) -> None:
-        async def told(_: Any) -> None:
+    def _attach_click(self, handle: Any, joint: int) -> None:
+        async def on_click(_: Any) -> None:
             order = {"healthy": "locked", "locked": "free", "free": "healthy"}
-            self.ask("fail", (joint, order[self.state.conditions[joint]]))
+            self.request_action("fail", (joint, order[self.state.conditions[joint]]))
 
-        handle.on_click(told)
+        handle.on_click(on_click)
 
-    def _handle(self, gizmo: Any, what: str) -> None:
-        async def told(event: Any) -> None:
+    def _attach_gizmo(self, gizmo: Any, action: str) -> None:
+        async def on_update(event: Any) -> None:
             if event.client is not None:
                 w, x, y, z = event.target.wxyz
-                self.ask(what, (event.phase, np.array(event.target.position), np.array([x, y, z, w])))
+                self.request_action(action, (event.phase, np.array(event.target.position), np.array([x, y, z, w])))
 
-        gizmo.on_update(told)
+        gizmo.on_update(on_update)
 
-    def _begin(self) -> None:
-        for k, condition in enumerate(self.state.conditions):
-            self.stage.paint(k, condition)
+    def _show_initial_state(self) -> None:
+        for joint, condition in enumerate(self.state.conditions):
+            self.stage.paint_joint(joint, condition)
         if self.state.target is not None:
             self._show_target()
         self._refresh()
         with suppress(HoldfastError):  # said when somebody drags
-            self.machine.reach(self.q, self.machine.hand(self.q), ())  # compiled while the browser draws
-        start: str | None = self.state.show if self.state.show in (*OF_HERE, "file") else None
+            self.machine.solve_near(self.q, self.machine.tool_pose(self.q), ())  # compiled while the browser draws
+        first_action: str | None = self.state.show if self.state.show in (*STATE_DEPENDENT_SHOWS, "file") else None
         if self.state.show == "region":
-            start = "results" if self.state.region else "region"
-        if start is not None:
-            self._do(start, None)
+            first_action = "results" if self.state.region else "region"
+        if first_action is not None:
+            self._perform_action(first_action, None)
 
     # ---- moving ----------------------------------------------------------------------------------------------------
 
     def _on_joint(self, value: tuple[int, float]) -> None:
-        k, x = value
-        if self.state.conditions[k] != "healthy":
+        index, requested = value
+        if self.state.conditions[index] != "healthy":
             return
-        q, joint = self.q, self.machine.arm.joints[k]
-        q[k] = min(max(x, joint.lower), joint.upper)  # the ends of a slider are rounded
-        self.held = k
-        self._leave(q)
-        self._place(q)
-        self.held = None
+        q, joint = self.q, self.machine.arm.joints[index]
+        q[index] = min(max(requested, joint.lower), joint.upper)  # the ends of a slider are rounded
+        self.dragged = index
+        self._discard_results(q)
+        self._set_configuration(q)
+        self.dragged = None
 
     def _on_hand(self, value: tuple[str, Array, Array]) -> None:
         phase, position, quaternion = value
-        self.held = None if phase == "end" else "hand"
-        q, on = self.machine.reach(self.q, pose_of(position, quaternion), self.state.failed)
-        locked = f" with {self._failed_names()} locked" if self.state.failed else ""
-        self._leave(q)
-        self._place(q)
-        if on:
-            self.panel.say("The end effector follows.")
+        self.dragged = None if phase == "end" else "hand"
+        q, is_reached = self.machine.solve_near(self.q, pose_from_quaternion(position, quaternion), self.state.failed)
+        locked = f" with {self._format_failed_joints()} locked" if self.state.failed else ""
+        self._discard_results(q)
+        self._set_configuration(q)
+        if is_reached:
+            self.panel.show_message("The end effector follows.")
         else:
-            self.panel.say(f"Out of reach{locked}: the arm is as near as it gets from here.", bad=True)
+            self.panel.show_message(f"Out of reach{locked}: the arm is as near as it gets from here.", is_error=True)
 
     def _on_slide(self, value: float) -> None:
         if value:
             self.player.pause()
             if self.state.show != "best-worst":  # of the pose, which stays
-                self._leave()
-        self._sliding.start(float(value))
+                self._discard_results()
+        self._self_motion_slider.start(float(value))
 
     def _on_way(self, value: int) -> None:
-        self._sliding.turn(value)
+        self._self_motion_slider.reset_direction(value)
 
     def _on_home(self, _: Any) -> None:
-        self._leave(np.array(self._start.q))
-        self._place(np.array(self._start.q))
+        self._discard_results(np.array(self._initial_state.q))
+        self._set_configuration(np.array(self._initial_state.q))
 
-    def _leave(self, q: Array | None = None) -> None:
-        """Give up what was found for where the arm is, before it goes to q or changes: ghosts of elsewhere only mislead."""
-        if self.state.show not in OF_HERE or (q is not None and np.array_equal(q, self.q)):
+    def _discard_results(self, q: Array | None = None) -> None:
+        """Discard results that depend on the configuration, before it becomes q or a joint fails, because ghosts elsewhere
+        mislead.
+        """
+        if self.state.show not in STATE_DEPENDENT_SHOWS or (q is not None and np.array_equal(q, self.q)):
             return
-        self._cancel()
+        self._cancel_work()
         if self.player.ghosts:
-            self.panel.say("The ghosts were for the previous configuration; ask again for this one.")
-        self.player.clear()
+            self.panel.show_message("The ghosts were for the previous configuration; ask again for this one.")
+        self.player.remove_ghosts()
         self.state = replace(self.state, show="arm", time=0.0)
 
-    def _take(self, k: int) -> None:
-        if k >= len(self.player.ghosts):
-            self.panel.say("There is no such ghost arm; find best and worst, or move under two laws, first.", bad=True)
+    def _move_to_ghost(self, ghost: int) -> None:
+        if ghost >= len(self.player.ghosts):
+            self.panel.show_message(
+                "There is no such ghost arm; find best and worst, or move under two laws, first.", is_error=True
+            )
             return
-        self._place(self.player.ghosts[k])
+        self._set_configuration(self.player.ghosts[ghost])
 
     # ---- failing ---------------------------------------------------------------------------------------------------
 
     def _on_fail(self, value: tuple[int, str]) -> None:
-        k, condition = value
+        joint, condition = value
         conditions = list(self.state.conditions)
-        conditions[k] = condition  # type: ignore[call-overload]
-        self._fail(tuple(conditions))
+        conditions[joint] = condition  # type: ignore[call-overload]
+        self._set_conditions(tuple(conditions))
 
     def _on_heal(self, _: Any) -> None:
-        self._fail(("healthy",) * self.machine.arm.n)
+        self._set_conditions(("healthy",) * self.machine.arm.n)
 
-    def _fail(self, conditions: tuple[Any, ...]) -> None:
+    def _set_conditions(self, conditions: tuple[Any, ...]) -> None:
         if conditions != self.state.conditions:
-            self._leave()
+            self._discard_results()
         self.state = replace(self.state, conditions=conditions)
-        self._sliding.turn()
-        for k, condition in enumerate(conditions):
-            self.stage.paint(k, condition)
-        self.panel.fail(conditions)
-        named = self._failed_names()
-        self.panel.say(f"{named} failed." if named else "All joints are healthy.")
+        self._self_motion_slider.reset_direction()
+        for joint, condition in enumerate(conditions):
+            self.stage.paint_joint(joint, condition)
+        self.panel.show_conditions(conditions)
+        failed_names = self._format_failed_joints()
+        self.panel.show_message(f"{failed_names} failed." if failed_names else "All joints are healthy.")
         self._refresh()
 
-    def _failed_names(self) -> str:
-        return " and ".join(f"{self.state.names[k]} ({self.state.conditions[k]})" for k in self.state.failed)
+    def _format_failed_joints(self) -> str:
+        return " and ".join(f"{self.state.names[joint]} ({self.state.conditions[joint]})" for joint in self.state.failed)
 
     # ---- what takes long -------------------------------------------------------------------------------------------
 
-    def _start_work(self, text: str, job: str, show: Callable[[Any], None]) -> None:
-        """Do a job beside the page; what it finds is shown by the live thread, unless something newer was asked for."""
-        self.player.clear()
-        self.panel.say(f"{text} ...")
-        self._busy = True
+    def _start_work(self, text: str, job: str, show_result: Callable[[Any], None]) -> None:
+        """Run a job in the worker process; the live thread shows its result unless there was a newer request."""
+        self.player.remove_ghosts()
+        self.panel.show_message(f"{text} ...")
+        self._is_busy = True
         self.state = state = replace(self.state, show=job)  # type: ignore[arg-type]
         self._refresh()
 
-        def run(check: Check) -> None:
-            def progress(done: int, total: int) -> None:
+        def run_job(check: Check) -> None:
+            def report_progress(done: int, total: int) -> None:
                 if done:
-                    self.live.put("progress", lambda: self.panel.say(f"{text}: {done} of {total} ..."))
+                    self.live.submit("progress", lambda: self.panel.show_message(f"{text}: {done} of {total} ..."))
 
-            found = self._aside.run(job, state, check, progress)
+            result = self._worker_process.run(job, state, check, report_progress)
             check()
-            self.live.put("result", lambda: finish(found))
+            self.live.submit("result", lambda: finish_job(result))
 
-        def finish(found: Any) -> None:
-            self._busy = False
-            show(found)
+        def finish_job(result: Any) -> None:
+            self._is_busy = False
+            show_result(result)
 
-        self.work.ask(run)
+        self.worker.submit(run_job)
 
-    def _cancel(self) -> None:
-        self.work.cancel()
-        self._busy = False
+    def _cancel_work(self) -> None:
+        self.worker.cancel()
+        self._is_busy = False
 
     def _on_best_worst(self, _: Any) -> None:
         name = self.state.objective
 
-        def show(found: Extremes) -> None:
-            best, worst, here = ("0" if abs(x) < ROUNDING else f"{x:.4g}" for x in found.values)
-            words = [f"best: {best}", f"worst: {worst}"]
-            self.player.place(list(found.q), words)
-            self.panel.say(f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here.")
+        def show_extremes(extremes: ExtremeConfigurations) -> None:
+            best, worst, current = ("0" if abs(value) < INDEX_ROUNDING else f"{value:.4g}" for value in extremes.values)
+            labels = [f"best: {best}", f"worst: {worst}"]
+            self.player.place_ghosts(list(extremes.q), labels)
+            self.panel.show_message(f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {current} here.")
             self._refresh()
 
-        self._start_work("Looking for the best and the worst configuration of this pose", "best-worst", show)
+        self._start_work("Looking for the best and the worst configuration of this pose", "best-worst", show_extremes)
 
     def _on_laws(self, value: tuple[str, str] | None) -> None:
         if value is not None:  # another law was chosen
@@ -264,64 +285,67 @@ class Window(View):
                 return
         if self.state.target is None:
             self._on_target(None)
-        if self._arrived():
-            self.panel.say(
-                "The end effector is at the target already: drag the second handle away, then move under both laws.", bad=True
+        if self._is_at_target():
+            self.panel.show_message(
+                "The end effector is at the target already: drag the second handle away, then move under both laws.",
+                is_error=True,
             )
             return
 
-        def show(motions: list[Motion]) -> None:
-            self._show_motions(motions, (GREEN, ORANGE), "  |  ".join(m.label for m in motions))
+        def show_law_motions(motions: list[PlayedMotion]) -> None:
+            self._show_motions(motions, (GREEN_RGB, ORANGE_RGB), "  |  ".join(motion.label for motion in motions))
 
-        self._start_work("Simulating the motion under both laws", "laws", show)
+        self._start_work("Simulating the motion under both laws", "laws", show_law_motions)
 
     def _on_swing(self, _: Any) -> None:
         self._start_work(
-            "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
+            "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE_RGB,), found[0].label)
         )
 
     def _on_inject(self, _: Any) -> None:  # up to now the motion is the same, whatever the fault
         self.state = replace(self.state, fault=(*self.state.fault[:2], self.state.time))
         self._on_watch(self.state.time)
 
-    def _on_watch(self, now: float | None) -> None:
+    def _on_watch(self, current: float | None) -> None:
         if self.state.target is None:
             self._on_target(None)
-        self.state = replace(self.state, time=now or 0.0)
+        self.state = replace(self.state, time=current or 0.0)
 
-        def show(found: Watched) -> None:
-            self.watched = found
+        def show_demo(demo: MonitorDemo) -> None:
+            self.monitor_demo = demo
             self._show_motions(
-                [found.motion], (ORANGE,), "A joint fails while the arm moves; the monitor sees what a robot would."
+                [demo.motion], (ORANGE_RGB,), "A joint fails while the arm moves; the monitor sees what a robot would."
             )
-            if now:
-                self.player.play()
+            if current:
+                self.player.toggle_play()
 
-        self._start_work("Simulating healthy motions, and one with the fault", "watch", show)
+        self._start_work("Simulating healthy motions, and one with the fault", "watch", show_demo)
 
     def _on_file(self, _: Any) -> None:
-        if self._start.file is not None:  # as the command line has named it: no path comes from the page
-            self._open_motion(read_motion(self.machine.arm, self._start.file), self._start.file)
+        if self._initial_state.file is not None:  # as the command line has named it: no path comes from the page
+            self._open_motion(read_motion(self.machine.arm, self._initial_state.file), self._initial_state.file)
 
     def _on_open(self, value: tuple[str, bytes]) -> None:
         name, content = value
-        if upload.kind(name) == "motion":
-            self._open_motion(upload.read_sent_motion(self.machine.arm, name, content), upload.tidy(name))
+        if upload.detect_file_kind(name) == "motion":
+            self._open_motion(upload.read_uploaded_motion(self.machine.arm, name, content), upload.sanitise_file_name(name))
             return
-        self.panel.say(f"Opening {upload.tidy(name)} ...")
+        self.panel.show_message(f"Opening {upload.sanitise_file_name(name)} ...")
 
-        def load(_: Check) -> None:
+        def load_file(_: Check) -> None:
             try:
-                self._load(self.client, name, content)
+                self._load_arm(self.client, name, content)
             except HoldfastError as error:
                 raise InputError(f"nothing was opened, and nothing has changed: {error}") from error
 
-        self.work.ask(load)
+        self.worker.submit(load_file)
 
-    def _open_motion(self, motion: Motion, file: str) -> None:
-        self._cancel()
-        self.player.clear()
-        self.state = replace(self.state, file=file, show="file", time=self.state.time if file == self._start.file else 0.0)
+    def _open_motion(self, motion: PlayedMotion, file: str) -> None:
+        self._cancel_work()
+        self.player.remove_ghosts()
+        self.state = replace(
+            self.state, file=file, show="file", time=self.state.time if file == self._initial_state.file else 0.0
+        )
         self._show_motions([motion], (), f"{motion.label}: {len(motion.time)} rows")
 
     def _on_region(self, _: Any) -> None:
@@ -329,44 +353,46 @@ class Window(View):
         self._start_work("Assessing a region around the end effector", "region", self._show_cloud)
 
     def _on_results(self, _: Any) -> None:
-        if self._start.region is not None:  # as the command line has named it: no path comes from the page
-            self.state = replace(self.state, region=self._start.region)
+        if self._initial_state.region is not None:  # as the command line has named it: no path comes from the page
+            self.state = replace(self.state, region=self._initial_state.region)
             self._start_work("Reading the results", "region", self._show_cloud)
 
-    def _show_cloud(self, cloud: Cloud) -> None:
+    def _show_cloud(self, cloud: RegionCloud) -> None:
         self.cloud = cloud
-        self.stage.draw_cloud(cloud, lambda k: self.ask("point", k))
-        self.panel.say(f"{cloud.label}. Click a point.")
+        self.stage.draw_cloud(cloud, lambda k: self.request_action("point", k))
+        self.panel.show_message(f"{cloud.label}. Click a point.")
         self._refresh()
 
-    def _on_point(self, k: int) -> None:
-        if self.cloud is None or not 0 <= k < len(self.cloud.q):
+    def _on_point(self, number: int) -> None:
+        if self.cloud is None or not 0 <= number < len(self.cloud.q):
             return
-        self.stage.mark_point(self.cloud.points[k])
-        if not np.isfinite(self.cloud.q[k]).all():
-            self.panel.say("No configuration of this pose was found.", bad=True)
+        self.stage.mark_point(self.cloud.points[number])
+        if not np.isfinite(self.cloud.q[number]).all():
+            self.panel.show_message("No configuration of this pose was found.", is_error=True)
             return
-        self._leave(self.cloud.q[k])
-        self.panel.say(f"Configuration of point {k + 1}: index {self.cloud.values[k]:.4g}.")
-        self._place(self.cloud.q[k])
+        self._discard_results(self.cloud.q[number])
+        self.panel.show_message(f"Configuration of point {number + 1}: index {self.cloud.values[number]:.4g}.")
+        self._set_configuration(self.cloud.q[number])
 
     def _on_clear(self, _: Any) -> None:
-        self._cancel()
-        self.player.clear()
+        self._cancel_work()
+        self.player.remove_ghosts()
         self.stage.draw_cloud(None, lambda _: None)
         self.stage.target.visible = False
         self.cloud = None
         self.state = replace(self.state, show="arm", target=None, file=None, region=None, time=0.0)
-        self.panel.say("Cleared.")
+        self.panel.show_message("Cleared.")
         self._refresh()
 
     # ---- targets and motions ---------------------------------------------------------------------------------------
 
     def _on_target(self, _: Any) -> None:
         if self.state.target is None:
-            self.state = replace(self.state, target=pose_numbers(self.machine.hand(self.machine.beside(self.q))))
+            self.state = replace(
+                self.state, target=pose_numbers(self.machine.tool_pose(self.machine.nearby_configuration(self.q)))
+            )
         self._show_target()
-        self.panel.say("Drag the second handle to where the end effector should go, or take it as it is.")
+        self.panel.show_message("Drag the second handle to where the end effector should go, or take it as it is.")
         self._refresh()
 
     def _on_goal(self, value: tuple[str, Array, Array]) -> None:
@@ -376,9 +402,9 @@ class Window(View):
         if phase == "end" and self.state.show == "laws":
             self._on_laws(None)
 
-    def _show_motions(self, motions: list[Motion], colors: tuple[Any, ...], text: str) -> None:
-        self.panel.say(text)
-        self.player.show(motions, colors, self.state.time)
+    def _show_motions(self, motions: list[PlayedMotion], colors: tuple[Any, ...], text: str) -> None:
+        self.panel.show_message(text)
+        self.player.show_motions(motions, colors, self.state.time)
 
     # ---- the tour --------------------------------------------------------------------------------------------------
 
@@ -386,14 +412,14 @@ class Window(View):
         self._on_clear(None)
         self._on_heal(None)
         self.panel.index.value = "relative-manipulability"
-        self._do("index", "relative-manipulability")
+        self._perform_action("index", "relative-manipulability")
         if self._reading is not None:
-            self._guide.begin(self._reading)
+            self._guide.begin_tour(self._reading)
         self._refresh()
 
     def _on_next(self, _: Any) -> None:
-        self._guide.next()
+        self._guide.show_next()
         self._refresh()
 
     def _on_skip(self, _: Any) -> None:
-        self._guide.end()
+        self._guide.end_tour()

@@ -1,4 +1,4 @@
-"""Work beside the page: quick work, of which only the newest counts, and long work that newer requests cancel."""
+"""Threads for quick work, of which only the newest request counts, and for long work, which newer requests cancel."""
 
 from __future__ import annotations
 
@@ -8,144 +8,144 @@ from typing import Any
 
 Task = Callable[[], None]
 Complain = Callable[[BaseException], None]
-TICK = 1 / 30  # s between two pictures of what moves by itself
+TICK_S = 1 / 30  # s between two pictures of what moves by itself
 
 
 class Cancelled(Exception):
-    """A newer request has come; raised inside the older one."""
+    """Raised inside a request that a newer request has replaced."""
 
 
-class Latest:
-    """One thread that does what was asked last: of requests with the same key only the newest is done.
+class LatestRequests:
+    """Thread that executes the latest requests: of requests with the same key only the newest is done.
 
     So that an end effector that is dragged faster than pictures can be made is always where the mouse is, and not where it was.
 
     Args:
-        complain: Told of every exception of a request; the thread continues.
+        on_error: Told of every exception of a request; the thread continues.
     """
 
-    def __init__(self, complain: Complain) -> None:
-        self._complain = complain
-        self._waiting: dict[Any, Task] = {}
+    def __init__(self, on_error: Complain) -> None:
+        self._on_error = on_error
+        self._pending: dict[Any, Task] = {}
         self._changed = threading.Condition()
         self._busy = self._stopped = False
-        self._thread = threading.Thread(target=self._run, daemon=True, name="studio live")
+        self._thread = threading.Thread(target=self._run_requests, daemon=True, name="studio live")
         self._thread.start()
 
-    def put(self, key: Any, task: Task) -> None:
-        """Ask for something; a request with the same key that still waits is forgotten."""
+    def submit(self, key: Any, task: Task) -> None:
+        """Submit a request; a waiting request with the same key is dropped."""
         with self._changed:
-            self._waiting.pop(key, None)
-            self._waiting[key] = task
+            self._pending.pop(key, None)
+            self._pending[key] = task
             self._changed.notify_all()
 
-    def settle(self, seconds: float) -> bool:
-        """Wait until all work is done; False if that took too long."""
+    def wait_until_done(self, seconds: float) -> bool:
+        """Wait until all work is done; return False if the time runs out."""
         with self._changed:
-            return self._changed.wait_for(lambda: not self._waiting and not self._busy, seconds)
+            return self._changed.wait_for(lambda: not self._pending and not self._busy, seconds)
 
     def stop(self) -> None:
         """End the thread after the present request."""
         with self._changed:
             self._stopped = True
-            self._waiting.clear()
+            self._pending.clear()
             self._changed.notify_all()
 
-    def _run(self) -> None:
+    def _run_requests(self) -> None:
         while True:
             with self._changed:
                 self._busy = False
                 self._changed.notify_all()
-                self._changed.wait_for(lambda: bool(self._waiting) or self._stopped)
+                self._changed.wait_for(lambda: bool(self._pending) or self._stopped)
                 if self._stopped:
                     return
-                key = next(iter(self._waiting))
-                task, self._busy = self._waiting.pop(key), True
+                key = next(iter(self._pending))
+                task, self._busy = self._pending.pop(key), True
             try:
                 task()
             except BaseException as error:
-                self._complain(error)
+                self._on_error(error)
 
 
 class Clock:
-    """Repeats one thing on a :class:`Latest`, until it is stopped.
+    """Repeats one action on a :class:`LatestRequests` until it is stopped.
 
     Args:
         live: Where it is done.
         period: s from one time to the next.
     """
 
-    def __init__(self, live: Latest, period: float) -> None:
+    def __init__(self, live: LatestRequests, period: float) -> None:
         self._live, self._period = live, period
         self._ended: threading.Event | None = None
 
     def start(self, action: Task) -> None:
-        """Do this from now on, and nothing else."""
+        """Repeat this action from now on, and no other."""
         self.stop()
         ended = self._ended = threading.Event()
 
-        def beat() -> None:
+        def submit_ticks() -> None:
             while not ended.wait(self._period):
-                self._live.put("tick", lambda: None if ended.is_set() else action())
+                self._live.submit("tick", lambda: None if ended.is_set() else action())
 
-        threading.Thread(target=beat, daemon=True, name="studio clock").start()
+        threading.Thread(target=submit_ticks, daemon=True, name="studio clock").start()
 
     def stop(self) -> None:
-        """Do nothing more."""
+        """Stop the repetition."""
         if self._ended is not None:
             self._ended.set()
             self._ended = None
 
 
-class Worker:
-    """One thread for long computations: the newest request cancels the one that is under way.
+class LongJobWorker:
+    """Thread for long computations; the newest request cancels the running one.
 
     Args:
-        complain: Told of every exception of a request that was not cancelled.
+        on_error: Told of every exception of a request that was not cancelled.
     """
 
-    def __init__(self, complain: Complain) -> None:
-        self._complain = complain
+    def __init__(self, on_error: Complain) -> None:
+        self._on_error = on_error
         self._changed = threading.Condition()
         self._next: tuple[int, Callable[[Callable[[], None]], None]] | None = None
         self._newest = 0
         self._running = False
         self._stopped = False
-        self._thread = threading.Thread(target=self._run, daemon=True, name="studio work")
+        self._thread = threading.Thread(target=self._run_jobs, daemon=True, name="studio work")
         self._thread.start()
 
-    def ask(self, job: Callable[[Callable[[], None]], None]) -> None:
-        """Start ``job(check)`` as soon as the one under way gives up; ``check()`` raises once a newer one is asked for."""
+    def submit(self, job: Callable[[Callable[[], None]], None]) -> None:
+        """Start ``job(check)`` as soon as the running one stops; ``check()`` raises after a newer request."""
         with self._changed:
             self._newest += 1
             self._next = (self._newest, job)
             self._changed.notify_all()
 
     def cancel(self) -> None:
-        """Give up what is under way or waits."""
+        """Cancel the running and the waiting request."""
         with self._changed:
             self._newest += 1
             self._next = None
 
     @property
-    def busy(self) -> bool:
-        """True while a request is under way or waits."""
+    def is_busy(self) -> bool:
+        """True while a request is running or waiting."""
         with self._changed:
             return self._running or self._next is not None
 
-    def settle(self, seconds: float) -> bool:
-        """Wait until all work is done; False if that took too long."""
+    def wait_until_done(self, seconds: float) -> bool:
+        """Wait until all work is done; return False if the time runs out."""
         with self._changed:
             return self._changed.wait_for(lambda: self._next is None and not self._running, seconds)
 
     def stop(self) -> None:
-        """Give up everything and end the thread."""
+        """Cancel all requests and end the thread."""
         with self._changed:
             self._newest += 1
             self._next, self._stopped = None, True
             self._changed.notify_all()
 
-    def _run(self) -> None:
+    def _run_jobs(self) -> None:
         while True:
             with self._changed:
                 self._running = False
@@ -155,14 +155,14 @@ class Worker:
                     return
                 (number, job), self._next, self._running = self._next, None, True
 
-            def check(number: int = number) -> None:
+            def check_newest(number: int = number) -> None:
                 if number != self._newest:
                     raise Cancelled
 
             try:
-                job(check)
+                job(check_newest)
             except Cancelled:
                 pass
             except BaseException as error:
                 if number == self._newest:
-                    self._complain(error)
+                    self._on_error(error)

@@ -1,4 +1,4 @@
-"""With a person at the stick: tasks, protocol, recorded trials, measures, operators and statistics.
+"""Teleoperation experiments: tasks, protocol, recorded trials, measures, operators and statistics.
 
 The statistics are in :mod:`holdfast.teleop.analysis`, which needs statsmodels and is not imported with the rest.
 

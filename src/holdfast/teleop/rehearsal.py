@@ -1,4 +1,4 @@
-"""A whole experiment with simulated people: the same protocol, the same records, in seconds."""
+"""Simulation of a whole experiment with simulated people: the same protocol and the same records, in seconds."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.engine.folder import difference, held
+from holdfast.engine.folder import describe_difference, lock_folder
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
-from holdfast.notice import aside, says
+from holdfast.notice import reports_progress, warn_now
 from holdfast.teleop.bank.tasks import drive_tasks
 from holdfast.teleop.protocol.order import Indices
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.entries import Kind, State, Subject, Who
-from holdfast.teleop.records.file import FILE, LOCK
+from holdfast.teleop.records.entries import Subject, SubjectKind, SubjectState, TrialKind
+from holdfast.teleop.records.file import LOCK, RECORDS_FILE
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.session import completion_times, done, training_scenario, training_tasks
-from holdfast.teleop.trials.operators import Person, SimulatedPeople, population, rate
+from holdfast.teleop.records.session import completion_times, find_training_scenario, select_valid_trials, training_tasks
+from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfort, sample_people
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import PointTasks
 
 OPERATORS_PER_BATCH = 64  # their trials are driven together and held in memory
 
 
-@says("simulating the experiment", counts=False)
+@reports_progress("simulating the experiment", passes_progress=False)
 def simulate_experiment(
     folder: str | Path,
     protocol: Protocol,
@@ -44,7 +44,7 @@ def simulate_experiment(
     Args:
         folder: A new or empty folder, or the folder of the same experiment.
         protocol: What is done.
-        operators: How many, drawn from :func:`holdfast.teleop.population`, or who.
+        operators: How many, drawn from :func:`holdfast.teleop.sample_people`, or who.
         seed: Of the people and of their noise.
         progress: Is told how far it is.
 
@@ -55,24 +55,30 @@ def simulate_experiment(
         StoreError: The folder holds something else, another program writes to it, or it cannot be written.
         InputError: Fewer than one operator.
     """
-    say = progress or (lambda text: None)
+    report_progress = progress or (lambda text: None)
     people_seed, training_seed, trial_seed, rating_seed = (
-        int(s.generate_state(1)[0]) for s in np.random.SeedSequence(seed).spawn(4)
+        int(sequence.generate_state(1)[0]) for sequence in np.random.SeedSequence(seed).spawn(4)
     )
-    people = population(operators, people_seed) if isinstance(operators, int) else list(operators)
+    people = sample_people(operators, people_seed) if isinstance(operators, int) else list(operators)
     if not people:
         raise InputError("there are no simulated operators; give 1 or more")
     records = _open(Path(folder), protocol, operators, seed)
     try:
-        with held(records.folder, LOCK):
+        with lock_folder(records.folder, LOCK):
             subjects = _enrol(records, people)
-            trained = _train(records, subjects, people, training_seed, say)
-            ready = [k for k, ok in enumerate(trained) if ok]
+            trained = _train_people(records, subjects, people, training_seed, report_progress)
+            ready = [person for person, passed in enumerate(trained) if passed]
             seeds = [trial_seed, rating_seed]
             for first in range(0, len(ready), OPERATORS_PER_BATCH):
                 batch = ready[first : first + OPERATORS_PER_BATCH]
-                _run_sessions(records, [subjects[k] for k in batch], [people[k] for k in batch], seeds, say)
-                seeds = [int(np.random.SeedSequence(s).generate_state(1)[0]) for s in seeds]
+                _run_sessions(
+                    records,
+                    [subjects[person] for person in batch],
+                    [people[person] for person in batch],
+                    seeds,
+                    report_progress,
+                )
+                seeds = [int(np.random.SeedSequence(sequence).generate_state(1)[0]) for sequence in seeds]
     except BaseException:
         records.close()
         raise
@@ -85,16 +91,16 @@ def _open(folder: Path, protocol: Protocol, operators: int | Sequence[Person], s
     Raises:
         StoreError: The folder holds another experiment or something else.
     """
-    content = sha256(f"{protocol.text()}{protocol.arm.fingerprint}".encode()).hexdigest()[:8]
+    content = sha256(f"{protocol.to_yaml()}{protocol.arm.fingerprint}".encode()).hexdigest()[:8]
     people = {"number of operators": operators} if isinstance(operators, int) else {"people": [vars(p) for p in operators]}
     plan: dict[str, Any] = {**people, "protocol": f"{protocol.name} ({content})", "seed": int(seed)}
-    if not reading.exists(folder / FILE):
+    if not reading.path_exists(folder / RECORDS_FILE):
         return Records.create(folder, protocol, plan)
     records = Records.open(folder)
     plan_of_folder = records.simulation
     if plan_of_folder is None:
         problem = "an experiment that does not state how it was simulated"
-    elif other := difference(plan_of_folder, plan):
+    elif other := describe_difference(plan_of_folder, plan):
         problem = f"another simulated experiment: {other}"
     else:
         return records
@@ -110,56 +116,73 @@ def _enrol(records: Records, people: Sequence[Person]) -> list[Subject]:
     """
     subjects = records.subjects()
     if not subjects:
-        with records.together():
-            return [records.add_subject(kind=Who.SIMULATED) for _ in people]
+        with records.transaction():
+            return [records.add_subject(kind=SubjectKind.SIMULATED) for _ in people]
     if [s.number for s in subjects] != list(range(len(people))):
         raise StoreError(f"'{records.folder}' has lost or got subjects since it was simulated; give another folder")
-    training, sessions = len(records.entries(kind=Kind.TRAINING)), len({e.subject for e in records.entries(kind=Kind.TRIAL)})
+    training, sessions = (
+        len(records.entries(kind=TrialKind.TRAINING)),
+        len({e.subject for e in records.entries(kind=TrialKind.TRIAL)}),
+    )
     recorded = f"{training} training tasks and the sessions of {sessions} of {len(people)} operators"
-    aside(f"'{records.folder}' already holds {recorded}")
+    warn_now(f"'{records.folder}' already holds {recorded}")
     return subjects
 
 
-def _train(
-    records: Records, subjects: list[Subject], people: Sequence[Person], seed: int, say: Callable[[str], None]
+def _train_people(
+    records: Records, subjects: list[Subject], people: Sequence[Person], seed: int, report_progress: Callable[[str], None]
 ) -> list[bool]:
-    """Do training tasks that are not recorded yet, in rounds, until each subject meets the criterion or has done all.
+    """Run training tasks, in rounds, until each person meets the criterion or has done all; return who met it.
 
     Returns:
         Whether each subject meets the criterion; the others have dropped out.
     """
     protocol = records.protocol
-    criterion, scenario = protocol.training, training_scenario(protocol)
+    criterion, scenario = protocol.training, find_training_scenario(protocol)
     tasks = [training_tasks(protocol, s.number) for s in subjects]
-    recorded = [completion_times(records, done(records.entries(s.code, Kind.TRAINING))) for s in subjects]
+    recorded = [completion_times(records, select_valid_trials(records.entries(s.code, TrialKind.TRAINING))) for s in subjects]
     cycles: list[list[float]] = [[] for _ in subjects]
-    first, seeds = 0, np.random.SeedSequence(seed)
+    first, noise_seeds = 0, np.random.SeedSequence(seed)
     while first < criterion.most:
-        busy = [k for k in range(len(subjects)) if not criterion.trained(cycles[k]) and len(cycles[k]) == first]
-        if not busy:
+        practising = [
+            person
+            for person in range(len(subjects))
+            if not criterion.is_met_by(cycles[person]) and len(cycles[person]) == first
+        ]
+        if not practising:
             break
         # Nobody is trained before the least number of tasks: these are done side by side.
         count = min(criterion.at_least if first == 0 else 1, criterion.most - first)
-        noise = int(seeds.spawn(1)[0].generate_state(1)[0])
-        if any(len(recorded[k]) == first for k in busy):
-            say(f"training: {len(busy)} operators, {first + count} tasks")
-            rows = np.arange(first, first + count)
-            batch = [tasks[k].take(rows) for k in busy]
-            joined = PointTasks(*(np.concatenate([getattr(b, name) for b in batch]) for name in ("q0", "target", "joint")))
-            who = np.repeat(busy, count)
-            trials = _driven(protocol, joined, np.full(len(who), scenario), [people[k] for k in who], noise)
-            with records.together():
-                for i, k in enumerate(who):
-                    recorded[k].append(float(trials.cycles[i]) if trials.completed[i] else np.nan)
-                    position = first + i % count
-                    _record(records, subjects[k].code, Kind.TRAINING, position, scenario, joined, i, -1, trials)
-        for k in busy:
-            cycles[k] += recorded[k][first : first + count]
+        noise_seed = int(noise_seeds.spawn(1)[0].generate_state(1)[0])
+        if any(len(recorded[person]) == first for person in practising):
+            report_progress(f"training: {len(practising)} operators, {first + count} tasks")
+            task_rows = np.arange(first, first + count)
+            batch = [tasks[person].take(task_rows) for person in practising]
+            batch_tasks = PointTasks(
+                *(np.concatenate([getattr(part, name) for part in batch]) for name in ("q0", "target", "joint"))
+            )
+            person_of_trial = np.repeat(practising, count)
+            trials = _drive_people(
+                protocol,
+                batch_tasks,
+                np.full(len(person_of_trial), scenario),
+                [people[person] for person in person_of_trial],
+                noise_seed,
+            )
+            with records.transaction():
+                for trial, person in enumerate(person_of_trial):
+                    recorded[person].append(float(trials.cycles[trial]) if trials.is_completed[trial] else np.nan)
+                    position = first + trial % count
+                    _record_trial(
+                        records, subjects[person].code, TrialKind.TRAINING, position, scenario, batch_tasks, trial, -1, trials
+                    )
+        for person in practising:
+            cycles[person] += recorded[person][first : first + count]
         first += count
-    trained = [criterion.trained(c) for c in cycles]
+    trained = [criterion.is_met_by(durations) for durations in cycles]
     for subject, ok in zip(subjects, trained, strict=True):
-        if not ok and subject.state == State.OPEN:
-            records.set_state(subject.code, State.DROPPED)
+        if not ok and subject.state == SubjectState.OPEN:
+            records.set_state(subject.code, SubjectState.DROPPED)
     return trained
 
 
@@ -175,50 +198,50 @@ def _run_sessions(
         seeds: Of the trials and of the ratings.
         say: Is told how far it is.
     """
-    missing = [k for k, s in enumerate(subjects) if not records.entries(s.code, Kind.TRIAL)]
+    missing = [k for k, s in enumerate(subjects) if not records.entries(s.code, TrialKind.TRIAL)]
     if not missing:
         return
     protocol = records.protocol
-    sessions = [protocol.session(s.row, s.number) for s in subjects]
+    sessions = [protocol.session_order(s.row, s.number) for s in subjects]
     order = np.concatenate(sessions)
     who = np.repeat(np.arange(len(subjects)), [len(s) for s in sessions])
     say(f"{len(order)} trials")
     tasks = protocol.tasks.take(order[:, 0])
-    trials = _driven(protocol, tasks, order[:, 1], [people[k] for k in who], seeds[0])
+    trials = _drive_people(protocol, tasks, order[:, 1], [people[k] for k in who], seeds[0])
     start = protocol.plants[0].position(protocol.tasks.q0)
     ideal = (np.linalg.norm(protocol.tasks.target - start, axis=1) - protocol.radius) / protocol.stick.limit
-    time = np.where(trials.completed, trials.cycles, np.nan)
-    ratings = rate(time, ideal[order[:, 0]], len(protocol.rating), seed=seeds[1])
+    time = np.where(trials.is_completed, trials.cycles, np.nan)
+    ratings = rate_comfort(time, ideal[order[:, 0]], len(protocol.rating), seed=seeds[1])
     for k in missing:
         say(f"recording the session of {subjects[k].code}")
-        with records.together():
+        with records.transaction():
             for position, i in enumerate(np.flatnonzero(who == k).tolist()):
                 task, scenario = order[i].tolist()
-                number = _record(records, subjects[k].code, Kind.TRIAL, position, scenario, tasks, i, task, trials)
-                records.rate(number, int(ratings[i]))
-            records.set_state(subjects[k].code, State.COMPLETED)
+                number = _record_trial(records, subjects[k].code, TrialKind.TRIAL, position, scenario, tasks, i, task, trials)
+                records.rate_trial(number, int(ratings[i]))
+            records.set_state(subjects[k].code, SubjectState.COMPLETED)
 
 
-def _driven(protocol: Protocol, tasks: PointTasks, scenario: Indices, people: list[Person], seed: int) -> Trials:
+def _drive_people(protocol: Protocol, tasks: PointTasks, scenario: Indices, people: list[Person], seed: int) -> Trials:
     operator = SimulatedPeople(people, protocol.rate, protocol.stick, radius=protocol.radius, seed=seed)
     return drive_tasks(protocol.plants, protocol.scenarios, scenario, tasks, operator, protocol.stick, protocol.rules)
 
 
-def _record(
+def _record_trial(
     records: Records,
     code: str,
-    kind: Kind,
+    kind: TrialKind,
     position: int,
     scenario: int,
     tasks: PointTasks,
-    i: int,
+    index: int,
     task: int,
     trials: Trials,
 ) -> int:
-    """Write trial i of a batch; its number in the records."""
-    number = records.begin_trial(code, kind, position, scenario=scenario, tasks=tasks.take(np.array([i])), task=task)
-    cycles = slice(trials.first[i], trials.first[i + 1])
-    time = np.arange(trials.cycles[i]) / records.protocol.rate
-    records.append(number, 0, time, velocity=trials.velocity[cycles], q=trials.q[cycles])
-    records.finish(number, End(trials.end[i]), trials.q_end[i])
+    """Write trial ``index`` of a batch, and return its number in the records."""
+    number = records.begin_trial(code, kind, position, scenario=scenario, tasks=tasks.take(np.array([index])), task=task)
+    cycles = slice(trials.first[index], trials.first[index + 1])
+    times = np.arange(trials.cycles[index]) / records.protocol.rate
+    records.append_cycles(number, 0, times, velocity=trials.velocity[cycles], q=trials.q[cycles])
+    records.finish_trial(number, End(trials.end[index]), trials.q_end[index])
     return number

@@ -106,9 +106,9 @@ async def _station(url: str, protocol: Protocol, rate: float, seconds: float, tr
                 await say(type="begin", kind="training", position=position)
             velocity = np.zeros(protocol.rows.m)
             while not velocity.any():  # who stands inside the circle has arrived
-                velocity = protocol.stick.limited(rng.normal(0, 0.02, protocol.rows.m))
+                velocity = protocol.stick.limit_velocity(rng.normal(0, 0.02, protocol.rows.m))
             await say(type="cycles", first=k, time=[k / rate], velocity=[velocity.tolist()], q=[q.tolist()])
-            q, _ = plant.cycle(q, velocity, np.ones(plant.n))
+            q, _ = plant.step_one(q, velocity, np.ones(plant.n))
             cycles, k = cycles + 1, k + 1
             if k == trial:
                 await say(type="end", end="aborted", q=q.tolist())
@@ -184,7 +184,7 @@ def load(
     waited = 1000 * np.concatenate([w for _, w in results])
     sent = sum(cycles for cycles, _ in results)
     with Records.open(folder / "experiment") as records:
-        stored = sum(records.count(e) for e in records.entries())
+        stored = sum(records.count_cycles(e) for e in records.entries())
         differing = len(records.events("replay differs"))
     p50, p99 = np.percentile(waited, [50, 99])
     return Figures(stations, rate, seconds, sent, sent - stored, differing, p50, p99, waited.max(), memory, busy)

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field, TypeAdapter
 from websockets.sync.client import ClientConnection, connect
 
-from holdfast.teleop.protocol.printed_arm import law_of
+from holdfast.teleop.protocol.printed_arm import number_laws
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.serve.messages import Ack, Bye, Pause, Refused, Unstored, Welcome
 
@@ -73,17 +73,17 @@ class Client:
         """A trial with random commands; the configurations from start to end."""
         plan = self.welcome.plan
         todo = (plan.training if kind == "training" else plan.trials)[position]
-        scenario = 0 if kind == "training" else law_of(self.protocol).index(todo.law)
+        scenario = 0 if kind == "training" else number_laws(self.protocol).index(todo.law)
         healthy = np.ones(len(todo.q0))
         if todo.joint >= 0:
             healthy[todo.joint] = 0.0
         self.say("begin", kind=kind, position=position)
         q, path = np.array(todo.q0), []
         for k in range(cycles):
-            v = self.protocol.stick.limited(rng.normal(0, 0.03, self.protocol.rows.m))
+            v = self.protocol.stick.limit_velocity(rng.normal(0, 0.03, self.protocol.rows.m))
             path.append(q)
             self.say("cycles", first=k, time=[k / 6], velocity=[v.tolist()], q=[q.tolist()])
-            q, _ = self.protocol.plants[scenario].cycle(q, v, healthy)
+            q, _ = self.protocol.plants[scenario].step_one(q, v, healthy)
         if end is not None:
             self.say("end", end=end, q=q.tolist())
             if kind == "trial":

@@ -24,12 +24,12 @@ from websockets.sync.client import connect
 from conftest import PROGRAM, dump
 from holdfast.errors import HoldfastError, InputError
 from holdfast.teleop.records import tables
-from holdfast.teleop.records.entries import Kind, State, Who
+from holdfast.teleop.records.entries import SubjectKind, SubjectState, TrialKind
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import experimenter
 from holdfast.teleop.serve import process as apart
-from holdfast.teleop.serve.app import STATIC
-from holdfast.teleop.serve.texts import ENGLISH
+from holdfast.teleop.serve.app import STATIC_FOLDER
+from holdfast.teleop.serve.texts import ENGLISH_FILE
 from holdfast.teleop.trials.recordings import End
 
 TOKEN = "token-of-stations"
@@ -48,8 +48,8 @@ def folder(protocol, tmp_path_factory):
     """An experiment with one simulated subject who is done."""
     made = tmp_path_factory.mktemp("made") / "experiment"
     with Records.create(made, protocol) as records:
-        give_up(records, records.add_subject(kind=Who.SIMULATED))
-        records.set_state("S01", State.COMPLETED)
+        give_up(records, records.add_subject(kind=SubjectKind.SIMULATED))
+        records.set_state("S01", SubjectState.COMPLETED)
     return made
 
 
@@ -58,7 +58,7 @@ def give_up(records, subject):
     protocol = records.protocol
     for position, (task, scenario) in enumerate(protocol.session(subject.row, subject.number).tolist()):
         tasks = protocol.tasks.take(np.array([task]))
-        number = records.begin_trial(subject.code, Kind.TRIAL, position, scenario=scenario, tasks=tasks, task=task)
+        number = records.begin_trial(subject.code, TrialKind.TRIAL, position, scenario=scenario, tasks=tasks, task=task)
         records.finish(number, End.ABORTED, tasks.q0[0])
         records.rate(number, 1)
 
@@ -66,7 +66,7 @@ def give_up(records, subject):
 @pytest.fixture(scope="module")
 def http(folder):
     """Address of a server with the real page, which stations need a token for."""
-    command = [sys.executable, str(PROGRAM), str(folder), str(STATIC), str(ENGLISH), TOKEN]
+    command = [sys.executable, str(PROGRAM), str(folder), str(STATIC_FOLDER), str(ENGLISH_FILE), TOKEN]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         yield f"http://127.0.0.1:{int(process.stdout.readline())}"
         process.kill()
@@ -261,7 +261,7 @@ def test_a_session_is_ended(http, folder, protocol, station, rng):
         client.receive()
     assert listed(http, code)["state"] == "dropped"
     with Records.open(folder) as records:
-        assert records.subject(code).state == State.DROPPED
+        assert records.subject(code).state == SubjectState.DROPPED
         assert len(records.entries(code)) == 1
     status, said, _ = ask(f"{http}/experimenter/resume", {"subject": code})
     assert status == 400
@@ -318,7 +318,7 @@ def test_the_export_is_that_of_the_records(http, folder, station, rng, tmp_path)
     assert status == 200
     assert headers["content-disposition"] == 'attachment; filename="experiment.zip"'
     with Records.open(folder) as records:
-        files = tables.export(records, tmp_path)
+        files = tables.export_tables(records, tmp_path)
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         assert archive.testzip() is None
         assert {Path(n) for n in archive.namelist()} == {Path("experiment") / f.name for f in files}
@@ -337,7 +337,7 @@ def report(folder, query=b""):
 
     app = type("App", (), {"state": State})
     request = Request({"type": "http", "method": "GET", "headers": [], "query_string": query, "app": app, "path": "/"})
-    route = next(r for r in experimenter.routes(None or experimenter.Guard(), None) if r.path == "/experimenter/report")
+    route = next(r for r in experimenter.make_routes(None or experimenter.Guard(), None) if r.path == "/experimenter/report")
     answer = asyncio.run(route.endpoint(request))
     return answer.status_code, answer.body.decode(), answer.headers
 
@@ -349,7 +349,7 @@ def test_the_report_is_shown_without_scripts(folder, monkeypatch):
         done.append((job, experiment, missing, out))
         (Path(out) / "report.html").write_text("<p>F(1, 23)</p>")
 
-    monkeypatch.setattr(experimenter, "apart", made)
+    monkeypatch.setattr(experimenter, "run_job", made)
     status, page, headers = report(folder, b"missing=mixed")
     assert (status, page) == (200, "<p>F(1, 23)</p>")
     assert "sandbox" in headers["content-security-policy"]
@@ -390,13 +390,13 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
     experiment = tmp_path / "experiment"
     shutil.copytree(folder, experiment)
     with Records.open(experiment) as records:
-        programs = [s.code for s in records.subjects() if records.progress().get((s.code, Kind.TRIAL))]
-    assert apart._main("report", str(experiment), str(tmp_path), "refuse") == 0
+        programs = [s.code for s in records.subjects() if records.count_trials().get((s.code, TrialKind.TRIAL))]
+    assert apart._run_command_line("report", str(experiment), str(tmp_path), "refuse") == 0
     with Records.open(experiment) as records:
         for code in ("P1", "P2", "P3"):
-            give_up(records, records.add_subject(code, Who.PERSON))
-        records.set_state("P3", State.DROPPED)
-    assert apart._main("report", str(experiment), str(tmp_path), "refuse") == 0
+            give_up(records, records.add_subject(code, SubjectKind.PERSON))
+        records.set_state("P3", SubjectState.DROPPED)
+    assert apart._run_command_line("report", str(experiment), str(tmp_path), "refuse") == 0
     assert [r.subjects for r in written] == [programs, ["P1", "P2"]]
     dropped, simulated = written[1].notes[1:]
     assert dropped.startswith("dropped out, and not part of any number: ")
@@ -406,16 +406,16 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
 
 def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
     with pytest.raises(InputError, match="holds no experiment"):
-        asyncio.run(apart.apart("export", str(tmp_path), str(tmp_path)))
+        asyncio.run(apart.run_job("export", str(tmp_path), str(tmp_path)))
     with pytest.raises(HoldfastError, match="the dance failed; the terminal in which the server was started shows why"):
-        asyncio.run(apart.apart("dance", str(folder), str(tmp_path)))
+        asyncio.run(apart.run_job("dance", str(folder), str(tmp_path)))
     assert "KeyError: 'dance'" in caplog.text
 
 
 def test_what_is_read_is_of_one_moment(tmp_path, protocol):
     with Records.create(tmp_path / "experiment", protocol) as writer, Records.open(tmp_path / "experiment") as reader:
         writer.add_subject("A")
-        with reader.reading():
+        with reader.read_snapshot():
             assert len(reader.subjects()) == 1
             writer.add_subject("B")  # is not held up
             assert len(reader.subjects()) == 1

@@ -17,11 +17,11 @@ from websockets.sync.client import connect
 import holdfast as hf
 from conftest import PROGRAM
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.verification import verify
+from holdfast.teleop.records.verification import verify_records
 from holdfast.teleop.serve import messages
-from holdfast.teleop.serve.app import Options, serve
+from holdfast.teleop.serve.app import ServerOptions, serve_experiment
 from holdfast.teleop.serve.messages import Ack, Refused, Unstored, Welcome
-from holdfast.teleop.serve.station import Entered, Station, enter, quota
+from holdfast.teleop.serve.station import Admission, Station, admit_page, message_quota_bytes
 
 
 def list_of(served):
@@ -54,14 +54,14 @@ def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, p
     with Records.open(tmp_path / "experiment") as records:
         entries = records.entries(code)
         assert len(entries) == 2
-        np.testing.assert_array_equal(records.trials(entries).configurations(1), path)
+        np.testing.assert_array_equal(records.read_trials(entries).configurations(1), path)
         assert len(records.events("written again")) == 1
-    assert verify(tmp_path / "experiment").damaged == []
+    assert verify_records(tmp_path / "experiment").damages == []
 
 
 def test_one_server_for_a_folder(server, built):
     with pytest.raises(hf.StoreError, match="is served by another program already"):
-        serve(Options(server.folder, static=built[0], english=built[1]), port=0)
+        serve_experiment(ServerOptions(server.folder, static=built[0], english=built[1]), port=0)
 
 
 def test_nobody_is_deleted_behind_a_servers_back(start, tmp_path, protocol):
@@ -128,13 +128,13 @@ def test_pauses_survive_a_restart(start, tmp_path, protocol):
 
 
 def test_a_session_may_send_only_so_much(records, protocol):
-    entered = enter(records, messages.Hello(type="hello", format=1, session=None, code=None, kind="person"))
-    assert isinstance(entered, Entered)
-    station, most = Station(records, entered.code), quota(protocol)
+    entered = admit_page(records, messages.Hello(type="hello", format=1, session=None, code=None, kind="person"))
+    assert isinstance(entered, Admission)
+    station, most = Station(records, entered.code), message_quota_bytes(protocol)
     assert 16 * 2**20 <= most < 2**30
 
     def say(seq, size):
-        return station.take(messages.EventMessage(type="event", seq=seq, kind="x", data={}), size).reply
+        return station.apply_message(messages.EventMessage(type="event", seq=seq, kind="x", data={}), size).reply
 
     assert isinstance(say(1, most // 2), Ack)
     assert isinstance(say(2, most // 2), Ack)

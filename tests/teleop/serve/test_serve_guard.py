@@ -15,8 +15,8 @@ from websockets.sync.client import connect
 
 import holdfast as hf
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.serve.app import Options, make_app, prepare, serve
-from holdfast.teleop.serve.guard import Bucket, Guard, Guarded, Wrong, check_token
+from holdfast.teleop.serve.app import ServerOptions, make_app, open_or_create, serve_experiment
+from holdfast.teleop.serve.guard import FailedAttempts, Guard, GuardedApp, RateLimiter, check_token
 
 TOKEN = "token-of-the-experiment"
 
@@ -195,7 +195,7 @@ def test_wrong_secrets_are_counted_and_right_ones_always_pass(start, tmp_path):
 @pytest.mark.parametrize("mode", ["no-cors", "cors", "navigate"])
 def test_pages_of_other_servers_use_up_no_attempts(site, mode):
     """The headers are those that a browser sends for an image, a script, a frame, and a link of another page."""
-    guarded = Guarded(answer_here, Guard(token=TOKEN, key=KEY))
+    guarded = GuardedApp(answer_here, Guard(token=TOKEN, key=KEY))
     for dest in ("image", "iframe", "document"):
         said = {"sec-fetch-site": site, "sec-fetch-mode": mode, "sec-fetch-dest": dest}
         assert {asked(guarded, f"key=wrong-{k}", said) for k in range(300)} == {403}
@@ -227,25 +227,27 @@ def test_a_proxy_is_believed_only_if_asked_for(built, protocol, tmp_path, monkey
     monkeypatch.setattr(uvicorn.Server, "run", lambda self, sockets: configured.append(self.config))
     Records.create(tmp_path / "experiment", protocol).close()
     for behind_proxy in (False, True):
-        serve(Options(tmp_path / "experiment", static=built[0], english=built[1], behind_proxy=behind_proxy), port=0)
+        serve_experiment(
+            ServerOptions(tmp_path / "experiment", static=built[0], english=built[1], behind_proxy=behind_proxy), port=0
+        )
     assert [config.proxy_headers for config in configured] == [False, True]
 
 
 def test_wrong_tokens_are_counted_by_address():
     now = [0.0]
-    wrong = Wrong(lambda: now[0])
+    wrong = FailedAttempts(lambda: now[0])
     for _ in range(201):
         assert not wrong.must_wait("a")
-        wrong.count("a")
+        wrong.count_attempt("a")
     assert wrong.must_wait("a")
     assert not wrong.must_wait("b")
     now[0] = 1.1
     assert not wrong.must_wait("a")
-    wrong.count("a")
+    wrong.count_attempt("a")
     assert wrong.must_wait("a")
     for k in range(3000):
-        wrong.count(str(k))
-    assert len(wrong._seen) <= 1024
+        wrong.count_attempt(str(k))
+    assert len(wrong._limiters) <= 1024
 
 
 def test_keys_are_made_anew():
@@ -255,28 +257,28 @@ def test_keys_are_made_anew():
 
 def test_bucket():
     now = [0.0]
-    bucket = Bucket(rate=10, burst=5, clock=lambda: now[0])
-    assert [bucket.wait() for _ in range(5)] == [0.0] * 5
-    assert bucket.wait() == pytest.approx(0.1)
+    bucket = RateLimiter(rate=10, burst=5, clock=lambda: now[0])
+    assert [bucket.take_allowance() for _ in range(5)] == [0.0] * 5
+    assert bucket.take_allowance() == pytest.approx(0.1)
     now[0] = 100.0
-    assert [bucket.wait() for _ in range(5)] == [0.0] * 5
-    assert bucket.wait() > 0
+    assert [bucket.take_allowance() for _ in range(5)] == [0.0] * 5
+    assert bucket.take_allowance() > 0
 
 
 def test_an_experiment_is_begun_or_opened(protocol, tmp_path):
     file = protocol.write(tmp_path / "p.yaml")
-    assert prepare(tmp_path / "experiment", str(file)).text() == protocol.text()
-    assert prepare(tmp_path / "experiment", None).text() == protocol.text()
-    assert prepare(tmp_path / "experiment", str(file)).text() == protocol.text()
+    assert open_or_create(tmp_path / "experiment", str(file)).to_yaml() == protocol.text()
+    assert open_or_create(tmp_path / "experiment", None).to_yaml() == protocol.text()
+    assert open_or_create(tmp_path / "experiment", str(file)).to_yaml() == protocol.text()
     with pytest.raises(hf.InputError, match="another protocol"):
-        prepare(tmp_path / "experiment", "goel2003")
+        open_or_create(tmp_path / "experiment", "goel2003")
     with pytest.raises(hf.StoreError, match="not an empty folder"):
-        prepare(tmp_path, None)
+        open_or_create(tmp_path, None)
 
 
 def test_a_missing_page_is_one_sentence(built, served, tmp_path):
     with pytest.raises(hf.StoreError, match="the built page is not in this installation"):
-        make_app(Options(served.folder, static=tmp_path, english=built[1]))
+        make_app(ServerOptions(served.folder, static=tmp_path, english=built[1]))
 
 
 def test_a_server_that_cannot_run_begins_no_experiment(built, tmp_path):
@@ -286,9 +288,9 @@ def test_a_server_that_cannot_run_begins_no_experiment(built, tmp_path):
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         with pytest.raises(hf.StoreError, match="cannot listen"):
-            serve(Options(folder, static=built[0], english=built[1]), port=taken.getsockname()[1])
+            serve_experiment(ServerOptions(folder, static=built[0], english=built[1]), port=taken.getsockname()[1])
     with pytest.raises(hf.StoreError, match="built page"):
-        serve(Options(folder, static=tmp_path, english=built[1]), port=0)
+        serve_experiment(ServerOptions(folder, static=tmp_path, english=built[1]), port=0)
     with pytest.raises(hf.HoldfastError):
-        serve(Options(folder, texts=tmp_path / "none.yaml", static=built[0], english=built[1]), port=0)
+        serve_experiment(ServerOptions(folder, texts=tmp_path / "none.yaml", static=built[0], english=built[1]), port=0)
     assert not folder.exists()

@@ -13,7 +13,7 @@ import pytest
 from load import load
 from silent import attacked
 
-from holdfast.teleop.serve.bounded import Sparing
+from holdfast.teleop.serve.bounded import RateLimitedLogFilter
 
 
 def test_no_cycle_is_lost(tmp_path):
@@ -137,7 +137,7 @@ def test_a_slow_reader_gets_the_whole_answer():
 def test_a_flood_of_lines_becomes_a_few(caplog):
     now = [0.0]
     log = logging.getLogger("flood")
-    log.addFilter(Sparing(lines=3, clock=lambda: now[0]))
+    log.addFilter(RateLimitedLogFilter(lines=3, clock=lambda: now[0]))
     for _ in range(1000):
         log.warning("bad %s", "request")
     now[0] = 61.0

@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.teleop.serve import messages
-from holdfast.teleop.serve.typescript_messages import typescript
+from holdfast.teleop.serve.typescript_messages import format_messages
 
 GOOD = {
     "hello": {"format": 1, "session": None, "code": "P07", "kind": "person", "fresh": "f" * 24},
@@ -63,14 +63,14 @@ def malformed(rng, count):
 
 @pytest.mark.parametrize("kind", GOOD)
 def test_good_messages_are_read(kind):
-    message = messages.read(json.dumps({"type": kind, **GOOD[kind]}))
+    message = messages.parse_message(json.dumps({"type": kind, **GOOD[kind]}))
     assert message.model_dump(exclude={"type"}) == GOOD[kind]
 
 
 def test_malformed_messages_are_refused_with_a_sentence(rng):
     for text in malformed(rng, int(os.environ.get("HOLDFAST_FUZZ", "1000"))):
         with pytest.raises(hf.InputError) as raised:
-            messages.read(text)
+            messages.parse_message(text)
         said = str(raised.value)
         assert said.startswith("the message is malformed")
         assert len(said) < 500
@@ -105,7 +105,7 @@ def test_malformed_messages_are_refused_with_a_sentence(rng):
 )
 def test_what_is_out_of_bounds_is_refused(kind, change):
     with pytest.raises(hf.InputError, match="malformed"):
-        messages.read(json.dumps({"type": kind, **GOOD[kind], **change}))
+        messages.parse_message(json.dumps({"type": kind, **GOOD[kind], **change}))
 
 
 def test_the_largest_message_passes_the_size_limit():
@@ -115,11 +115,11 @@ def test_the_largest_message_passes_the_size_limit():
         {"type": "cycles", "seq": 10**9} | {k: v.tolist() if hasattr(v, "tolist") else v for k, v in cycles.items()},
         separators=(",", ":"),
     )
-    assert len(messages.read(text).time) == 256
+    assert len(messages.parse_message(text).time) == 256
     assert len(text) < messages.MOST_BYTES
 
 
 def test_the_page_has_the_same_definitions():
     """``python -m holdfast.teleop.serve.typescript_messages`` writes the file."""
     page = Path(__file__).parents[3] / "page" / "src" / "messages.ts"
-    assert page.read_text(encoding="utf-8") == typescript()
+    assert page.read_text(encoding="utf-8") == format_messages()

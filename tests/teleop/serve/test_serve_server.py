@@ -13,8 +13,8 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from conftest import dump
-from holdfast.teleop.records.check import replay
-from holdfast.teleop.records.entries import Kind, State
+from holdfast.teleop.records.check import replay_trials
+from holdfast.teleop.records.entries import SubjectState, TrialKind
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import messages
 from holdfast.teleop.trials.recordings import End
@@ -24,7 +24,7 @@ def recorded(folder, code):
     """[(kind, position, end, configurations)] of a subject."""
     with Records.open(folder) as records:
         entries = records.entries(code)
-        trials = records.trials(entries)
+        trials = records.read_trials(entries)
         return [(e.kind, e.position, e.end, trials.configurations(i)) for i, e in enumerate(entries)]
 
 
@@ -55,11 +55,11 @@ def test_a_whole_session(server, protocol, rng):
         assert end == (End.ARRIVED if len(said) == 2 else End.ABORTED), kind
         np.testing.assert_array_equal(path, said)
     with Records.open(server.folder) as records:
-        assert records.subject(code).state == State.COMPLETED
-        assert [e.rating for e in records.entries(code, Kind.TRIAL)] == [1] * 4
+        assert records.subject(code).state == SubjectState.COMPLETED
+        assert [e.rating for e in records.entries(code, TrialKind.TRIAL)] == [1] * 4
         real = [e for e in records.entries(code) if e.end == End.ABORTED]
         assert len(real) == 5
-        assert replay(records, real).differs == []
+        assert replay_trials(records, real).differing_entries == []
 
 
 def test_trials_that_differ_are_flagged_before_ctrl_c_ends_it(start, tmp_path, protocol, rng):
@@ -127,7 +127,7 @@ def test_a_lost_connection_loses_nothing(server, protocol, rng, draw):
     client.settle()
     client.socket.close()
     ((kind, _, end, configurations),) = recorded(server.folder, code)
-    assert (kind, end) == (Kind.TRAINING, End.ABORTED)
+    assert (kind, end) == (TrialKind.TRAINING, End.ABORTED)
     np.testing.assert_array_equal(configurations, [*path, q])
 
 

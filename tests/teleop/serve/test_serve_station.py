@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 import flips
 import holdfast as hf
-from holdfast.teleop.protocol.printed_arm import law_of
+from holdfast.teleop.protocol.printed_arm import number_laws
 from holdfast.teleop.records import session
-from holdfast.teleop.records.entries import Kind, State
+from holdfast.teleop.records.entries import SubjectState, TrialKind
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import training_tasks
 from holdfast.teleop.serve import messages, station
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused
-from holdfast.teleop.serve.station import Entered, Station, enter
+from holdfast.teleop.serve.station import Admission, Station, admit_page
 from holdfast.teleop.trials.recordings import End
 
 ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
@@ -88,15 +88,15 @@ class Model:
         assert [e.end for e in entries] == [ENDS.get(t["end"], End.BROKEN_OFF) for t in self.trials]
         assert [e.ended is not None for e in entries] == [t["end"] is not None for t in self.trials]
         for e, t in zip(entries, self.trials, strict=True):
-            assert records.count(e) == len(t["cycles"])
+            assert records.count_cycles(e) == len(t["cycles"])
             if t["end"] is not None:
-                trials = records.trials([e])
+                trials = records.read_trials([e])
                 np.testing.assert_array_equal(np.hstack([trials.velocity, trials.q]), np.reshape(t["cycles"], (-1, 5)))
         said = records.subject(code).answers
         assert {k: v if "." in k else None for k, v in said.items()} == self.answers
         assert [e["kind"] for e in records.events() if e["subject"] == code] == self.events
         if self.next() is None and self.trials and self.trials[-1]["kind"] == "trial":
-            assert records.subject(code).state == State.COMPLETED
+            assert records.subject(code).state == SubjectState.COMPLETED
 
 
 def hello(**change) -> Hello:
@@ -171,7 +171,7 @@ def shared(protocol, tmp_path_factory):
 def test_records_are_those_of_the_model(shared, batches):
     """Two sessions at once; each batch is one transaction, and some of them are lost as a whole."""
     records = shared
-    codes = [enter(records, hello()).code for _ in range(2)]
+    codes = [admit_page(records, hello()).code for _ in range(2)]
     models = [Model(), Model()]
     for batch, fate in batches:
         before = copy.deepcopy(models)
@@ -182,7 +182,7 @@ def test_records_are_those_of_the_model(shared, batches):
                     message = made(models[who], step)
                     last = models[who].seq
                     right = models[who].take(message)
-                    reply = Station(records, codes[who]).take(message).reply
+                    reply = Station(records, codes[who]).apply_message(message).reply
                     if right:
                         assert reply == Ack(seq=message.seq)
                     else:
@@ -195,7 +195,7 @@ def test_records_are_those_of_the_model(shared, batches):
             models = before
         for code, model in zip(codes, models, strict=True):
             model.compare(records, code)
-            welcome = Station(records, code).welcome("k" * 20, paused=False)
+            welcome = Station(records, code).make_welcome("k" * 20, paused=False)
             assert (welcome.seq, welcome.over) == (model.seq, model.next() is None)
             assert sorted(welcome.answered) == sorted(k for k in model.answers if "." not in k)
             done = [t for t in model.trials if t["end"] not in (None, "broken-off")]
@@ -205,10 +205,10 @@ def test_records_are_those_of_the_model(shared, batches):
 
 
 def test_the_plan_is_the_session_of_the_protocol(records, protocol):
-    entered = enter(records, hello(code="P07"))
+    entered = admit_page(records, hello(code="P07"))
     subject = records.subject("P07")
-    plan = Station(records, "P07").welcome(entered.key, False).plan
-    order, laws = protocol.session(subject.row, subject.number).tolist(), law_of(protocol)
+    plan = Station(records, "P07").make_welcome(entered.key, False).plan
+    order, laws = protocol.session(subject.row, subject.number).tolist(), number_laws(protocol)
     assert [[t.task, t.law] for t in plan.trials] == [[task, laws[scenario]] for task, scenario in order]
     for t, (_, scenario) in zip(plan.trials, order, strict=True):
         assert t.joint == (protocol.tasks.joint[t.task] if protocol.scenarios[scenario].failed else -1)
@@ -217,52 +217,52 @@ def test_the_plan_is_the_session_of_the_protocol(records, protocol):
 
 
 def test_who_comes_in(records):
-    first = enter(records, hello(code="P07"))
-    assert isinstance(first, Entered)
+    first = admit_page(records, hello(code="P07"))
+    assert isinstance(first, Admission)
     assert records.key_holder(first.key) == "P07"
-    again = enter(records, hello(code="P07"))  # nothing is on record: the answer to the first hello was lost
-    assert isinstance(again, Entered)
+    again = admit_page(records, hello(code="P07"))  # nothing is on record: the answer to the first hello was lost
+    assert isinstance(again, Admission)
     assert again.key != first.key
-    assert isinstance(enter(records, hello(session=first.key)), Bye)
-    assert enter(records, hello(session=again.key)) == again
-    assert "format 2" in enter(records, hello(format=2)).reason
-    Station(records, "P07").take(messages.EventMessage(type="event", seq=1, kind="x", data={}))
-    taken = enter(records, hello(code="P07"))
+    assert isinstance(admit_page(records, hello(session=first.key)), Bye)
+    assert admit_page(records, hello(session=again.key)) == again
+    assert "format 2" in admit_page(records, hello(format=2)).reason
+    Station(records, "P07").apply_message(messages.EventMessage(type="event", seq=1, kind="x", data={}))
+    taken = admit_page(records, hello(code="P07"))
     assert isinstance(taken, Refused)
     assert "has begun already" in taken.reason
-    assert isinstance(enter(records, hello(session="x" * 32)), Bye)
+    assert isinstance(admit_page(records, hello(session="x" * 32)), Bye)
     assert [s.code for s in records.subjects()] == ["P07"]
     key = records.give_key("P07")  # another page goes on
     assert records.last_seq("P07") == 1
-    assert isinstance(enter(records, hello(session=again.key)), Bye)
-    assert enter(records, hello(session=key)) == Entered("P07", key)
-    robot = enter(records, hello(session=key).model_copy(update={"kind": "simulated"}))
+    assert isinstance(admit_page(records, hello(session=again.key)), Bye)
+    assert admit_page(records, hello(session=key)) == Admission("P07", key)
+    robot = admit_page(records, hello(session=key).model_copy(update={"kind": "simulated"}))
     assert isinstance(robot, Bye)
     assert "this page's is simulated" in robot.reason
 
 
 def test_keys_are_kept_as_hashes_only(records):
-    key = enter(records, hello()).key
+    key = admit_page(records, hello()).key
     records._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
     assert key.encode() not in (records.folder / "records.sqlite").read_bytes()
 
 
 def test_dropped_and_deleted_subjects_are_told(records):
-    one, two = enter(records, hello()), enter(records, hello())
-    records.set_state(one.code, State.DROPPED)
+    one, two = admit_page(records, hello()), admit_page(records, hello())
+    records.set_state(one.code, SubjectState.DROPPED)
     message = messages.EventMessage(type="event", seq=1, kind="x", data={})
-    assert "ended by the experimenter" in Station(records, one.code).take(message).reply.reason
-    assert isinstance(enter(records, hello(session=one.key)), Bye)
+    assert "ended by the experimenter" in Station(records, one.code).apply_message(message).reply.reason
+    assert isinstance(admit_page(records, hello(session=one.key)), Bye)
     records.delete_subject(two.code)
-    assert "deleted" in Station(records, two.code).take(message).reply.reason
-    assert isinstance(enter(records, hello(session=two.key)), Bye)
+    assert "deleted" in Station(records, two.code).apply_message(message).reply.reason
+    assert isinstance(admit_page(records, hello(session=two.key)), Bye)
     assert records.events() == []
 
 
 def test_folders_from_before_there_were_pages_open(records):
     flips.older(records.folder)
     with Records.open(records.folder) as again:
-        assert isinstance(enter(again, hello()), Entered)
+        assert isinstance(admit_page(again, hello()), Admission)
 
 
 def part(records):
@@ -280,4 +280,4 @@ def test_a_failed_part_is_undone_and_the_rest_is_kept(records):
     assert [e["kind"] for e in records.events()] == ["one", "three"]
     assert records.events("one")[0]["kind"] == "one"
     assert records.progress() == {}
-    assert records.entries(kind=Kind.TRIAL) == []
+    assert records.entries(kind=TrialKind.TRIAL) == []

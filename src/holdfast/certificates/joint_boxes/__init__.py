@@ -1,1 +1,1 @@
-"""Claims that are decided by halving boxes of joints: what is out of reach, ceilings."""
+"""Claims decided by bisecting boxes of joints: exclusion of targets, and bounds of relative manipulability."""

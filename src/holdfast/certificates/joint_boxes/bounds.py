@@ -1,4 +1,4 @@
-"""What was found of a ceiling or a floor of relative manipulability, and the configuration that comes nearest to it."""
+"""Search for certified upper and lower bounds of relative manipulability, with the most extreme configuration found."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.crew import Effort
-from holdfast.certificates.joint_boxes.halving import Test, need_room
-from holdfast.certificates.joint_boxes.jobs import halved, summed
-from holdfast.certificates.joint_boxes.kernels import Floor
-from holdfast.certificates.joint_boxes.wrenches import Ceiling
+from holdfast.certificates.crew import SearchBudget
+from holdfast.certificates.joint_boxes.halving import BoxTest, require_capacity
+from holdfast.certificates.joint_boxes.jobs import bisect_box, summarize_tree
+from holdfast.certificates.joint_boxes.kernels import FloorTest
+from holdfast.certificates.joint_boxes.wrenches import CeilingTest
 from holdfast.certificates.joint_claims import BoundClaim
-from holdfast.certificates.proof import Halved, early
-from holdfast.certificates.taylor import Chain
-from holdfast.certificates.tree import UNDECIDED
+from holdfast.certificates.proof import BisectionResult, format_early_stop
+from holdfast.certificates.taylor import CertificateChain
+from holdfast.certificates.tree import UNDECIDED_TOKEN
 from holdfast.indices import relative_manipulability
 
 Array = NDArray[np.float64]
-_SAMPLES, _CLIMBERS, _CLIMBS = 20_000, 64, 80
-_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # of screws: axes, then moments
+_SAMPLE_COUNT, _LOCAL_SEARCH_COUNT, _LOCAL_SEARCH_STEPS = 20_000, 64, 80
+_SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # of screws: axes, then moments
 
 
 @dataclass(frozen=True, kw_only=True)
-class ManipulabilityBound(Halved):
-    """What the prover found for a bound of relative manipulability. It is not verified: :func:`check_certificate` does that.
+class ManipulabilityBound(BisectionResult):
+    """Result of the prover for a bound of relative manipulability. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.
@@ -43,13 +43,13 @@ class ManipulabilityBound(Halved):
 
     @property
     def refuted(self) -> bool:
-        """True if that configuration is beyond the threshold."""
-        return _sign(self.claim) * (self.value - self.claim.threshold) > 0
+        """True if the extreme configuration is beyond the threshold."""
+        return _bound_sign(self.claim) * (self.value - self.claim.threshold) > 0
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.extreme))
-        occurs = f"{self.value:.6f} occurs, at ({at}) deg"
+        """Return the claim and the result of the search as sentences."""
+        configuration = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.extreme))
+        occurs = f"{self.value:.6f} occurs, at ({configuration}) deg"
         if self.refuted:
             return [
                 verifier.qualify_claim(self.document["claim"], self.proved, refuted=True),
@@ -57,56 +57,60 @@ class ManipulabilityBound(Halved):
             ]
         return [
             verifier.qualify_claim(self.document["claim"], self.proved),
-            f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)} of the box, undecided "
-            f"{verifier.per_cent(self.undecided, up=True)}{early(self.finished)}; {occurs}.",
+            f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)} of the box, undecided "
+            f"{verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}; {occurs}.",
             f"{self.leaves:,} boxes are proved, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",
         ]
 
 
-def bounded(claim: BoundClaim, halvings: int, seed: int, effort: Effort) -> ManipulabilityBound:
-    """What the search finds, as :func:`holdfast.certify` is asked."""
-    began = perf_counter()
-    extreme, value = _extreme(claim, np.random.default_rng(seed))
-    tree, chain = summed(bytes([UNDECIDED]), claim.arm.n, 1, True), Chain.of(claim.arm)
-    test: Test = Ceiling(chain, claim.locks, claim.threshold)
+def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budget: SearchBudget) -> ManipulabilityBound:
+    """Search for a proof of a bound claim with the options of :func:`holdfast.certify`."""
+    started = perf_counter()
+    extreme, value = _search_extreme(claim, np.random.default_rng(seed))
+    bisection, chain = summarize_tree(bytes([UNDECIDED_TOKEN]), claim.arm.n, 1, True), CertificateChain.from_arm(claim.arm)
+    test: BoxTest = CeilingTest(chain, claim.locks, claim.threshold)
     if claim.kind == "floor":
-        test = Floor(chain, _ROWS[claim.task], claim.locks, claim.threshold)
-    if _sign(claim) * (value - claim.threshold) <= 0:
+        test = FloorTest(chain, _SCREW_ROWS[claim.task], claim.locks, claim.threshold)
+    if _bound_sign(claim) * (value - claim.threshold) <= 0:
         advice = f"a smaller box, or a threshold farther from {value:.4g}, which occurs, takes fewer"
-        need_room(test, claim.joint_box, halvings, seed, advice)
-        tree = halved(test, claim.joint_box, halvings, effort)
-    seconds = perf_counter() - began
+        require_capacity(test, claim.joint_box, halvings, seed, advice)
+        bisection = bisect_box(test, claim.joint_box, halvings, budget)
+    seconds = perf_counter() - started
     return ManipulabilityBound(
         claim=claim,
-        proved=1 - tree.undecided,
-        undecided=tree.undecided,
+        proved=1 - bisection.undecided,
+        undecided=bisection.undecided,
         extreme=extreme,
         value=value,
-        leaves=tree.leaves,
-        nodes=tree.nodes,
-        finished=tree.finished,
+        leaves=bisection.leaves,
+        nodes=bisection.nodes,
+        finished=bisection.finished,
         seconds=seconds,
-        document=documents.bound(claim, tree, extreme, seconds=seconds),
+        document=documents.build_bound_document(claim, bisection, extreme, seconds=seconds),
     )
 
 
-def _sign(claim: BoundClaim) -> float:
+def _bound_sign(claim: BoundClaim) -> float:
     return 1.0 if claim.kind == "ceiling" else -1.0
 
 
-def _extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[Array, float]:
-    """The best or worst configuration of samples, corners among them, and of random climbs from some of these."""
+def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[Array, float]:
+    """Return the best or worst configuration of samples, corners among them, refined by random local searches from some of
+    them.
+    """
     index = relative_manipulability(claim.arm, claim.task, failures=list(claim.locks))
-    (low, high), sign = claim.joint_box.T, _sign(claim)
-    shares = np.concatenate([rng.random((_SAMPLES, len(low))), rng.integers(0, 3, (_SAMPLES // 4, len(low))) / 2])
-    q = low + (high - low) * shares
-    value = sign * index(q)
-    some = np.argsort(-value)[:_CLIMBERS]
-    at, best = q[some], value[some]
-    for step in 0.2 * 0.85 ** np.arange(_CLIMBS):
-        moves = rng.normal(size=at.shape) * rng.integers(0, 2, at.shape) * step * (high - low)
-        moved = np.clip(at + moves, low, high)
-        value = sign * index(moved)
-        better = value > best
-        at[better], best[better] = moved[better], value[better]
-    return at[best.argmax()], sign * float(best.max())
+    (lower, upper), sign = claim.joint_box.T, _bound_sign(claim)
+    fractions = np.concatenate(
+        [rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT // 4, len(lower))) / 2]
+    )
+    q = lower + (upper - lower) * fractions
+    values = sign * index(q)
+    best_rows = np.argsort(-values)[:_LOCAL_SEARCH_COUNT]
+    candidates, best_values = q[best_rows], values[best_rows]
+    for step_size in 0.2 * 0.85 ** np.arange(_LOCAL_SEARCH_STEPS):
+        moves = rng.normal(size=candidates.shape) * rng.integers(0, 2, candidates.shape) * step_size * (upper - lower)
+        trials = np.clip(candidates + moves, lower, upper)
+        values = sign * index(trials)
+        improved = values > best_values
+        candidates[improved], best_values[improved] = trials[improved], values[improved]
+    return candidates[best_values.argmax()], sign * float(best_values.max())

@@ -1,4 +1,4 @@
-"""Out of reach: boxes of configurations and targets are halved until one distance tells each of them apart.
+"""Exclusion of targets: boxes of configurations and targets are bisected until one distance excludes each box.
 
 The position of a point of link k, less the target, must be as long as the tool is from that point. How far the tool can be from
 it is a lemma, about the joints behind it alone, proved by a bisection of its own; a box is excluded where the distance from the
@@ -16,28 +16,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.crew import Effort
-from holdfast.certificates.joint_boxes.halving import OPEN, Halving, Index, need_room
-from holdfast.certificates.joint_boxes.jobs import halved
-from holdfast.certificates.joint_boxes.rows import Rows
-from holdfast.certificates.joint_boxes.segments import Segment, points_on_axes
-from holdfast.certificates.taylor import Chain, Reach
+from holdfast.certificates.crew import SearchBudget
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, Index, require_capacity
+from holdfast.certificates.joint_boxes.jobs import bisect_box
+from holdfast.certificates.joint_boxes.rows import TaskErrorBound
+from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.taylor import CertificateChain, ReachSolver
 
 Array = NDArray[np.float64]
 
-LEMMA = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
-_MOST_LEMMAS = 12
-_MARGIN = 1e-7  # m, so that the verifier's rounding costs nothing
-_SAMPLES, _CLIMBERS, _CLIMBS = 2048, 32, 60
-_LEMMA_NODES = 40_000
-_NARROW = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
-_LEMMA_HALVINGS = 40
-_MET, _ROOM = 1e-10, 1e-6  # m and rad: of a target, and from limits, of a witness
+FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
+_MAX_LEMMAS = 12
+_DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
+_SAMPLE_COUNT, _LOCAL_SEARCH_COUNT, _LOCAL_SEARCH_STEPS = 2048, 32, 60
+_MAX_LEMMA_NODES = 40_000
+_LEMMA_WIDENING = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
+_MAX_LEMMA_HALVINGS = 40
+_WITNESS_TOLERANCE, _WITNESS_LIMIT_MARGIN = 1e-10, 1e-6  # m and rad: of a target, and from limits, of a witness
 
 
 @dataclass(frozen=True, eq=False)
 class Lemma:
-    """The tool is from least to most (m) from a point of a link, wherever the joints behind it are.
+    """Bounds of the distance, ``least`` to ``most`` (m), of the tool from a point of a link, for all values of the joints
+    behind the link.
 
     Attributes:
         link: Which link: 0 is the base.
@@ -54,7 +55,7 @@ class Lemma:
 
 @dataclass(frozen=True, eq=False)
 class Exclusion:
-    """What the search found.
+    """Result of the search for an exclusion.
 
     Attributes:
         lemmas: Those that the tree uses.
@@ -74,167 +75,212 @@ class Exclusion:
     witness: Array | None = None
 
 
-def ranges(claim: OutOfReachClaim) -> Array:
-    """(n, 2) rad in which joints may be, the locked one included: a full turn at most."""
-    kept = claim.limits.copy()
+def joint_ranges(claim: OutOfReachClaim) -> Array:
+    """Return (n, 2) ranges of the joints, rad, the locked one included; revolute joints turn one full revolution at most."""
+    limits = claim.limits.copy()
     if claim.angle is not None:
-        kept[claim.locked] = claim.angle
-    turn = np.nextafter(np.pi, 4)
-    kept[~claim.arm.prismatic & (kept[:, 1] - kept[:, 0] >= 2 * np.pi)] = -turn, turn
-    return kept
+        limits[claim.locked] = claim.angle
+    half_turn = np.nextafter(np.pi, 4)
+    limits[~claim.arm.prismatic & (limits[:, 1] - limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
+    return limits
 
 
-def exclude(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) -> Exclusion:
-    """Search for a witness, then for a proof."""
+def search_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Exclusion:
+    """Search for a witness, and without one for a proof."""
     rng = np.random.default_rng(seed)
-    found = _witness(claim, rng)
-    if found is not None:
-        return Exclusion([], b"\2", Fraction(1), 0, 1, True, found)
-    chain, joints = Chain.of(claim.arm), ranges(claim)
+    witness = _search_witness(claim, rng)
+    if witness is not None:
+        return Exclusion([], b"\2", Fraction(1), 0, 1, True, witness)
+    chain, joints = CertificateChain.from_arm(claim.arm), joint_ranges(claim)
     if claim.task.startswith("planar"):  # all of it happens in the plane
         chain = replace(chain, origins=chain.origins * [1, 1, 0])
-    box, lemmas, tested, rows = np.vstack([joints, claim.box]), list[Lemma](), 0, Rows(claim, joints)
-    place = claim.box[: rows.reach.linear]
-    for link, point in points_on_axes(chain, joints, rng)[:_MOST_LEMMAS]:
-        lemma, nodes = _lemma(chain, joints, place, link, point, effort.end, rng)
+    box, lemmas, tested, error_bound = np.vstack([joints, claim.box]), list[Lemma](), 0, TaskErrorBound(claim, joints)
+    target_box = claim.box[: error_bound.reach.linear]
+    for link, point in find_axis_points(chain, joints, rng)[:_MAX_LEMMAS]:
+        lemma, nodes = _search_lemma(chain, joints, target_box, link, point, budget.deadline, rng)
         tested += nodes
         if lemma is not None:
             lemmas.append(lemma)
-            root, _ = _Apart(chain, lemmas, rows)(box.mean(axis=1)[None], np.diff(box).T / 2)
-            if root[0] != OPEN:  # nothing more is needed
+            root_tokens, _ = _ExclusionTest(chain, lemmas, error_bound)(box.mean(axis=1)[None], np.diff(box).T / 2)
+            if root_tokens[0] != OPEN_TOKEN:  # nothing more is needed
                 break
-    test = _Apart(chain, lemmas, rows)
-    need_room(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
-    main = halved(test, box, halvings, effort)
-    tree = main.tree
-    used = [k for k in range(len(lemmas)) if LEMMA + k in tree]
-    renamed = {LEMMA + k: LEMMA + new for new, k in enumerate(used)}
-    kept = [lemmas[k] for k in used]
+    test = _ExclusionTest(chain, lemmas, error_bound)
+    require_capacity(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
+    bisection = bisect_box(test, box, halvings, budget)
+    tree = bisection.tree
+    used_indices = [index for index in range(len(lemmas)) if FIRST_LEMMA_TOKEN + index in tree]
+    token_map = {FIRST_LEMMA_TOKEN + index: FIRST_LEMMA_TOKEN + rank for rank, index in enumerate(used_indices)}
+    used_lemmas = [lemmas[index] for index in used_indices]
     return Exclusion(
-        kept,
-        tree.translate(bytes(renamed.get(token, token) for token in range(256))),
-        main.undecided,
-        main.leaves + sum(lemma.tree.count(0) for lemma in kept),
-        main.nodes + tested,
-        main.finished,
+        used_lemmas,
+        tree.translate(bytes(token_map.get(token, token) for token in range(256))),
+        bisection.undecided,
+        bisection.leaves + sum(lemma.tree.count(0) for lemma in used_lemmas),
+        bisection.nodes + tested,
+        bisection.finished,
     )
 
 
-class _Apart:
-    """The test of boxes of configurations and targets: which lemma, or the tool itself, tells them apart."""
+class _ExclusionTest:
+    """Test that excludes boxes of configurations and targets by a lemma, or by the tool itself."""
 
-    def __init__(self, chain: Chain, lemmas: list[Lemma], rows: Rows) -> None:
-        self.n, self.m, self.lemmas, self.rows = len(chain.lengths), rows.reach.linear, lemmas, rows
-        self.parts = [Segment.of(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
+    def __init__(self, chain: CertificateChain, lemmas: list[Lemma], error_bound: TaskErrorBound) -> None:
+        self.n, self.m, self.lemmas, self.error_bound = len(chain.lengths), error_bound.reach.linear, lemmas, error_bound
+        self.segments = [ChainSegment.from_chain(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
 
     def __call__(self, middle: Array, half: Array) -> tuple[Index, Array]:
         count, n = len(middle), self.n
-        found, part, gain = np.full(count, OPEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
-        x, wide = np.zeros((count, 3)), np.zeros((count, 3))
-        x[:, : self.m], wide[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
+        tokens, best_ratios, gain = np.full(count, OPEN_TOKEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
+        targets, target_half = np.zeros((count, 3)), np.zeros((count, 3))
+        targets[:, : self.m], target_half[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
 
-        def take(rows: Index, token: int, spare: Array, gap: Array, each: Array, joints: int) -> None:
-            """What one test gives: by how much it excludes, how far apart the middles are, what each axis costs."""
-            found[rows[spare > _MARGIN]] = token
-            share = gap / np.maximum(gap - spare, 1e-12)  # 1: just excluded
-            better = share > part[rows]
-            rows, each = rows[better], each[better]
-            part[rows], gain[rows] = share[better], 0.0
-            more = each.shape[1] if joints == n else joints + self.m
-            gain[rows, :joints], gain[rows, n : n + more - joints] = each[:, :joints], each[:, joints:more]
+        def record_test(
+            rows: Index, token: int, margins: Array, center_margins: Array, axis_costs: Array, joint_count: int
+        ) -> None:
+            """Record one test: its margins, the margins at the centers, and the cost of each axis."""
+            tokens[rows[margins > _DISTANCE_MARGIN_M]] = token
+            ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
+            improved = ratios > best_ratios[rows]
+            rows, axis_costs = rows[improved], axis_costs[improved]
+            best_ratios[rows], gain[rows] = ratios[improved], 0.0
+            column_count = axis_costs.shape[1] if joint_count == n else joint_count + self.m
+            gain[rows, :joint_count], gain[rows, n : n + column_count - joint_count] = (
+                axis_costs[:, :joint_count],
+                axis_costs[:, joint_count:column_count],
+            )
 
-        for k, (lemma, segment) in enumerate(zip(self.lemmas, self.parts, strict=True)):
-            rows = np.flatnonzero(found == OPEN)
+        for index, (lemma, segment) in enumerate(zip(self.lemmas, self.segments, strict=True)):
+            rows = np.flatnonzero(tokens == OPEN_TOKEN)
             if not rows.size:
                 break
-            q, h = middle[rows, : lemma.link], half[rows, : lemma.link]
-            bound, gap, each = segment.nearest(q, h, x[rows], wide[rows])
-            take(rows, LEMMA + k, bound - lemma.most, gap - lemma.most, each, lemma.link)
-            near = np.flatnonzero(np.linalg.norm(segment.frames(q)[0] - x[rows], axis=1) < lemma.least)
-            if near.size:
-                bound, gap, each = segment.farthest(q[near], h[near], x[rows[near]], wide[rows[near]])
-                take(rows[near], LEMMA + k, lemma.least - bound, lemma.least - gap, each, lemma.link)
-        rows = np.flatnonzero(found == OPEN)
-        bound, gap, each = self.rows.nearest(middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:])
-        take(rows, 0, bound, gap, each, n)
-        return found, gain
-
-
-def _lemma(
-    chain: Chain, joints: Array, box: Array, link: int, point: Array, until: float, rng: np.random.Generator
-) -> tuple[Lemma | None, int]:
-    """A lemma about a point, as narrow as a few boxes prove, or None; and how many boxes were looked at."""
-    n = len(joints)
-    segment = Segment.of(chain, link, n, chain.origins[-1])
-    least, most = _span(segment, joints[link:], point, rng)
-    total = float(segment.lengths.sum() + np.linalg.norm(segment.origins, axis=1).sum() + np.linalg.norm(point))
-    total += float(np.abs(joints[link:]).max(axis=1)[segment.slides].sum())
-    margin = max(_NARROW[0] * (most - least), _NARROW[1] * total)
-    asked = max(0.0, least - margin), most + margin
-    if link == 0:  # where this alone excludes all targets, as wide as does
-        away = np.maximum(np.maximum(box[:, 0] - point[: len(box)], point[: len(box)] - box[:, 1]), 0)
-        far = np.maximum(np.abs(box[:, 0] - point[: len(box)]), np.abs(box[:, 1] - point[: len(box)]))
-        low, high = float(np.linalg.norm(away)), float(np.linalg.norm(far))
-        if low > most:
-            asked = 0.0, low - min(1e-6, (low - most) / 10)
-        elif high < least:
-            asked = high + min(1e-6, (least - high) / 10), total
-    still, tested = np.arange(n - link) < segment.on_axes(point), 0
-    while margin < total:
-        low, high = asked
-        tree = Halving(joints[link:], _LEMMA_HALVINGS)
-        finished = tree.run(
-            partial(_kept, segment, point, still, low, high if high < total else np.inf), until, most=_LEMMA_NODES
+            q, half_range = middle[rows, : lemma.link], half[rows, : lemma.link]
+            bound, center_distance, axis_costs = segment.bound_distance_below(q, half_range, targets[rows], target_half[rows])
+            record_test(
+                rows, FIRST_LEMMA_TOKEN + index, bound - lemma.most, center_distance - lemma.most, axis_costs, lemma.link
+            )
+            close_rows = np.flatnonzero(np.linalg.norm(segment.differentiate_point(q)[0] - targets[rows], axis=1) < lemma.least)
+            if close_rows.size:
+                bound, center_distance, axis_costs = segment.bound_distance_above(
+                    q[close_rows], half_range[close_rows], targets[rows[close_rows]], target_half[rows[close_rows]]
+                )
+                record_test(
+                    rows[close_rows],
+                    FIRST_LEMMA_TOKEN + index,
+                    lemma.least - bound,
+                    lemma.least - center_distance,
+                    axis_costs,
+                    lemma.link,
+                )
+        rows = np.flatnonzero(tokens == OPEN_TOKEN)
+        bound, center_distance, axis_costs = self.error_bound.bound_error_below(
+            middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:]
         )
-        tested += tree.tested
-        if finished and not tree.undecided:
-            useful = low > 0 or high < total
-            return (Lemma(link, point, low, high, tree.in_order()) if useful else None), tested
+        record_test(rows, 0, bound, center_distance, axis_costs, n)
+        return tokens, gain
+
+
+def _search_lemma(
+    chain: CertificateChain,
+    joints: Array,
+    target_box: Array,
+    link: int,
+    point: Array,
+    deadline: float,
+    rng: np.random.Generator,
+) -> tuple[Lemma | None, int]:
+    """Return a lemma about a point, as narrow as a few boxes prove, or None, and the number of examined boxes."""
+    n = len(joints)
+    segment = ChainSegment.from_chain(chain, link, n, chain.origins[-1])
+    min_distance, max_distance = _search_distance_range(segment, joints[link:], point, rng)
+    max_reach = float(segment.lengths.sum() + np.linalg.norm(segment.origins, axis=1).sum() + np.linalg.norm(point))
+    max_reach += float(np.abs(joints[link:]).max(axis=1)[segment.slides].sum())
+    margin = max(_LEMMA_WIDENING[0] * (max_distance - min_distance), _LEMMA_WIDENING[1] * max_reach)
+    interval = max(0.0, min_distance - margin), max_distance + margin
+    if link == 0:  # where this alone excludes all targets, as wide as does
+        min_offsets = np.maximum(
+            np.maximum(target_box[:, 0] - point[: len(target_box)], point[: len(target_box)] - target_box[:, 1]), 0
+        )
+        max_offsets = np.maximum(
+            np.abs(target_box[:, 0] - point[: len(target_box)]), np.abs(target_box[:, 1] - point[: len(target_box)])
+        )
+        lower, upper = float(np.linalg.norm(min_offsets)), float(np.linalg.norm(max_offsets))
+        if lower > max_distance:
+            interval = 0.0, lower - min(1e-6, (lower - max_distance) / 10)
+        elif upper < min_distance:
+            interval = upper + min(1e-6, (min_distance - upper) / 10), max_reach
+    ignored_joints, tested = np.arange(n - link) < segment.count_axes_through(point), 0
+    while margin < max_reach:
+        lower, upper = interval
+        halving = Halving(joints[link:], _MAX_LEMMA_HALVINGS)
+        finished = halving.run(
+            partial(_test_distance_range, segment, point, ignored_joints, lower, upper if upper < max_reach else np.inf),
+            deadline,
+            max_nodes=_MAX_LEMMA_NODES,
+        )
+        tested += halving.tested
+        if finished and not halving.undecided:
+            useful = lower > 0 or upper < max_reach
+            return (Lemma(link, point, lower, upper, halving.to_preorder()) if useful else None), tested
         margin *= 3
-        asked = max(0.0, least - margin), most + margin
+        interval = max(0.0, min_distance - margin), max_distance + margin
     return None, tested
 
 
-def _kept(
-    segment: Segment, point: Array, still: NDArray[np.bool_], low: float, high: float, middle: Array, half: Array
+def _test_distance_range(
+    segment: ChainSegment,
+    point: Array,
+    ignored_joints: NDArray[np.bool_],
+    lower: float,
+    upper: float,
+    middle: Array,
+    half: Array,
 ) -> tuple[Index, Array]:
-    """The test of boxes of joints: whether the end keeps from ``low`` to ``high`` from a point; some joints do not count."""
-    half = np.where(still, 0.0, half)
-    at, none = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
-    found, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
-    for asked, bound, sign in ((high < np.inf, segment.farthest, 1.0), (low > 0, segment.nearest, -1.0)):
-        if asked:
-            distance, _, each = bound(middle, half, at, none)
-            bad = sign * distance > sign * (high if sign > 0 else low) - _MARGIN
-            found[bad] = OPEN
-            gain[bad] += each[bad, : len(still)]
-    return found, gain
+    """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; ``ignored_joints`` do not count."""
+    half = np.where(ignored_joints, 0.0, half)
+    points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
+    tokens, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
+    for is_needed, bound_distance, sign in (
+        (upper < np.inf, segment.bound_distance_above, 1.0),
+        (lower > 0, segment.bound_distance_below, -1.0),
+    ):
+        if is_needed:
+            distance, _, axis_costs = bound_distance(middle, half, points, zeros)
+            undecided = sign * distance > sign * (upper if sign > 0 else lower) - _DISTANCE_MARGIN_M
+            tokens[undecided] = OPEN_TOKEN
+            gain[undecided] += axis_costs[undecided, : len(ignored_joints)]
+    return tokens, gain
 
 
-def _span(segment: Segment, joints: Array, point: Array, rng: np.random.Generator) -> tuple[float, float]:
-    """The least and greatest distance of the end from a point that were found, by random climbs from samples and corners."""
-    low, high = joints.T
-    shares = np.concatenate([rng.random((_SAMPLES, len(low))), rng.integers(0, 3, (_SAMPLES, len(low))) / 2])
-    q, ends = low + (high - low) * shares, list[float]()
+def _search_distance_range(segment: ChainSegment, joints: Array, point: Array, rng: np.random.Generator) -> tuple[float, float]:
+    """Return the least and greatest distance found between the end and a point, by random local searches from samples and
+    corners.
+    """
+    lower, upper = joints.T
+    fractions = np.concatenate([rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT, len(lower))) / 2])
+    q, extremes = lower + (upper - lower) * fractions, list[float]()
     for sign in (1.0, -1.0):
-        value = sign * np.linalg.norm(segment.frames(q)[0] - point, axis=1)
-        some = np.argsort(value)[:_CLIMBERS]
-        at, best = q[some], value[some]
-        for step in 0.3 * 0.8 ** np.arange(_CLIMBS):
-            moved = np.clip(at + rng.normal(size=at.shape) * step * rng.integers(0, 2, at.shape), low, high)
-            value = sign * np.linalg.norm(segment.frames(moved)[0] - point, axis=1)
-            better = value < best
-            at[better], best[better] = moved[better], value[better]
-        ends.append(sign * float(best.min()))
-    return ends[0], ends[1]
+        distances = sign * np.linalg.norm(segment.differentiate_point(q)[0] - point, axis=1)
+        best_rows = np.argsort(distances)[:_LOCAL_SEARCH_COUNT]
+        candidates, best_distances = q[best_rows], distances[best_rows]
+        for step_size in 0.3 * 0.8 ** np.arange(_LOCAL_SEARCH_STEPS):
+            trials = np.clip(
+                candidates + rng.normal(size=candidates.shape) * step_size * rng.integers(0, 2, candidates.shape), lower, upper
+            )
+            distances = sign * np.linalg.norm(segment.differentiate_point(trials)[0] - point, axis=1)
+            improved = distances < best_distances
+            candidates[improved], best_distances[improved] = trials[improved], distances[improved]
+        extremes.append(sign * float(best_distances.min()))
+    return extremes[0], extremes[1]
 
 
-def _witness(claim: OutOfReachClaim, rng: np.random.Generator) -> Array | None:
-    """A configuration within the claim whose tool is inside the box, or None."""
-    joints = ranges(claim)
-    reach = Reach(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
+def _search_witness(claim: OutOfReachClaim, rng: np.random.Generator) -> Array | None:
+    """Return a configuration within the claim whose tool is inside the box, or None if none is found."""
+    joints = joint_ranges(claim)
+    reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
     targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, len(claim.box)))
-    q = reach.solved(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
-    met = (reach.missed(q, targets) < _MET).all(axis=1)
-    met &= ((q >= joints[:, 0] + _ROOM) & (q <= joints[:, 1] - _ROOM) | ~reach.free).all(axis=1)
-    return q[met.argmax()] if met.any() else None
+    q = reach.solve_targets(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
+    is_valid = (reach.measure_pose_error(q, targets) < _WITNESS_TOLERANCE).all(axis=1)
+    is_valid &= ((q >= joints[:, 0] + _WITNESS_LIMIT_MARGIN) & (q <= joints[:, 1] - _WITNESS_LIMIT_MARGIN) | ~reach.free).all(
+        axis=1
+    )
+    return q[is_valid.argmax()] if is_valid.any() else None

@@ -1,4 +1,4 @@
-"""Boxes halved until each is decided, many at once: a bisection tree as certificates write it."""
+"""Bisection of many boxes in parallel until each is decided, with the tree that certificates contain."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tree import SPLIT, UNDECIDED
-from holdfast.certificates.verified.tree import MOST_LEAVES
+from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN
+from holdfast.certificates.verified.tree import MAX_LEAVES
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Test = Callable[[Array, Array], tuple[Index, Array]]
+BoxTest = Callable[[Array, Array], tuple[Index, Array]]
 
-OPEN = -1  # what is not decided yet
-LEFT = 1  # token of what others look at
-_AT_ONCE = 4096
-_PATHS, _FAR = 101, 60  # for an estimate; halvings after which nobody asks
+OPEN_TOKEN = -1  # what is not decided yet
+DEFERRED_TOKEN = 1  # token of what others look at
+_BATCH_BOXES = 4096
+_ESTIMATE_PATHS, _MAX_ESTIMATE_DEPTH = 101, 60  # for an estimate; halvings after which nobody asks
 
 
 class Halving:
-    """The halving of boxes.
+    """Bisection of boxes.
 
     Args:
         box: (A, 2), low and high along each axis, of the whole.
@@ -40,106 +40,111 @@ class Halving:
         self.width = box[:, 1] - box[:, 0]
         middle, depth = boxes or (box.mean(axis=1)[None], np.zeros((1, len(box)), dtype=np.int64))
         self._roots = self.nodes = len(middle)
-        room = 1 << 10 + self.nodes.bit_length()
-        self._token, self._below = np.full(room, UNDECIDED, dtype=np.uint8), np.zeros(room, dtype=np.int64)
-        self._level = np.zeros(room, dtype=np.int64)
+        capacity = 1 << 10 + self.nodes.bit_length()
+        self._token, self._below = np.full(capacity, UNDECIDED_TOKEN, dtype=np.uint8), np.zeros(capacity, dtype=np.int64)
+        self._level = np.zeros(capacity, dtype=np.int64)
         self._waiting = [(np.arange(self.nodes), middle, depth)]
         self.tested, self.proved, self.undecided = 0, 0.0, 0.0
 
     def run(
         self,
-        test: Test,
-        until: float = np.inf,
-        stop: Callable[[], bool] = lambda: False,
-        tell: Callable[[], None] = lambda: None,
-        most: int = 1 << 24,
+        test: BoxTest,
+        deadline: float = np.inf,
+        should_stop: Callable[[], bool] = lambda: False,
+        report_progress: Callable[[], None] = lambda: None,
+        max_nodes: int = 1 << 24,
     ) -> bool:
-        """Halve until all is decided, a time (``monotonic``) or ``stop`` comes, or so many nodes are made: then False.
+        """Bisect until all is decided, or until a monotonic time, a stop request or ``max_nodes`` nodes; then return False.
 
         The test takes middles and half widths (N, A) and gives a token or OPEN for each (N,), and what halving each axis would
-        gain (N, A). ``tell`` is called after each step. May be called again.
+        gain (N, A). ``report_progress`` is called after each step. May be called again.
         """
         while self._waiting:
-            if monotonic() > until or stop() or self.nodes > most:
+            if monotonic() > deadline or should_stop() or self.nodes > max_nodes:
                 return False
-            name, middle, depth = self._waiting.pop()
-            if len(name) > _AT_ONCE:
-                self._waiting.append((name[_AT_ONCE:], middle[_AT_ONCE:], depth[_AT_ONCE:]))
-                name, middle, depth = name[:_AT_ONCE], middle[:_AT_ONCE], depth[:_AT_ONCE]
+            node_ids, middle, depth = self._waiting.pop()
+            if len(node_ids) > _BATCH_BOXES:
+                self._waiting.append((node_ids[_BATCH_BOXES:], middle[_BATCH_BOXES:], depth[_BATCH_BOXES:]))
+                node_ids, middle, depth = node_ids[:_BATCH_BOXES], middle[:_BATCH_BOXES], depth[:_BATCH_BOXES]
             half = self.width * 0.5 ** (depth + 1)
-            self.tested += len(name)
-            found, gain = test(middle, half)
-            done = found != OPEN
-            self._token[name[done]] = found[done]
+            self.tested += len(node_ids)
+            tokens, gain = test(middle, half)
+            is_decided = tokens != OPEN_TOKEN
+            self._token[node_ids[is_decided]] = tokens[is_decided]
             gain = np.where((depth < self.halvings) & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
-            split = ~done & (gain.max(axis=1) > 0)
-            share = 0.5 ** depth.sum(axis=1)
-            self.proved += float(share[done].sum())
-            self.undecided += float(share[~done & ~split].sum())
-            if split.any():
-                parts = self._split(name[split], middle[split], depth[split], half[split], gain[split].argmax(axis=1))
-                self._waiting.append(parts)
-            tell()
+            is_split = ~is_decided & (gain.max(axis=1) > 0)
+            fractions = 0.5 ** depth.sum(axis=1)
+            self.proved += float(fractions[is_decided].sum())
+            self.undecided += float(fractions[~is_decided & ~is_split].sum())
+            if is_split.any():
+                children = self._split_boxes(
+                    node_ids[is_split], middle[is_split], depth[is_split], half[is_split], gain[is_split].argmax(axis=1)
+                )
+                self._waiting.append(children)
+            report_progress()
         return True
 
-    def _split(self, name: Index, middle: Array, depth: Index, half: Array, axis: Index) -> tuple[Index, Array, Index]:
-        """The halves."""
-        count = len(name)
+    def _split_boxes(
+        self, node_ids: Index, middle: Array, depth: Index, half: Array, axis: Index
+    ) -> tuple[Index, Array, Index]:
+        """Return the node numbers, middles and depths of the halves."""
+        count = len(node_ids)
         while self.nodes + 2 * count > len(self._token):
             for key in ("_token", "_below", "_level"):
-                old = getattr(self, key)
-                setattr(self, key, np.concatenate([old, np.full_like(old, UNDECIDED if key == "_token" else 0)]))
-        below = self.nodes + 2 * np.arange(count)
-        self._token[name], self._below[name] = SPLIT + axis, below
+                values = getattr(self, key)
+                setattr(self, key, np.concatenate([values, np.full_like(values, UNDECIDED_TOKEN if key == "_token" else 0)]))
+        lower_children = self.nodes + 2 * np.arange(count)
+        self._token[node_ids], self._below[node_ids] = SPLIT_TOKEN + axis, lower_children
         self.nodes += 2 * count
-        names, rows = np.repeat(below, 2) + np.arange(2 * count) % 2, np.arange(2 * count)
-        self._level[names] = np.repeat(self._level[name], 2) + 1
+        child_ids, rows = np.repeat(lower_children, 2) + np.arange(2 * count) % 2, np.arange(2 * count)
+        self._level[child_ids] = np.repeat(self._level[node_ids], 2) + 1
         middles, depths, axes = np.repeat(middle, 2, axis=0), np.repeat(depth, 2, axis=0), np.repeat(axis, 2)
         depths[rows, axes] += 1
         middles[rows, axes] += np.where(rows % 2, 0.5, -0.5) * np.repeat(half, 2, axis=0)[rows, axes]
-        return names, middles, depths
+        return child_ids, middles, depths
 
-    def in_order(self) -> bytes:
-        """Tokens of each tree in pre-order, lower half first; what waits to be looked at is LEFT."""
-        token, below, level = self._token[: self.nodes].copy(), self._below, self._level[: self.nodes]
-        for name, _, _ in self._waiting:
-            token[name] = LEFT
-        size, place = np.ones(self.nodes, dtype=np.int64), np.zeros(self.nodes, dtype=np.int64)
-        split = (token >= SPLIT) & (token < SPLIT + len(self.box))
-        levels = [np.flatnonzero(split & (level == k)) for k in range(int(level.max()) + 1)]
-        for name in levels[::-1]:
-            size[name] += size[below[name]] + size[below[name] + 1]
-        place[1 : self._roots] = np.cumsum(size[: self._roots - 1])
-        for name in levels:
-            place[below[name]] = place[name] + 1
-            place[below[name] + 1] = place[name] + 1 + size[below[name]]
+    def to_preorder(self) -> bytes:
+        """Return the tokens of each tree in pre-order, lower half first; boxes that still wait have DEFERRED_TOKEN."""
+        tokens, children, node_level = self._token[: self.nodes].copy(), self._below, self._level[: self.nodes]
+        for node_ids, _, _ in self._waiting:
+            tokens[node_ids] = DEFERRED_TOKEN
+        subtree_sizes, positions = np.ones(self.nodes, dtype=np.int64), np.zeros(self.nodes, dtype=np.int64)
+        is_split = (tokens >= SPLIT_TOKEN) & (tokens < SPLIT_TOKEN + len(self.box))
+        levels = [np.flatnonzero(is_split & (node_level == depth)) for depth in range(int(node_level.max()) + 1)]
+        for node_ids in levels[::-1]:
+            subtree_sizes[node_ids] += subtree_sizes[children[node_ids]] + subtree_sizes[children[node_ids] + 1]
+        positions[1 : self._roots] = np.cumsum(subtree_sizes[: self._roots - 1])
+        for node_ids in levels:
+            positions[children[node_ids]] = positions[node_ids] + 1
+            positions[children[node_ids] + 1] = positions[node_ids] + 1 + subtree_sizes[children[node_ids]]
         ordered = np.zeros(self.nodes, dtype=np.uint8)
-        ordered[place] = token
+        ordered[positions] = tokens
         return ordered.tobytes()
 
 
-def need_room(test: Test, box: Array, halvings: int, seed: int, advice: str) -> None:
-    """Refuse what would take more boxes than a certificate may have: by paths from the whole to where points are decided.
+def require_capacity(test: BoxTest, box: Array, halvings: int, seed: int, advice: str) -> None:
+    """Raise an error if the search would take more boxes than a certificate may have, estimated by paths from the root to
+    decided points.
 
     As many boxes as 2 to the halvings of a path fill the whole; the median counts.
 
     Raises:
         InputError: With the estimate, and with the advice.
     """
-    rng = np.random.default_rng([seed, _PATHS])
-    middle, half = np.tile(box.mean(axis=1), (_PATHS, 1)), np.tile(np.diff(box)[:, 0] / 2, (_PATHS, 1))
-    depth, left = np.zeros(middle.shape, dtype=np.int64), np.arange(_PATHS)
-    while left.size > _PATHS // 2 and depth.sum(axis=1).max() < _FAR:
-        found, gain = test(middle[left], half[left])
-        gain = np.where((depth[left] < halvings) & (half[left] > 0), np.nan_to_num(gain, nan=0.0), -1.0)
-        split = (found == OPEN) & (gain.max(axis=1) > 0)
-        left, axis = left[split], gain[split].argmax(axis=1)
-        depth[left, axis] += 1
-        half[left, axis] /= 2
-        middle[left, axis] += half[left, axis] * rng.choice([-1.0, 1.0], len(left))
-    typical = float(np.median(depth.sum(axis=1)))
-    if 2**typical > MOST_LEAVES:
-        more = " or more" if typical >= _FAR else ""
+    rng = np.random.default_rng([seed, _ESTIMATE_PATHS])
+    middle, half = np.tile(box.mean(axis=1), (_ESTIMATE_PATHS, 1)), np.tile(np.diff(box)[:, 0] / 2, (_ESTIMATE_PATHS, 1))
+    depth, open_rows = np.zeros(middle.shape, dtype=np.int64), np.arange(_ESTIMATE_PATHS)
+    while open_rows.size > _ESTIMATE_PATHS // 2 and depth.sum(axis=1).max() < _MAX_ESTIMATE_DEPTH:
+        tokens, gain = test(middle[open_rows], half[open_rows])
+        gain = np.where((depth[open_rows] < halvings) & (half[open_rows] > 0), np.nan_to_num(gain, nan=0.0), -1.0)
+        is_split = (tokens == OPEN_TOKEN) & (gain.max(axis=1) > 0)
+        open_rows, axis = open_rows[is_split], gain[is_split].argmax(axis=1)
+        depth[open_rows, axis] += 1
+        half[open_rows, axis] /= 2
+        middle[open_rows, axis] += half[open_rows, axis] * rng.choice([-1.0, 1.0], len(open_rows))
+    typical_depth = float(np.median(depth.sum(axis=1)))
+    if 2**typical_depth > MAX_LEAVES:
+        suffix = " or more" if typical_depth >= _MAX_ESTIMATE_DEPTH else ""
         raise InputError(
-            f"single boxes decide so little of this that it would take some {2**typical:.0e} boxes{more}; {advice}"
+            f"single boxes decide so little of this that it would take some {2**typical_depth:.0e} boxes{suffix}; {advice}"
         )

@@ -1,4 +1,4 @@
-"""The halving of a box in jobs: one that has made very many boxes leaves what is open to others.
+"""The bisection of a box as jobs; a job that has made very many boxes defers the open ones to child jobs.
 
 What a job finds depends on its boxes alone: not on how many processes there are, nor on what was found before by a search that
 was stopped.
@@ -14,22 +14,22 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.crew import Effort, Stop
-from holdfast.certificates.joint_boxes.halving import LEFT, Halving, Test
-from holdfast.certificates.tree import SPLIT, UNDECIDED, SearchState
-from holdfast.certificates.verified.tree import MOST_LEAVES
+from holdfast.certificates.crew import SearchBudget, StopCheck
+from holdfast.certificates.joint_boxes.halving import DEFERRED_TOKEN, BoxTest, Halving
+from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState
+from holdfast.certificates.verified.tree import MAX_LEAVES
 from holdfast.engine.memory import Parts
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Boxes = tuple[Array, Index]
+BoxBatch = tuple[Array, Index]
 
-_JOB, _PARTS = 1 << 14, 16  # boxes that a job makes; jobs that it leaves
+_BOXES_PER_JOB, _MAX_CHILD_JOBS = 1 << 14, 16  # boxes that a job makes; jobs that it leaves
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
-    """What a job found.
+class JointBoxResult:
+    """Result of a bisection job.
 
     Attributes:
         trees: Of its boxes, one after the other, in pre-order.
@@ -48,132 +48,136 @@ class Found:
 
     @property
     def state(self) -> SearchState:
-        """Of the whole."""
-        left = 1 - self.proved - self.undecided
-        return SearchState(proved=self.proved, undecided=self.undecided, open=left, nodes=self.tested)
+        """Progress, as fractions of the whole box."""
+        open_fraction = 1 - self.proved - self.undecided
+        return SearchState(proved=self.proved, undecided=self.undecided, open=open_fraction, nodes=self.tested)
 
-    def stored(self) -> Parts:
-        """As a memory keeps it."""
-        parts = np.array([self.proved, self.undecided, self.seconds])
-        return {"trees": np.frombuffer(self.trees, dtype=np.uint8), "tested": np.array([self.tested]), "parts": parts}
+    def to_arrays(self) -> Parts:
+        """Return the result as arrays for the search memory."""
+        fractions = np.array([self.proved, self.undecided, self.seconds])
+        return {"trees": np.frombuffer(self.trees, dtype=np.uint8), "tested": np.array([self.tested]), "parts": fractions}
 
-    def need_room(self) -> None:
-        """That is asked of the whole beforehand."""
+    def require_capacity(self) -> None:
+        """Do nothing, because the capacity is checked for the whole box beforehand."""
 
 
 @dataclass(frozen=True, eq=False)
-class Job:
-    """The halving of some boxes of one.
+class JointBoxJob:
+    """Bisection of some boxes of a root box.
 
     Attributes:
         test: Of boxes, as of :class:`holdfast.certificates.joint_boxes.halving.Halving`.
         box: (A, 2) the whole.
         halvings: Of each axis of it, at most.
-        most: Boxes that it makes, and each of those that it leaves some to.
+        max_boxes: Boxes that it makes, and each of those that it leaves some to.
         name: For a memory.
         boxes: Middles and how often they were halved; None: the whole.
     """
 
-    test: Test
+    test: BoxTest
     box: Array
     halvings: int
-    most: int
+    max_boxes: int
     name: str = "boxes"
-    boxes: Boxes | None = None
+    boxes: BoxBatch | None = None
 
     @property
-    def share(self) -> float:
-        """States are about the whole."""
+    def claim_fraction(self) -> float:
+        """Fraction of the claim to which the states refer: the whole."""
         return 1.0
 
-    def begun(self, until: float) -> Running:
-        """At work."""
-        return Running(self)
+    def start(self, deadline: float) -> RunningJointBoxJob:
+        """Start the job."""
+        return RunningJointBoxJob(self)
 
-    def nothing(self) -> Found:
-        """All undecided."""
-        return Found(bytes([UNDECIDED]) * (len(self.boxes[0]) if self.boxes else 1), 0, False, 0.0, 0.0, 0.0)
+    def empty_result(self) -> JointBoxResult:
+        """Return a result in which everything is undecided."""
+        return JointBoxResult(bytes([UNDECIDED_TOKEN]) * (len(self.boxes[0]) if self.boxes else 1), 0, False, 0.0, 0.0, 0.0)
 
-    def read(self, stored: Parts) -> Found:
-        """What :meth:`Found.stored` kept."""
-        proved, undecided, seconds = (float(x) for x in stored["parts"])
-        return Found(stored["trees"].tobytes(), int(stored["tested"][0]), True, proved, undecided, seconds)
+    def from_arrays(self, arrays: Parts) -> JointBoxResult:
+        """Rebuild a result from the arrays of :meth:`JointBoxResult.to_arrays`."""
+        proved, undecided, seconds = (float(value) for value in arrays["parts"])
+        return JointBoxResult(arrays["trees"].tobytes(), int(arrays["tested"][0]), True, proved, undecided, seconds)
 
-    def parted(self, found: Found) -> list[Job]:
-        """The jobs of what it leaves."""
-        if not found.finished or LEFT not in found.trees:
+    def child_jobs(self, result: JointBoxResult) -> list[JointBoxJob]:
+        """Return the child jobs for the deferred boxes."""
+        if not result.finished or DEFERRED_TOKEN not in result.trees:
             return []
-        middle, depth = (np.array(x) for x in zip(*self._left(found.trees), strict=True))
-        parts = np.array_split(np.arange(len(middle)), min(_PARTS, len(middle)))
+        middle, depth = (np.array(column) for column in zip(*self._deferred_boxes(result.trees), strict=True))
+        row_groups = np.array_split(np.arange(len(middle)), min(_MAX_CHILD_JOBS, len(middle)))
         return [
-            Job(self.test, self.box, self.halvings, self.most, f"{self.name} {k}", (middle[some], depth[some]))
-            for k, some in enumerate(parts, 1)
+            JointBoxJob(
+                self.test, self.box, self.halvings, self.max_boxes, f"{self.name} {number}", (middle[rows], depth[rows])
+            )
+            for number, rows in enumerate(row_groups, 1)
         ]
 
-    def _left(self, trees: bytes) -> Iterator[tuple[Array, Index]]:
-        """Middles of what is left, and how often each axis was halved."""
+    def _deferred_boxes(self, trees: bytes) -> Iterator[tuple[Array, Index]]:
+        """Yield the middles of the deferred boxes and how often each axis was halved."""
         width = self.box[:, 1] - self.box[:, 0]
         roots = self.boxes or (self.box.mean(axis=1)[None], np.zeros((1, len(width)), dtype=np.int64))
         waiting = list(zip(*roots, strict=True))[::-1]
         for token in trees:
             middle, depth = waiting.pop()
-            if token == LEFT:
+            if token == DEFERRED_TOKEN:
                 yield middle, depth
-            elif SPLIT <= token < SPLIT + len(width):
-                deeper = depth.copy()
-                deeper[token - SPLIT] += 1
+            elif SPLIT_TOKEN <= token < SPLIT_TOKEN + len(width):
+                child_depth = depth.copy()
+                child_depth[token - SPLIT_TOKEN] += 1
                 step = np.zeros(len(width))
-                step[token - SPLIT] = width[token - SPLIT] * 0.5 ** (deeper[token - SPLIT] + 1)
-                waiting += [(middle + step, deeper), (middle - step, deeper)]
+                step[token - SPLIT_TOKEN] = width[token - SPLIT_TOKEN] * 0.5 ** (child_depth[token - SPLIT_TOKEN] + 1)
+                waiting += [(middle + step, child_depth), (middle - step, child_depth)]
 
-    def joined(self, found: Found, parts: Sequence[Found]) -> Found:
-        """With what is found of what was left."""
-        every = b"".join(one.trees for one in parts)
-        left, trees = iter(_each(every, len(self.box))), found.trees.split(bytes([LEFT]))
-        whole = trees[0] + b"".join((next(left) if parts else bytes([UNDECIDED])) + tree for tree in trees[1:])
-        all_of = [found, *parts]
-        return Found(
-            whole, sum(one.tested for one in all_of), all(one.finished for one in all_of),
-            sum(one.proved for one in all_of), sum(one.undecided for one in all_of), sum(one.seconds for one in all_of),
+    def merge(self, result: JointBoxResult, child_results: Sequence[JointBoxResult]) -> JointBoxResult:
+        """Merge the results of the deferred boxes into this result."""
+        child_trees = b"".join(part.trees for part in child_results)
+        deferred, trees = iter(_split_trees(child_trees, len(self.box))), result.trees.split(bytes([DEFERRED_TOKEN]))
+        merged = trees[0] + b"".join(
+            (next(deferred) if child_results else bytes([UNDECIDED_TOKEN])) + tree for tree in trees[1:]
+        )
+        results = [result, *child_results]
+        return JointBoxResult(
+            merged, sum(part.tested for part in results), all(part.finished for part in results),
+            sum(part.proved for part in results), sum(part.undecided for part in results), sum(part.seconds for part in results),
         )  # fmt: skip
 
 
-class Running:
-    """A job at work.
+class RunningJointBoxJob:
+    """A started bisection job.
 
     Attributes:
         job: Which.
         finished: All is decided, or left to others.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: JointBoxJob) -> None:
         self.job, self.finished, self._seconds = job, False, 0.0
         self._halving = Halving(job.box, job.halvings, job.boxes)
-        self._most = self._halving.nodes + job.most
+        self._max_nodes = self._halving.nodes + job.max_boxes
 
-    def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
-        """On with it until it is time (``monotonic``), or to stop."""
-        began = perf_counter()
-        done = self._halving.run(self.job.test, until, stop, tell, self._most)
-        self.finished = done or self._halving.nodes > self._most
-        self._seconds += perf_counter() - began
+    def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
+        """Continue the search until the monotonic time ``deadline``, or until ``should_stop()`` is true."""
+        started = perf_counter()
+        is_done = self._halving.run(self.job.test, deadline, should_stop, report_progress, self._max_nodes)
+        self.finished = is_done or self._halving.nodes > self._max_nodes
+        self._seconds += perf_counter() - started
 
     @property
     def state(self) -> SearchState:
-        """How far it is."""
+        """Current progress of the job."""
         proved, undecided = self._halving.proved, self._halving.undecided
         return SearchState(proved=proved, undecided=undecided, open=1 - proved - undecided, nodes=self._halving.tested)
 
-    def found(self) -> Found:
-        """What is found so far."""
+    def result(self) -> JointBoxResult:
+        """Return the result so far."""
         halving = self._halving
-        trees = halving.in_order()
-        return Found(trees, halving.tested, self.finished, halving.proved, halving.undecided, self._seconds)
+        trees = halving.to_preorder()
+        return JointBoxResult(trees, halving.tested, self.finished, halving.proved, halving.undecided, self._seconds)
 
 
 @dataclass(frozen=True, eq=False)
 class Bisection:
-    """A box that was halved.
+    """A bisected box.
 
     Attributes:
         tree: In pre-order.
@@ -190,32 +194,32 @@ class Bisection:
     finished: bool
 
 
-def halved(test: Test, box: Array, halvings: int, effort: Effort) -> Bisection:
-    """As much of a box as can be decided, in at most as many boxes as a certificate may have."""
-    (found,) = effort.found([Job(test, box, halvings, _JOB)], MOST_LEAVES)
-    return summed(found.trees, len(box), found.tested, found.finished)
+def bisect_box(test: BoxTest, box: Array, halvings: int, budget: SearchBudget) -> Bisection:
+    """Decide as much of a box as possible with at most as many boxes as a certificate may have."""
+    (result,) = budget.run_jobs([JointBoxJob(test, box, halvings, _BOXES_PER_JOB)], MAX_LEAVES)
+    return summarize_tree(result.trees, len(box), result.tested, result.finished)
 
 
-def summed(tree: bytes, axes: int, nodes: int, finished: bool) -> Bisection:
-    """What a tree in pre-order says."""
+def summarize_tree(tree: bytes, axes: int, nodes: int, finished: bool) -> Bisection:
+    """Return the bisection that a tree in pre-order describes."""
     counts, waiting, leaves = dict[int, int](), [0], 0
     for token in tree:
         depth = waiting.pop()
-        if SPLIT <= token < SPLIT + axes:
+        if SPLIT_TOKEN <= token < SPLIT_TOKEN + axes:
             waiting += [depth + 1, depth + 1]
-        elif token == UNDECIDED:
+        elif token == UNDECIDED_TOKEN:
             counts[depth] = counts.get(depth, 0) + 1
         else:
             leaves += 1
-    rest = sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
-    return Bisection(tree, rest, leaves, nodes, finished)
+    undecided = sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
+    return Bisection(tree, undecided, leaves, nodes, finished)
 
 
-def _each(trees: bytes, axes: int) -> Iterator[bytes]:
-    """One after the other."""
+def _split_trees(trees: bytes, axes: int) -> Iterator[bytes]:
+    """Yield the trees of a sequence one by one."""
     begin, waiting = 0, 1
-    for at, token in enumerate(trees, 1):
-        waiting += 1 if SPLIT <= token < SPLIT + axes else -1
+    for end, token in enumerate(trees, 1):
+        waiting += 1 if SPLIT_TOKEN <= token < SPLIT_TOKEN + axes else -1
         if not waiting:
-            yield trees[begin:at]
-            begin, waiting = at, 1
+            yield trees[begin:end]
+            begin, waiting = end, 1

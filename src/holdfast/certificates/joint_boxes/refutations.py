@@ -1,4 +1,4 @@
-"""What was found of a claim that nothing of a box is reached."""
+"""Search for proofs that no target of a box is reached."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.crew import Effort
-from holdfast.certificates.joint_boxes.exclusion import exclude
-from holdfast.certificates.proof import Halved, early
+from holdfast.certificates.crew import SearchBudget
+from holdfast.certificates.joint_boxes.exclusion import search_exclusion
+from holdfast.certificates.proof import BisectionResult, format_early_stop
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refutation(Halved):
-    """What the prover found for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
+class Refutation(BisectionResult):
+    """Result of the prover for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.
@@ -35,34 +35,34 @@ class Refutation(Halved):
         return self.witness is not None
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
+        """Return the claim and the result of the search as sentences."""
         if self.witness is not None:
-            at = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.witness))
+            configuration = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.witness))
             return [
                 verifier.qualify_claim(self.document["claim"], self.proved, refuted=True),
-                f"Refuted by a witness: at ({at}) deg the tool is in the box.",
+                f"Refuted by a witness: at ({configuration}) deg the tool is in the box.",
             ]
         return [
             verifier.qualify_claim(self.document["claim"], self.proved),
-            f"Found by the prover, not yet verified: proved {verifier.per_cent(self.proved)} of all pairs of target and "
-            f"configuration, undecided {verifier.per_cent(self.undecided, up=True)}{early(self.finished)}.",
+            f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)} of all pairs of target and "
+            f"configuration, undecided {verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}.",
             f"{self.leaves:,} boxes are told apart, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",
         ]
 
 
-def refuted(claim: OutOfReachClaim, halvings: int, seed: int, effort: Effort) -> Refutation:
-    """What the search finds, as :func:`holdfast.certify` is asked."""
-    began = perf_counter()
-    found = exclude(claim, halvings, seed, effort)
-    seconds = perf_counter() - began
+def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Refutation:
+    """Search for a proof that nothing is reached, with the options of :func:`holdfast.certify`."""
+    started = perf_counter()
+    exclusion = search_exclusion(claim, halvings, seed, budget)
+    seconds = perf_counter() - started
     return Refutation(
         claim=claim,
-        proved=1 - found.undecided,
-        undecided=found.undecided,
-        witness=found.witness,
-        leaves=found.leaves,
-        nodes=found.nodes,
-        finished=found.finished,
+        proved=1 - exclusion.undecided,
+        undecided=exclusion.undecided,
+        witness=exclusion.witness,
+        leaves=exclusion.leaves,
+        nodes=exclusion.nodes,
+        finished=exclusion.finished,
         seconds=seconds,
-        document=documents.refutation(claim, found, seconds=seconds),
+        document=documents.build_refutation_document(claim, exclusion, seconds=seconds),
     )

@@ -1,1 +1,1 @@
-"""Boxes of targets, halved until one configuration does for each: pool, search, jobs of it."""
+"""Boxes of targets, bisected until one configuration proves each cell: pool of configurations, search, and jobs."""

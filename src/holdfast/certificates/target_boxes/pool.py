@@ -1,4 +1,4 @@
-"""Configurations from which a search begins, all over its root box."""
+"""Pool of configurations, spread over the root box, from which a search begins."""
 
 from __future__ import annotations
 
@@ -8,181 +8,219 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.taylor import Form, Reach
+from holdfast.certificates.taylor import ReachSolver, TaylorForm
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-_TARGETS, _MOST, _STARTS = 250, 1000, 10  # targets at first and at most, and random starts of each
-_EACH = 64  # cells for each target: where there are more, there are more targets
-_STRIDE = 0.5  # along self-motions, rad
-_CLIMB, _BEST, _WIDER = 10, 30, 2.0  # such steps, of the best more, to prove more of cells so many times wider than without,
-_MUCH, _WIDTHS = 0.75, (2.0**-10, 2.0**10)  # or twice as wide after so much of them is, in such a range
-_ASKED, _ENOUGH = 200, 60  # for the estimate: so many, until so many halvings
-_TRIED = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
-_MET = 1e-9  # m and rad
+_INITIAL_TARGETS, _MAX_TARGETS, _RANDOM_STARTS = 250, 1000, 10  # targets at first and at most, and random starts of each
+_CELLS_PER_TARGET = 64  # cells for each target: where there are more, there are more targets
+_MAX_SELF_MOTION_STEP_RAD = 0.5  # along self-motions, rad
+_LOCAL_SEARCH_STEPS, _FINAL_SEARCH_STEPS, _TEST_CELL_SCALE = (
+    10,
+    30,
+    2.0,
+)  # such steps, of the best more, to prove more of cells so many times wider than without,
+_WIDEN_ABOVE_FRACTION, _CELL_SCALE_RANGE = (
+    0.75,
+    (2.0**-10, 2.0**10),
+)  # or twice as wide after so much of them is, in such a range
+_ESTIMATE_SAMPLES, _MAX_ESTIMATE_HALVINGS = 200, 60  # for the estimate: so many, until so many halvings
+_TRIALS_PER_CELL = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
+_TARGET_TOLERANCE = 1e-9  # m and rad
 
 
-def stepped(reach: Reach, q: Array, rng: np.random.Generator) -> Array:
-    """A random step along the self-motion from each q (N, n)."""
-    move = np.nan_to_num(reach.along(q, rng.normal(size=q.shape)))
-    size = rng.uniform(0, _STRIDE, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
-    return np.asarray(q + move * size[:, None])
+def step_self_motion(reach: ReachSolver, q: Array, rng: np.random.Generator) -> Array:
+    """Take a random step along the self-motion from each q (N, n)."""
+    move = np.nan_to_num(reach.project_self_motion(q, rng.normal(size=q.shape)))
+    scale = rng.uniform(0, _MAX_SELF_MOTION_STEP_RAD, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
+    return np.asarray(q + move * scale[:, None])
 
 
-class Pool:
-    """Configurations of random targets and locked angles of a root box, moved to where they prove much.
+class ConfigurationPool:
+    """Configurations for random targets and locked angles of a root box, moved to where they prove much.
 
     Args:
         reach: What must be reached.
         root: (A, 2) targets along each axis, then the locked angle.
         rng: Of all draws.
-        until: When to stop (``monotonic``), with what there is.
+        deadline: When to stop (``monotonic``), with what there is.
 
     Attributes:
         q: (N, n) rad or m, those of the first targets.
-        cells: That the whole would take, estimated; infinite where nobody knows.
-        seconds: That this would take here.
-        halved: (A,) how often each axis is halved for them, in the mean.
-        wanted: How many more times as many targets the claim asks for; more where there was no time for the first.
-        drawn, lost: Targets that were drawn first, and those of them of which no configuration was found.
+        estimated_cells: That the whole would take, estimated; infinite where nobody knows.
+        estimated_seconds: That this would take here.
+        mean_halvings: (A,) how often each axis is halved for them, in the mean.
+        pending_rounds: How many more times as many targets the claim asks for; more where there was no time for the first.
+        sampled_targets, unreached_targets: Targets that were drawn first, and those of them of which no configuration was
+            found.
     """
 
-    def __init__(self, reach: Reach, root: Array, rng: np.random.Generator, until: float) -> None:
+    def __init__(self, reach: ReachSolver, root: Array, rng: np.random.Generator, deadline: float) -> None:
         self._reach, self._root, self._rng = reach, root, rng
         self._width = root[:, 1] - root[:, 0]
         self._unit = np.where(self._width > 0, self._width, 1.0)
-        self._all, self._count, self._until = np.empty((0, reach.n)), 0, until
+        self._configurations, self._indexed_count, self._deadline = np.empty((0, reach.n)), 0, deadline
         self._added: list[tuple[Array, Array]] = []
-        self._best, self._tree = list[tuple[Array, Array]](), cast(Any, None)
-        self._half = np.zeros(len(root))
-        self.drawn = self.lost = 0
-        self.q, self._at = self._grown()
-        self.cells, self.halved, self.seconds = self._estimate(self.q, self._at)
-        self.wanted = int(monotonic() >= until) + max(int(min(_MOST, self.cells / _EACH)) // _TARGETS - 1, 0)
+        self._best_batches, self._best_index = list[tuple[Array, Array]](), cast(Any, None)
+        self._test_half = np.zeros(len(root))
+        self.sampled_targets = self.unreached_targets = 0
+        self.q, self._coordinates = self._add_samples()
+        self.estimated_cells, self.mean_halvings, self.estimated_seconds = self._estimate_cost(self.q, self._coordinates)
+        self.pending_rounds = int(monotonic() >= deadline) + max(
+            int(min(_MAX_TARGETS, self.estimated_cells / _CELLS_PER_TARGET)) // _INITIAL_TARGETS - 1, 0
+        )
 
-    def enlarge(self, until: float) -> None:
-        """As large as the claim asks, or as there is time for (``monotonic``); an estimate does without."""
-        self._until = max(self._until, until)
-        while self.wanted and monotonic() < self._until:
-            self._grown()
-            self.wanted -= monotonic() < self._until
+    def add_targets(self, deadline: float) -> None:
+        """Add as many targets as the claim needs or the monotonic ``deadline`` allows; an estimate does without them."""
+        self._deadline = max(self._deadline, deadline)
+        while self.pending_rounds and monotonic() < self._deadline:
+            self._add_samples()
+            self.pending_rounds -= monotonic() < self._deadline
 
-    def draw(self, low: Array, width: Array, until: float) -> None:
-        """Configurations of targets and locked angles in some of these cells (N, A), too, if there is time (``monotonic``)."""
-        self._until, some = max(self._until, until), np.resize(self._rng.permutation(len(low)), _TARGETS)
-        self._grown(low[some] + self._rng.random(low[some].shape) * width[some])
+    def sample_in_cells(self, lower: Array, width: Array, deadline: float) -> None:
+        """Add configurations for targets and locked angles in some of these cells (N, A), if there is time until ``deadline``
+        (monotonic).
+        """
+        self._deadline, chosen = max(self._deadline, deadline), np.resize(self._rng.permutation(len(lower)), _INITIAL_TARGETS)
+        self._add_samples(lower[chosen] + self._rng.random(lower[chosen].shape) * width[chosen])
 
-    def _grown(self, drawn: Array | None = None) -> tuple[Array, Array]:
-        """Configurations of some targets more, where one is found, and these; added, too."""
+    def _add_samples(self, targets: Array | None = None) -> tuple[Array, Array]:
+        """Add configurations for more targets, where one is found, and return them with their targets."""
         reach = self._reach
-        if drawn is None:
-            drawn = self._root[:, 0] + self._rng.random((_TARGETS, len(self._root))) * self._width
-        at = np.repeat(drawn, _STARTS, axis=0)[: None if monotonic() < self._until else 0]
-        low, high = reach.spans.T
-        q = reach.placed(self._rng.uniform(low, high, (len(at), reach.n)), at)
-        q = reach.solved(q, at[:, : reach.axes], 40)
-        met = (reach.missed(q, at[:, : reach.axes]) < _MET).all(axis=1)
-        if not self.drawn:
-            self.drawn, self.lost = len(at) // _STARTS, int((~met.reshape(-1, _STARTS).any(axis=1)).sum())
-        q, at = q[met], at[met]
-        if not self._half.any():
-            self._half = _WIDER / 2 * self._width * 0.5 ** self._estimate(q, at)[1]
-        q, size, wide = self._climbed(q, at, np.ones(len(q)), _CLIMB)
-        self.add(at, q)
+        if targets is None:
+            targets = self._root[:, 0] + self._rng.random((_INITIAL_TARGETS, len(self._root))) * self._width
+        coordinates = np.repeat(targets, _RANDOM_STARTS, axis=0)[: None if monotonic() < self._deadline else 0]
+        lower, upper = reach.sampling_limits.T
+        q = reach.set_fixed_joints(self._rng.uniform(lower, upper, (len(coordinates), reach.n)), coordinates)
+        q = reach.solve_targets(q, coordinates[:, : reach.axes], 40)
+        is_reached = (reach.measure_pose_error(q, coordinates[:, : reach.axes]) < _TARGET_TOLERANCE).all(axis=1)
+        if not self.sampled_targets:
+            self.sampled_targets, self.unreached_targets = (
+                len(coordinates) // _RANDOM_STARTS,
+                int((~is_reached.reshape(-1, _RANDOM_STARTS).any(axis=1)).sum()),
+            )
+        q, coordinates = q[is_reached], coordinates[is_reached]
+        if not self._test_half.any():
+            self._test_half = _TEST_CELL_SCALE / 2 * self._width * 0.5 ** self._estimate_cost(q, coordinates)[1]
+        q, scale, widths = self._search_self_motions(q, coordinates, np.ones(len(q)), _LOCAL_SEARCH_STEPS)
+        self.add_configurations(coordinates, q)
         # Arms reach a target in several ways, and cells halved in one that proves little stay with it: of each target the best.
-        order = np.argsort(-size, kind="stable")
-        best = order[np.unique(at[order], axis=0, return_index=True)[1]]
-        found, _, _ = self._climbed(q[best], at[best], wide[best], _BEST)
-        self._best.append((at[best] / self._unit, found))
-        return q, at
+        order = np.argsort(-scale, kind="stable")
+        best_rows = order[np.unique(coordinates[order], axis=0, return_index=True)[1]]
+        improved, _, _ = self._search_self_motions(q[best_rows], coordinates[best_rows], widths[best_rows], _FINAL_SEARCH_STEPS)
+        self._best_batches.append((coordinates[best_rows] / self._unit, improved))
+        return q, coordinates
 
-    def _climbed(self, q: Array, at: Array, wide: Array, steps: int) -> tuple[Array, Array, Array]:
-        """Moved along self-motions to where configurations prove more, and how much: parts of cells so many times as wide."""
-        q, best, targets = q.copy(), np.full(len(q), -1.0), at[:, : self._reach.axes]
-        for k in range(1 + steps * self._reach.redundant):
-            if monotonic() > self._until:
+    def _search_self_motions(self, q: Array, coordinates: Array, widths: Array, steps: int) -> tuple[Array, Array, Array]:
+        """Move configurations along self-motions to where they prove more; return them, the proved scale, and the scale of the
+        tested cells.
+        """
+        q, best_scale, targets = q.copy(), np.full(len(q), -1.0), coordinates[:, : self._reach.axes]
+        for step in range(1 + steps * self._reach.is_redundant):
+            if monotonic() > self._deadline:
                 break
-            other = self._reach.solved(stepped(self._reach, q, self._rng), targets) if k else q
-            half = np.minimum(self._half * wide[:, None], self._width / 2)
-            size = wide * Form.at(self._reach, other, targets).scale(half, best / wide if k else None)
-            better = size > best
-            q[better], best[better] = other[better], size[better]
-            wide = np.clip(np.where(best > _MUCH * wide, 2 * wide, np.where(best > 0, wide, wide / 2)), *_WIDTHS)
-        return q, best, wide
+            candidates = self._reach.solve_targets(step_self_motion(self._reach, q, self._rng), targets) if step else q
+            half = np.minimum(self._test_half * widths[:, None], self._width / 2)
+            scale = widths * TaylorForm.expand_at(self._reach, candidates, targets).find_provable_fraction(
+                half, best_scale / widths if step else None
+            )
+            improved = scale > best_scale
+            q[improved], best_scale[improved] = candidates[improved], scale[improved]
+            widths = np.clip(
+                np.where(best_scale > _WIDEN_ABOVE_FRACTION * widths, 2 * widths, np.where(best_scale > 0, widths, widths / 2)),
+                *_CELL_SCALE_RANGE,
+            )
+        return q, best_scale, widths
 
-    def add(self, centre: Array, q: Array) -> None:
-        """Configurations q (N, n) that proved cells around centres (N, A): cells near them may need the same."""
-        self._added.append((centre / self._unit, q))
+    def add_configurations(self, center: Array, q: Array) -> None:
+        """Add configurations q (N, n) that proved cells around centers (N, A), because cells near them may need the same."""
+        self._added.append((center / self._unit, q))
 
-    def _nearest(self, centre: Array, count: int) -> tuple[Array, Index]:
-        """(N, count) how far away in parts of the root, and which, of fewer if there are fewer."""
-        if 2 * self._count < sum(len(q) for _, q in self._added):  # else the tree is made anew too often
+    def _find_nearest(self, center: Array, count: int) -> tuple[Array, Index]:
+        """Return the distances (N, count), in parts of the root, and the indices of the nearest configurations, fewer if there
+        are fewer.
+        """
+        if 2 * self._indexed_count < sum(len(q) for _, q in self._added):  # else the tree is made anew too often
             from scipy.spatial import KDTree
 
-            at, self._all = (np.concatenate(x) for x in zip(*self._added, strict=True))
-            self._added, self._count, self._near = [(at, self._all)], len(at), KDTree(at)
-        count = min(count, self._count)
+            coordinates, self._configurations = (np.concatenate(arrays) for arrays in zip(*self._added, strict=True))
+            self._added, self._indexed_count, self._nearest_index = (
+                [(coordinates, self._configurations)],
+                len(coordinates),
+                KDTree(coordinates),
+            )
+        count = min(count, self._indexed_count)
         if not count:
-            return np.empty((len(centre), 0)), np.empty((len(centre), 0), dtype=np.int64)
-        away, nearest = self._near.query(centre / self._unit, k=np.arange(1, count + 1), p=np.inf)
-        return np.asarray(away), np.asarray(nearest)
+            return np.empty((len(center), 0)), np.empty((len(center), 0), dtype=np.int64)
+        distances, nearest = self._nearest_index.query(center / self._unit, k=np.arange(1, count + 1), p=np.inf)
+        return np.asarray(distances), np.asarray(nearest)
 
-    def near(self, centre: Array, count: int) -> Array:
-        """(N, count, n) the nearest configurations by target and locked angle of centres (N, A), fewer if there are fewer."""
-        _, nearest = self._nearest(centre, count)
-        return np.asarray(self._all[nearest])
+    def find_nearest_configurations(self, center: Array, count: int) -> Array:
+        """Return the (N, count, n) nearest configurations by target and locked angle for centers (N, A), fewer if there are
+        fewer.
+        """
+        _, nearest = self._find_nearest(center, count)
+        return np.asarray(self._configurations[nearest])
 
-    def best(self, centre: Array) -> Array:
-        """(N, n) of the target that was drawn nearest to each centre (N, A), what proves most; (0, n) if there is none."""
-        at, q = (np.concatenate(x) for x in zip(*self._best, strict=True))
+    def find_best_configurations(self, center: Array) -> Array:
+        """Return for each center (N, A) the configuration (N, n) that proves most for the nearest sampled target; (0, n) if
+        there is none.
+        """
+        coordinates, q = (np.concatenate(arrays) for arrays in zip(*self._best_batches, strict=True))
         if not len(q):
             return np.empty((0, self._reach.n))
         from scipy.spatial import KDTree
 
-        if self._tree is None or self._tree.n != len(q):
-            self._tree = KDTree(at)
-        return np.asarray(q[self._tree.query(centre / self._unit, p=np.inf)[1]])
+        if self._best_index is None or self._best_index.n != len(q):
+            self._best_index = KDTree(coordinates)
+        return np.asarray(q[self._best_index.query(center / self._unit, p=np.inf)[1]])
 
-    def known(self, centre: Array, half: Array) -> NDArray[np.bool_]:
-        """(N,) whether one is known in cells (N, A), or in what is beside them where they are longer than wide."""
-        away, _ = self._nearest(centre, 1)
-        return np.asarray((away <= (half / self._unit).max(axis=1, keepdims=True)).any(axis=1))
+    def has_configuration(self, center: Array, half: Array) -> NDArray[np.bool_]:
+        """Return a mask (N,) of the cells (N, A) that contain a configuration, or have one next to them if they are
+        elongated.
+        """
+        distances, _ = self._find_nearest(center, 1)
+        return np.asarray((distances <= (half / self._unit).max(axis=1, keepdims=True)).any(axis=1))
 
-    def cut(self, count: int, most: int) -> tuple[int, ...]:
-        """Axes along which to halve the root so often, each not more than ``most`` times: those that are halved anyway."""
-        left, axes = self.halved.copy(), list[int]()
+    def choose_split_axes(self, count: int, max_per_axis: int) -> tuple[int, ...]:
+        """Choose the axes of ``count`` halvings of the root, each at most ``max_per_axis`` times, among those that the search
+        halves anyway.
+        """
+        remaining, axes = self.mean_halvings.copy(), list[int]()
         for _ in range(count):
-            axis = int(np.argmax(left))
-            if left[axis] > 0 and axes.count(axis) < most:
+            axis = int(np.argmax(remaining))
+            if remaining[axis] > 0 and axes.count(axis) < max_per_axis:
                 axes.append(axis)
-            left[axis] -= 1
+            remaining[axis] -= 1
         return tuple(axes)
 
-    def _estimate(self, q: Array, at: Array) -> tuple[float, Array, float]:
-        """The cells, of each axis the halvings, and the seconds, from some of configurations (N, n) of targets (N, A).
+    def _estimate_cost(self, q: Array, coordinates: Array) -> tuple[float, Array, float]:
+        """Estimate the cells, the halvings of each axis, and the seconds, from some configurations (N, n) of targets (N, A).
 
         Of the cells the median of 2 to the halvings until a configuration proves its cell.
         """
         if not len(q):
             return np.inf, np.zeros(len(self._root)), np.inf
-        some = self._rng.permutation(len(q))[:_ASKED]
-        targets, half = at[some, : self._reach.axes], np.tile(self._width / 2, (len(some), 1))
-        form = Form.at(self._reach, q[some], targets)
-        halvings, may = np.zeros(half.shape), np.broadcast_to(self._width > 0, half.shape)
-        left = np.arange(len(some))
-        for _ in range(_ENOUGH):
-            left = left[~form.take(left).proved(half[left])]
-            if not left.size:
+        sample = self._rng.permutation(len(q))[:_ESTIMATE_SAMPLES]
+        targets, half = coordinates[sample, : self._reach.axes], np.tile(self._width / 2, (len(sample), 1))
+        form = TaylorForm.expand_at(self._reach, q[sample], targets)
+        halvings, allowed = np.zeros(half.shape), np.broadcast_to(self._width > 0, half.shape)
+        open_rows = np.arange(len(sample))
+        for _ in range(_MAX_ESTIMATE_HALVINGS):
+            open_rows = open_rows[~form.select(open_rows).prove_cells(half[open_rows])]
+            if not open_rows.size:
                 break
-            axis = form.take(left).worst_axis(half[left], may[left])
-            halvings[left, axis] += 1
-            half[left, axis] /= 2
-        began = perf_counter()
-        Form.at(self._reach, self._reach.solved(form.q, targets), targets).scale(half)
-        each = (perf_counter() - began) / len(some)
-        done = halvings[np.setdiff1d(np.arange(len(some)), left)]  # one at a limit proves nothing, however small the cell
-        if not len(done):
+            axis = form.select(open_rows).choose_split_axis(half[open_rows], allowed[open_rows])
+            halvings[open_rows, axis] += 1
+            half[open_rows, axis] /= 2
+        started = perf_counter()
+        TaylorForm.expand_at(self._reach, self._reach.solve_targets(form.q, targets), targets).find_provable_fraction(half)
+        trial_seconds = (perf_counter() - started) / len(sample)
+        finished = halvings[
+            np.setdiff1d(np.arange(len(sample)), open_rows)
+        ]  # one at a limit proves nothing, however small the cell
+        if not len(finished):
             return np.inf, np.zeros(len(self._root)), np.inf
-        cells = float(2 ** np.median(done.sum(axis=1)))
-        return cells, done.mean(axis=0), _TRIED * each * cells
+        cells = float(2 ** np.median(finished.sum(axis=1)))
+        return cells, finished.mean(axis=0), _TRIALS_PER_CELL * trial_seconds * cells

@@ -1,1 +1,1 @@
-"""After a lock at any instant one continuous motion finishes the path of the tool: claims, search and proofs."""
+"""Paths of the tool that one continuous motion finishes after a lock at any instant: claims, search and proofs."""

@@ -1,4 +1,4 @@
-"""Cells of lock instants and path, and what is found in them."""
+"""Cells of lock instants and path, and the enclosures in them."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-SEGMENT = 1 << 20  # instants to a segment
-UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
+SEGMENT_INSTANTS = 1 << 20  # instants to a segment
+PATH_CENTER_UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
-    """Cells of slabs, N of them: instants, in parts of a segment.
+class PathCellBatch:
+    """N cells of slabs: lock instants and path intervals, in instants of a segment.
 
     Attributes:
         begin, stop: (N,) the slab of lock instants, in one segment.
@@ -34,15 +34,15 @@ class Cells:
 
     @property
     def half(self) -> Array:
-        """(N, 2) half widths of both, in segments."""
-        half = np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT)
-        half[:, 1] += self.width * UNIT
+        """(N, 2) half widths of both intervals, in segments."""
+        half = np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT_INSTANTS)
+        half[:, 1] += self.width * PATH_CENTER_UNIT
         return half
 
 
 @dataclass(frozen=True, eq=False)
-class Forms:
-    """What is found in cells, N of them, each with as many columns as coordinates: lock, path, tube, section.
+class PathFormBatch:
+    """Enclosures in N cells, each with one column for each coordinate: lock, path, tube, section.
 
     Attributes:
         q: (N, n) centres, rad.
@@ -62,28 +62,28 @@ class Forms:
     only: Array
     good: Flags
 
-    def take(self, which: Ints) -> Forms:
-        """Of some of them."""
-        return Forms(*(getattr(self, field.name)[which] for field in fields(self)))
+    def select(self, rows: Ints) -> PathFormBatch:
+        """Return the forms of some rows."""
+        return PathFormBatch(*(getattr(self, field.name)[rows] for field in fields(self)))
 
     @classmethod
-    def none(cls, n: int, m: int, columns: int) -> Forms:
-        """In one cell, nothing."""
-        own, half = np.zeros((1, m + 1, columns)), np.zeros((1, columns))
+    def make_empty(cls, n: int, m: int, columns: int) -> PathFormBatch:
+        """Make the empty form of one cell."""
+        response, half = np.zeros((1, m + 1, columns)), np.zeros((1, columns))
         flags = np.zeros(1, dtype=bool)
-        return cls(np.zeros((1, n)), np.zeros(1), flags, own, half, np.zeros((1, m)), flags)
+        return cls(np.zeros((1, n)), np.zeros(1), flags, response, half, np.zeros((1, m)), flags)
 
     @classmethod
-    def stacked(cls, parts: Sequence[Forms]) -> Forms:
-        """One behind the other."""
-        return cls(*(np.concatenate([getattr(one, field.name) for one in parts]) for field in fields(cls)))
+    def concatenate(cls, parts: Sequence[PathFormBatch]) -> PathFormBatch:
+        """Concatenate batches of forms."""
+        return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
 
-    def joined(self, others: Forms) -> Forms:
-        """With others behind them."""
-        return Forms.stacked([self, others])
+    def append(self, others: PathFormBatch) -> PathFormBatch:
+        """Return these forms followed by others."""
+        return PathFormBatch.concatenate([self, others])
 
-    def put(self, which: Ints, others: Forms) -> Forms:
-        """With others in place of some."""
+    def replace_rows(self, rows: Ints, others: PathFormBatch) -> PathFormBatch:
+        """Return the forms with other forms in place of some rows."""
         order = np.arange(len(self.q))
-        order[which] = len(self.q) + np.arange(len(which))
-        return self.joined(others).take(order)
+        order[rows] = len(self.q) + np.arange(len(rows))
+        return self.append(others).select(order)

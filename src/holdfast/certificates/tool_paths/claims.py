@@ -1,4 +1,4 @@
-"""What a certificate of a path is asked to prove."""
+"""Claims that the path of a tool is finished after a lock."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
-from holdfast.certificates.claims import ROWS, need_flat
-from holdfast.certificates.tool_paths.cells import SEGMENT
+from holdfast.certificates.claims import TASK_ROWS, require_planar
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 
 Array = NDArray[np.float64]
 
-_MOST_SEGMENTS = 256
-_WIDEST = 0.1  # m and rad, of a tube
-_MOST_TURN = 7.0  # rad and m, as the file counts them
-_FINEST = SEGMENT >> 6  # instants: ends of what is claimed are multiples of it
+_MAX_SEGMENTS = 256
+_MAX_TUBE = 0.1  # m and rad, of a tube
+_MAX_JOINT_VALUE = 7.0  # rad and m, as the file counts them
+_INSTANT_STEP = SEGMENT_INSTANTS >> 6  # instants: ends of what is claimed are multiples of it
 
 
 @dataclass(frozen=True, kw_only=True)
 class PathClaim:
-    """After a lock at any instant of a healthy motion, one continuous motion finishes the path of the tool.
+    """Claim that one continuous motion finishes the path of the tool after a lock at any instant of a healthy motion.
 
     Attributes:
         arm: The arm.
@@ -47,11 +47,11 @@ class PathClaim:
 
     @property
     def segments(self) -> int:
-        """K."""
+        """Number of segments K."""
         return len(self.knots) - 1
 
 
-@checked
+@check_arguments
 def path_claim(
     arm: Arm,
     motion: object,
@@ -62,7 +62,8 @@ def path_claim(
     task: str = "pose",
     segments: int | None = None,
 ) -> PathClaim:
-    """The claim that whatever joint locks, and whenever, one continuous motion finishes what the tool was doing.
+    """Make the claim that, for any single locked joint and any lock instant, one continuous motion finishes the path of the
+    tool.
 
     The locked joint stays where the healthy motion had it at that instant; the others begin where they are.
 
@@ -83,58 +84,68 @@ def path_claim(
         InputError: A motion, interval or tube that makes no claim, a motion beyond the limits, or an arm that leaves the plane.
         TaskError: An arm without redundancy, no failures, or failures of several joints at once.
     """
-    if task not in ROWS:
-        raise InputError(f"task is '{task}'; paths are of {', '.join(ROWS)}")
+    if task not in TASK_ROWS:
+        raise InputError(f"task is '{task}'; paths are of {', '.join(TASK_ROWS)}")
     if task == "pointing" and np.any(tube):
         raise InputError("there is no tube around a pointing path; tube must be 0")
     if task == "planar-pose":
-        need_flat(arm, "a planar pose is")
+        require_planar(arm, "a planar pose is")
     locks = tuple(sorted(single_joints(arm, failures)))
-    require_redundant(arm, len(ROWS[task]), task, tuple((k,) for k in locks))
-    given = real_numbers(getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad and m")
-    if given.ndim != 2 or given.shape[1] != arm.n or len(given) < 2 or not np.isfinite(given).all():
-        raise InputError(f"a motion needs two configurations or more of {arm.n} finite numbers, not an array of {given.shape}")
-    if np.abs(given).max() >= _MOST_TURN:
+    require_redundant(arm, len(TASK_ROWS[task]), task, tuple((joint,) for joint in locks))
+    configurations = require_real_numbers(
+        getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad and m"
+    )
+    if (
+        configurations.ndim != 2
+        or configurations.shape[1] != arm.n
+        or len(configurations) < 2
+        or not np.isfinite(configurations).all()
+    ):
         raise InputError(
-            f"a joint of the motion is at {np.abs(given).max():.3g} rad or m; for certificates of paths {_MOST_TURN:g} is most"
+            f"a motion needs two configurations or more of {arm.n} finite numbers, not an array of {configurations.shape}"
         )
-    beyond = ((given < arm.lower) | (given > arm.upper)).any(axis=1)
-    if beyond.any():
-        row = int(np.flatnonzero(beyond)[0])
-        k = int(np.flatnonzero((given[row] < arm.lower) | (given[row] > arm.upper))[0])
-        raise InputError(f"configuration {row + 1} of the motion is beyond the limits of {arm.joint_names[k]}")
-    knots = given
+    if np.abs(configurations).max() >= _MAX_JOINT_VALUE:
+        raise InputError(
+            f"a joint of the motion is at {np.abs(configurations).max():.3g} rad or m; for certificates of paths "
+            f"{_MAX_JOINT_VALUE:g} is most"
+        )
+    outside = ((configurations < arm.lower) | (configurations > arm.upper)).any(axis=1)
+    if outside.any():
+        row = int(np.flatnonzero(outside)[0])
+        joint = int(np.flatnonzero((configurations[row] < arm.lower) | (configurations[row] > arm.upper))[0])
+        raise InputError(f"configuration {row + 1} of the motion is beyond the limits of {arm.joint_names[joint]}")
+    knots = configurations
     if segments is not None:
-        if not 1 <= segments < len(given):
-            raise InputError(f"segments is {segments}; of this motion it may be 1 to {len(given) - 1}")
-        knots = given[np.round(np.linspace(0, len(given) - 1, segments + 1)).astype(int)]
-    if len(knots) - 1 > _MOST_SEGMENTS:
-        raise InputError(f"{len(knots) - 1} segments are more than {_MOST_SEGMENTS}; give segments=50, say, to use fewer")
+        if not 1 <= segments < len(configurations):
+            raise InputError(f"segments is {segments}; of this motion it may be 1 to {len(configurations) - 1}")
+        knots = configurations[np.round(np.linspace(0, len(configurations) - 1, segments + 1)).astype(int)]
+    if len(knots) - 1 > _MAX_SEGMENTS:
+        raise InputError(f"{len(knots) - 1} segments are more than {_MAX_SEGMENTS}; give segments=50, say, to use fewer")
     return PathClaim(
-        arm=arm, task=task, knots=knots, locks=locks, during=_instants(during, len(knots) - 1), tube=_tube(tube),
-        deviation=_deviation(arm, given, knots),
+        arm=arm, task=task, knots=knots, locks=locks, during=_to_instants(during, len(knots) - 1), tube=_parse_tube(tube),
+        deviation=_measure_deviation(arm, configurations, knots),
     )  # fmt: skip
 
 
-def _instants(during: Sequence[float], count: int) -> tuple[int, int]:
-    """In units of the file."""
+def _to_instants(during: Sequence[float], count: int) -> tuple[int, int]:
+    """Return the first and last lock instant in units of the file."""
     if len(during) != 2 or not 0 <= during[0] < during[1] <= 1:
         raise InputError("during must be two parts of the motion between 0 and 1, the earlier one first")
-    fine = count * SEGMENT // _FINEST
-    return int(np.floor(during[0] * fine)) * _FINEST, int(np.ceil(during[1] * fine)) * _FINEST
+    step_count = count * SEGMENT_INSTANTS // _INSTANT_STEP
+    return int(np.floor(during[0] * step_count)) * _INSTANT_STEP, int(np.ceil(during[1] * step_count)) * _INSTANT_STEP
 
 
-def _tube(tube: ArrayLike) -> Array:
+def _parse_tube(tube: ArrayLike) -> Array:
     widths = np.asarray(tube, dtype=np.float64).reshape(-1)
-    if widths.size not in (1, 2) or not ((widths >= 0) & (widths <= _WIDEST)).all():
-        raise InputError(f"the tube must be one number, m and rad, or one for each, from 0 to {_WIDEST}")
+    if widths.size not in (1, 2) or not ((widths >= 0) & (widths <= _MAX_TUBE)).all():
+        raise InputError(f"the tube must be one number, m and rad, or one for each, from 0 to {_MAX_TUBE}")
     return np.broadcast_to(widths, 2).astype(np.float64)
 
 
-def _deviation(arm: Arm, given: Array, knots: Array) -> float:
-    """m, at the configurations that were given, by their numbers."""
-    at = np.linspace(0, 1, len(given))
-    kept = at[np.round(np.linspace(0, len(given) - 1, len(knots))).astype(int)]
-    straight = np.stack([np.interp(at, kept, column) for column in knots.T], axis=1)
-    tools = (arm.forward_kinematics(q)[:, :3, 3] for q in (given, straight))
-    return float(np.linalg.norm(next(tools) - next(tools), axis=1).max())
+def _measure_deviation(arm: Arm, configurations: Array, knots: Array) -> float:
+    """Return the largest distance, m, between the tool at the given configurations and on the straight segments."""
+    parameters = np.linspace(0, 1, len(configurations))
+    knot_parameters = parameters[np.round(np.linspace(0, len(configurations) - 1, len(knots))).astype(int)]
+    interpolated = np.stack([np.interp(parameters, knot_parameters, column) for column in knots.T], axis=1)
+    positions = (arm.forward_kinematics(q)[:, :3, 3] for q in (configurations, interpolated))
+    return float(np.linalg.norm(next(positions) - next(positions), axis=1).max())

@@ -1,4 +1,5 @@
-"""Which cells of lock instants and path one configuration proves, and where one motion goes on from cell to cell.
+"""Enclosures of cells of lock instants and path: the cells that one configuration proves, and the continuation of one motion
+from cell to cell.
 
 The error of the locked arm is that of its tool from the tool of the healthy arm, so that both chains are expanded. Everything
 here is doubles and may be wrong: the verifier decides.
@@ -11,357 +12,452 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.claims import ROWS
-from holdfast.certificates.taylor import Chain
-from holdfast.certificates.tool_paths.cells import SEGMENT, UNIT, Cells, Forms
-from holdfast.certificates.tool_paths.tools import axial, onto, sideways, solved, swept, tangents, twice
+from holdfast.certificates.claims import TASK_ROWS
+from holdfast.certificates.taylor import CertificateChain
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.tools import (
+    axial_map,
+    axial_vector,
+    axis_jacobian,
+    compute_tangents,
+    second_derivatives,
+    solve_regularized,
+    transverse_axes,
+)
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-_ROUNDS, _TIGHTER = 30, 6  # of the section box: wider until it does, then narrower
-_MARGIN, _LEAST = 1.003, 1e-9  # of what the verifier must be able to show
-_STRAIGHT, _TURN = 2.91, 1.19  # of rotations: the trace in the middle, and what is turned from there
-_SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
-_NEWTON, _MET = 6, 1e-10
-_ROOM = 0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
-_FIRST, _STRIDE, _SLOWEST = SEGMENT >> 8, SEGMENT >> 1, SEGMENT >> 14  # instants, of the look ahead
-_NEAR, _JUMP = 1e-6, 0.3  # m and rad
-_NEVER = 10.0  # m and rad: no section box is so wide
+_SECTION_ROUNDS, _TIGHTENING_ROUNDS = 30, 6  # of the section box: wider until it does, then narrower
+_VERIFIER_MARGIN, _MIN_SLACK = 1.003, 1e-9  # of what the verifier must be able to show
+_MIN_ROTATION_TRACE, _MAX_ROTATION_CHANGE_RAD = (
+    2.91,
+    1.19,
+)  # of rotations: the trace in the middle, and what is turned from there
+_UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
+_NEWTON_STEPS, _NEWTON_TOLERANCE = 6, 1e-10
+_SECTION_FRACTION = (
+    0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
+)
+_FIRST_STEP_INSTANTS, _MAX_STEP_INSTANTS, _MIN_STEP_INSTANTS = (
+    SEGMENT_INSTANTS >> 8,
+    SEGMENT_INSTANTS >> 1,
+    SEGMENT_INSTANTS >> 14,
+)  # instants, of the look ahead
+_TRACKING_TOLERANCE, _MAX_JOINT_JUMP = 1e-6, 0.3  # m and rad
+_MAX_SECTION_SIZE = 10.0  # m and rad: no section box is so wide
 
 
-class Following:
-    """A locked arm that follows the tool of the healthy one.
+class LockedTrackingEnclosure:
+    """Enclosure of a locked arm that tracks the tool of the healthy arm.
 
     Args:
         chain: The arm.
         knots: (K + 1, n) of the healthy motion, rad.
         task: What of the tool follows.
-        still: The locked joint, then those that go on with the healthy motion.
+        driven: The locked joint, then those that go on with the healthy motion.
         tube: (m,) half widths, m and rad; or none, (0,).
         limits: (n, 2) rad and m.
         slides: (n,) which joints slide.
     """
 
     def __init__(
-        self, chain: Chain, knots: Array, task: str, *, still: list[int], tube: Array, limits: Array, slides: Flags
+        self, chain: CertificateChain, knots: Array, task: str, *, driven: list[int], tube: Array, limits: Array, slides: Flags
     ) -> None:
-        self.chain, self.knots, self.still, self.tube, self.limits = chain, knots, still, tube, limits
-        self.n, self.slides, self._rows = knots.shape[1], slides, ROWS[task]
+        self.chain, self.knots, self.driven, self.tube, self.limits = chain, knots, driven, tube, limits
+        self.n, self.slides, self._rows = knots.shape[1], slides, TASK_ROWS[task]
         self.m = len(self._rows)
-        self.rotated, self._pointing = self._rows[-1] > 2, task == "pointing"
-        self.free = [k for k in range(self.n) if k not in still]
+        self.uses_rotation, self._pointing = self._rows[-1] > 2, task == "pointing"
+        self.free = [joint for joint in range(self.n) if joint not in driven]
         self._linear = sum(row < 3 for row in self._rows)
-        self._turns = np.tile(~slides, 2).astype(float)
+        self._revolute = np.tile(~slides, 2).astype(float)
 
-    def healthy(self, twice: Ints, end: Ints) -> tuple[Array, Array]:
-        """Joints of the healthy motion at half of ``twice``, and rates over the segments that end there."""
-        k = (end - 1) // SEGMENT
-        rates = self.knots[k + 1] - self.knots[k]
-        return self.knots[k] + rates * (twice / (2 * SEGMENT) - k)[:, None], rates
+    def interpolate_healthy(self, doubled_instants: Ints, ends: Ints) -> tuple[Array, Array]:
+        """Return the joints of the healthy motion at half of ``doubled_instants``, and the rates over the segments that contain
+        ``ends``.
+        """
+        segment = (ends - 1) // SEGMENT_INSTANTS
+        rates = self.knots[segment + 1] - self.knots[segment]
+        return self.knots[segment] + rates * (doubled_instants / (2 * SEGMENT_INSTANTS) - segment)[:, None], rates
 
-    def placed(self, q: Array, cells: Cells) -> Array:
-        """Configurations (N, n) with the joints that are not free where they are in the middles of cells."""
+    def set_driven_joints(self, q: Array, cells: PathCellBatch) -> Array:
+        """Return configurations (N, n) with the driven joints at their values in the middles of cells."""
         q = q.copy()
-        q[:, self.still[0]] = self.healthy(cells.begin + cells.stop, cells.stop)[0][:, self.still[0]]
-        q[:, self.still[1:]] = self.healthy(cells.start + cells.end, cells.end)[0][:, self.still[1:]]
+        q[:, self.driven[0]] = self.interpolate_healthy(cells.begin + cells.stop, cells.stop)[0][:, self.driven[0]]
+        q[:, self.driven[1:]] = self.interpolate_healthy(cells.start + cells.end, cells.end)[0][:, self.driven[1:]]
         return q
 
-    def solved(self, q: Array, cells: Cells) -> Array:
-        """Newton from q (N, n) to the middles of cells, written in units of the file."""
-        q, (goal, _) = self.placed(q, cells), self.healthy(cells.start + cells.end, cells.end)
-        target = self.moved(goal)
-        for _ in range(_NEWTON):
-            at = self.moved(q)
-            error, slope = self.missed(at, target)
-            if np.abs(error).max(initial=0.0) < _MET:
+    def solve_centers(self, q: Array, cells: PathCellBatch) -> Array:
+        """Run Newton's method from q (N, n) to the middles of cells, and round the result to units of the file."""
+        q, (goal, _) = self.set_driven_joints(q, cells), self.interpolate_healthy(cells.start + cells.end, cells.end)
+        target = self.compute_tool_state(goal)
+        for _ in range(_NEWTON_STEPS):
+            tool_state = self.compute_tool_state(q)
+            error, jacobian = self.compute_tracking_error(tool_state, target)
+            if np.abs(error).max(initial=0.0) < _NEWTON_TOLERANCE:
                 break
-            q[:, self.free] -= np.clip(solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
-        q[:, self.free] = np.round(q[:, self.free] / UNIT) * UNIT
+            q[:, self.free] -= np.clip(solve_regularized(jacobian[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+        q[:, self.free] = np.round(q[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT
         return q
 
-    def forms(self, q: Array, cells: Cells) -> Forms:
-        """Around centres q (N, n) of cells."""
+    def expand_cells(self, q: Array, cells: PathCellBatch) -> PathFormBatch:
+        """Enclose the motion around the centers q (N, n) of cells."""
         m, n, tube = self.m, self.n, len(self.tube)
-        goal, along = self.healthy(cells.start + cells.end, cells.end)
-        rate = self.healthy(cells.begin + cells.stop, cells.stop)[1]
-        at, target = self.moved(q), self.moved(goal)
-        error, ours = self.missed(at, target)
-        slopes = np.concatenate([ours, self._theirs(at, target)], axis=2)
-        turned, own = cells.width > 0, self._section(slopes, rate, along, cells.width > 0)
-        d = np.zeros((len(q), 2 * n, 2 + tube + m))
-        moved = along[:, :, None] * own[:, -1:]
-        d[:, self.still[0], 0] = rate[:, self.still[0]]
-        d[:, self.still[1:]], d[:, n:], d[:, self.free] = moved[:, self.still[1:]], moved, own[:, :-1]
-        second = self._bent(at, target, d)
-        left = np.abs(slopes @ d - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1))
+        goal, path_rate = self.interpolate_healthy(cells.start + cells.end, cells.end)
+        lock_rate = self.interpolate_healthy(cells.begin + cells.stop, cells.stop)[1]
+        tool_state, target = self.compute_tool_state(q), self.compute_tool_state(goal)
+        error, jacobian = self.compute_tracking_error(tool_state, target)
+        gradients = np.concatenate([jacobian, self._healthy_jacobian(tool_state, target)], axis=2)
+        is_tangent, response = cells.width > 0, self._section_response(gradients, lock_rate, path_rate, cells.width > 0)
+        directions = np.zeros((len(q), 2 * n, 2 + tube + m))
+        path_motion = path_rate[:, :, None] * response[:, -1:]
+        directions[:, self.driven[0], 0] = lock_rate[:, self.driven[0]]
+        directions[:, self.driven[1:]], directions[:, n:], directions[:, self.free] = (
+            path_motion[:, self.driven[1:]],
+            path_motion,
+            response[:, :-1],
+        )
+        second = self._error_hessian(tool_state, target, directions)
+        residual = np.abs(
+            gradients @ directions - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1)
+        )
         half = np.concatenate([cells.half, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
-        out = np.concatenate([q, goal], axis=1)
-        given = _Bounds(error, np.abs(d), left, np.abs(second), np.einsum("nacc->nac", second), np.abs(out) * (1 - self._turns))
-        closed, far, angle = self._closed(given, half)
+        positions = np.concatenate([q, goal], axis=1)
+        bounds = _CellBounds(
+            error,
+            np.abs(directions),
+            residual,
+            np.abs(second),
+            np.einsum("nacc->nac", second),
+            np.abs(positions) * (1 - self._revolute),
+        )
+        closed, joint_travel, angle = self._close_section(bounds, half)
         s = half[:, -m:]
-        only, one = np.zeros_like(s), np.zeros(len(q), dtype=bool)
-        for size in _SIZES:
-            rows = np.flatnonzero(closed & ~one)
+        unique_box, is_unique = np.zeros_like(s), np.zeros(len(q), dtype=bool)
+        for size in _UNIQUE_BOX_SIZES:
+            rows = np.flatnonzero(closed & ~is_unique)
             if not rows.size:
                 break
-            wide = s[rows] + size
-            found = self._contracts(given.take(rows), half[rows], wide)
-            only[rows[found]], one[rows[found]] = wide[found], True
-        low, high = self.limits[self.free].T
-        reach = 1.001 * far[:, self.free] + 1e-7
-        closed &= (s < _ROOM * only).all(axis=1)
-        good = closed & one & ((q[:, self.free] - reach >= low) & (q[:, self.free] + reach <= high)).all(axis=1)
-        if self.rotated:
-            good &= (angle < _TURN) & (self.straight(at, target) > _STRAIGHT)
-        place = (cells.start + cells.end) / (2 * SEGMENT)
-        if (some := np.flatnonzero(turned)).size:
-            left_over = (place - (cells.end - 1) // SEGMENT - 1)[some]
-            good[some] &= self._forward(given.take(some), half[some], own[some], left_over)
-        return Forms(q, place, turned, own, half, only, good)
+            section_box = s[rows] + size
+            is_contraction = self._is_contraction(bounds.select(rows), half[rows], section_box)
+            unique_box[rows[is_contraction]], is_unique[rows[is_contraction]] = section_box[is_contraction], True
+        lower, upper = self.limits[self.free].T
+        travel = 1.001 * joint_travel[:, self.free] + 1e-7
+        closed &= (s < _SECTION_FRACTION * unique_box).all(axis=1)
+        is_valid = closed & is_unique & ((q[:, self.free] - travel >= lower) & (q[:, self.free] + travel <= upper)).all(axis=1)
+        if self.uses_rotation:
+            is_valid &= (angle < _MAX_ROTATION_CHANGE_RAD) & (
+                self.compute_rotation_trace(tool_state, target) > _MIN_ROTATION_TRACE
+            )
+        path_position = (cells.start + cells.end) / (2 * SEGMENT_INSTANTS)
+        if (tangent_rows := np.flatnonzero(is_tangent)).size:
+            overshoot = (path_position - (cells.end - 1) // SEGMENT_INSTANTS - 1)[tangent_rows]
+            is_valid[tangent_rows] &= self._moves_forward(
+                bounds.select(tangent_rows), half[tangent_rows], response[tangent_rows], overshoot
+            )
+        return PathFormBatch(q, path_position, is_tangent, response, half, unique_box, is_valid)
 
-    def _section(self, slopes: Array, rate: Array, along: Array, turned: Flags) -> Array:
-        """How free joints, then the place on the path, follow coordinates (N, m + 1, columns), by slopes (N, m, 2n)."""
+    def _section_response(self, gradients: Array, lock_rate: Array, path_rate: Array, is_tangent: Flags) -> Array:
+        """Return how the free joints, then the path position, follow the coordinates (N, m + 1, columns), from gradients (N, m,
+        2n).
+        """
         m, n, tube = self.m, self.n, len(self.tube)
-        jacobian, drift = slopes[:, :, self.free], slopes[:, :, self.still[0]] * rate[:, self.still[:1]]
-        ahead = np.einsum("nmk,nk->nm", slopes[:, :, n:], along)
-        ahead += np.einsum("nmk,nk->nm", slopes[:, :, self.still[1:]], along[:, self.still[1:]])
-        inverse = solved(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
-        own = np.zeros((len(slopes), m + 1, 2 + tube + m))
-        own[:, -1, 1] = 1
-        own[:, :-1, :2] = -inverse @ np.stack([drift, ahead], axis=2)
-        own[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
-        if turned.any():
-            tangent, across = tangents(np.concatenate([jacobian, ahead[:, :, None]], axis=2)[turned])
+        jacobian, drift = gradients[:, :, self.free], gradients[:, :, self.driven[0]] * lock_rate[:, self.driven[:1]]
+        path_gradient = np.einsum("nmk,nk->nm", gradients[:, :, n:], path_rate)
+        path_gradient += np.einsum("nmk,nk->nm", gradients[:, :, self.driven[1:]], path_rate[:, self.driven[1:]])
+        inverse = solve_regularized(jacobian, np.broadcast_to(np.eye(m), jacobian.shape))
+        response = np.zeros((len(gradients), m + 1, 2 + tube + m))
+        response[:, -1, 1] = 1
+        response[:, :-1, :2] = -inverse @ np.stack([drift, path_gradient], axis=2)
+        response[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
+        if is_tangent.any():
+            tangent, pseudo_inverse = compute_tangents(
+                np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)[is_tangent]
+            )
             # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
-            beside = (tangent[:, :-1] * rate[turned][:, self.free]).sum(axis=1) + tangent[:, -1]
-            own[turned, :, 0] = tangent * beside[:, None] - np.einsum("nkm,nm->nk", across, drift[turned])
-            own[turned, :, 1], own[turned, :, 2:] = tangent, across
-        return own
+            lock_speed = (tangent[:, :-1] * lock_rate[is_tangent][:, self.free]).sum(axis=1) + tangent[:, -1]
+            response[is_tangent, :, 0] = tangent * lock_speed[:, None] - np.einsum(
+                "nkm,nm->nk", pseudo_inverse, drift[is_tangent]
+            )
+            response[is_tangent, :, 1], response[is_tangent, :, 2:] = tangent, pseudo_inverse
+        return response
 
-    def begins(self, forms: Forms, cells: Cells) -> Flags:
-        """Whether configurations at all lock instants of slabs are the solutions of cells."""
-        q, rate = (x[:, self.free] for x in self.healthy(cells.begin + cells.stop, cells.stop))
-        start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT)])
-        leaves = np.column_stack([rate, np.ones(len(q))])
-        away = (leaves - forms.own[:, :, 0]) * forms.half[:, :1]
-        return self._entered(start, away[:, :, None], forms, np.zeros(len(q), dtype=bool))
+    def starts_at_lock(self, forms: PathFormBatch, cells: PathCellBatch) -> Flags:
+        """Return a mask of cells whose solutions contain the configurations at all lock instants of their slabs."""
+        q, rate = (values[:, self.free] for values in self.interpolate_healthy(cells.begin + cells.stop, cells.stop))
+        start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT_INSTANTS)])
+        departure = np.column_stack([rate, np.ones(len(q))])
+        offsets = (departure - forms.own[:, :, 0]) * forms.half[:, :1]
+        return self._is_in_unique_box(start, offsets[:, :, None], forms, np.zeros(len(q), dtype=bool))
 
-    def goes_on(self, before: Forms, forms: Forms) -> Flags:
-        """Whether what is found in a cell is what was found in the one before it, where that ends."""
-        end, place = self.end(before)
-        kept = [k for k in range(before.half.shape[1] - self.m) if k != 1]
-        moved = (before.own - forms.own)[:, :, kept] * before.half[:, None, kept]
-        found = before.own[:, :, -self.m :] * before.half[:, None, -self.m :]
-        point = np.column_stack([end[:, self.free], place])
-        return self._entered(point, np.concatenate([moved, found], axis=2), forms, before.turned)
+    def continues_from(self, previous: PathFormBatch, forms: PathFormBatch) -> Flags:
+        """Return a mask of cells whose solution is that of the previous cell, on the face where the previous cell ends."""
+        end_q, end_position = self.compute_cell_end(previous)
+        columns = [column for column in range(previous.half.shape[1] - self.m) if column != 1]
+        response_change = (previous.own - forms.own)[:, :, columns] * previous.half[:, None, columns]
+        section_spread = previous.own[:, :, -self.m :] * previous.half[:, None, -self.m :]
+        point = np.column_stack([end_q[:, self.free], end_position])
+        return self._is_in_unique_box(point, np.concatenate([response_change, section_spread], axis=2), forms, previous.turned)
 
-    def end(self, forms: Forms) -> tuple[Array, Array]:
-        """Configurations (N, n) and places on the path (N,) where cells end, for the middles of their slabs."""
+    def compute_cell_end(self, forms: PathFormBatch) -> tuple[Array, Array]:
+        """Return the configurations (N, n) and path positions (N,) where cells end, for the middles of their slabs."""
         q = forms.q.copy()
         q[:, self.free] += forms.own[:, :-1, 1] * forms.half[:, 1:2]
         return q, forms.place + forms.own[:, -1, 1] * forms.half[:, 1]
 
-    def _entered(self, point: Array, away: Array, forms: Forms, turned: Flags) -> Flags:
-        """Whether all that is so far from points (N, m + 1) is where cells have one solution; ``turned``: those before."""
+    def _is_in_unique_box(self, point: Array, offsets: Array, forms: PathFormBatch, was_tangent: Flags) -> Flags:
+        """Return a mask of cells whose unique box contains points (N, m + 1) with all offsets; ``was_tangent`` marks previous
+        tangent cells.
+        """
         matrix = forms.own[:, :, [1, *range(-self.m, 0)]]
-        here = np.column_stack([forms.q[:, self.free], forms.place])
-        found = solved(matrix, np.concatenate([(point - here)[:, :, None], away], axis=2))
-        most = _MARGIN * np.abs(found).sum(axis=2) + _LEAST
-        inside = (most[:, 0] < forms.half[:, 1]) | ~(turned | forms.turned)
-        return np.asarray((most[:, 1:] < forms.only).all(axis=1) & inside)
+        centers = np.column_stack([forms.q[:, self.free], forms.place])
+        coordinates = solve_regularized(matrix, np.concatenate([(point - centers)[:, :, None], offsets], axis=2))
+        max_coordinates = _VERIFIER_MARGIN * np.abs(coordinates).sum(axis=2) + _MIN_SLACK
+        inside = (max_coordinates[:, 0] < forms.half[:, 1]) | ~(was_tangent | forms.turned)
+        return np.asarray((max_coordinates[:, 1:] < forms.only).all(axis=1) & inside)
 
-    def guessed(self, before: Forms, cells: Cells, middle: Array) -> Array:
-        """(N, n) where to begin in cells, ``middle`` (N,) segments behind the middles of those before."""
-        q = before.q.copy()
-        q[:, self.free] += before.own[:, :-1, 1] * middle[:, None]
-        return self.placed(q, cells)
+    def predict_start(self, previous: PathFormBatch, cells: PathCellBatch, distances: Array) -> Array:
+        """Return predicted centers (N, n) of cells, ``distances`` (N,) segments behind the middles of the previous cells."""
+        q = previous.q.copy()
+        q[:, self.free] += previous.own[:, :-1, 1] * distances[:, None]
+        return self.set_driven_joints(q, cells)
 
-    def ahead(self, q: Array, place: Array, base: Ints, by: Array) -> tuple[Array, Ints]:
-        """From configurations (N, n) of motions at places of segments: along their tangents by (N,), and back onto them."""
-        z, end, held = np.column_stack([q, place]), base + SEGMENT, q[:, self.still[0]]
-        for k in range(_NEWTON):
-            goal, along = self.healthy(np.rint(2 * SEGMENT * z[:, -1]), end)
-            z[:, self.still[1:]] = goal[:, self.still[1:]]
-            at, target = self.moved(z[:, :-1]), self.moved(goal)
-            error, own = self.missed(at, target)
-            slopes = np.concatenate([own, self._theirs(at, target)], axis=2)
-            ahead = np.einsum("nmk,nk->nm", slopes[:, :, self.n :], along)
-            ahead += np.einsum("nmk,nk->nm", own[:, :, self.still[1:]], along[:, self.still[1:]])
-            wide = np.concatenate([own[:, :, self.free], ahead[:, :, None]], axis=2)
-            back = wide.transpose(0, 2, 1)
-            step = tangents(wide)[0] * by[:, None] if k == 0 else -(back @ solved(wide @ back, error[:, :, None]))[:, :, 0]
+    def step_along_tangent(self, q: Array, path_position: Array, segment_starts: Ints, distances: Array) -> tuple[Array, Ints]:
+        """Step from configurations (N, n) at path positions by ``distances`` (N,) along the tangents of their motions, and
+        correct back onto the motions.
+        """
+        z, end, locked_values = np.column_stack([q, path_position]), segment_starts + SEGMENT_INSTANTS, q[:, self.driven[0]]
+        for iteration in range(_NEWTON_STEPS):
+            goal, path_rate = self.interpolate_healthy(np.rint(2 * SEGMENT_INSTANTS * z[:, -1]), end)
+            z[:, self.driven[1:]] = goal[:, self.driven[1:]]
+            tool_state, target = self.compute_tool_state(z[:, :-1]), self.compute_tool_state(goal)
+            error, jacobian = self.compute_tracking_error(tool_state, target)
+            gradients = np.concatenate([jacobian, self._healthy_jacobian(tool_state, target)], axis=2)
+            path_gradient = np.einsum("nmk,nk->nm", gradients[:, :, self.n :], path_rate)
+            path_gradient += np.einsum("nmk,nk->nm", jacobian[:, :, self.driven[1:]], path_rate[:, self.driven[1:]])
+            extended = np.concatenate([jacobian[:, :, self.free], path_gradient[:, :, None]], axis=2)
+            transposed = extended.transpose(0, 2, 1)
+            step = (
+                compute_tangents(extended)[0] * distances[:, None]
+                if iteration == 0
+                else -(transposed @ solve_regularized(extended @ transposed, error[:, :, None]))[:, :, 0]
+            )
             z[:, [*self.free, -1]] += step
-            z[:, -1] = np.rint(z[:, -1] * SEGMENT) / SEGMENT
-        z[:, self.free] = np.round(z[:, self.free] / UNIT) * UNIT
-        z[:, self.still[0]] = held
-        return z[:, :-1], np.rint(z[:, -1] * SEGMENT).astype(np.int64)
+            z[:, -1] = np.rint(z[:, -1] * SEGMENT_INSTANTS) / SEGMENT_INSTANTS
+        z[:, self.free] = np.round(z[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT
+        z[:, self.driven[0]] = locked_values
+        return z[:, :-1], np.rint(z[:, -1] * SEGMENT_INSTANTS).astype(np.int64)
 
-    def finishes(self, locks: Ints) -> Flags:
-        """Whether Newton's method follows the path from lock instants (N,) to its end, within the limits; a look ahead."""
-        end = (len(self.knots) - 1) * SEGMENT
-        q, (low, high) = self.healthy(2 * locks, np.maximum(locks, 1))[0], self.limits.T
-        at, step, good = locks.copy(), np.full(len(locks), _FIRST), np.ones(len(locks), dtype=bool)
-        while (some := np.flatnonzero(good & (at < end))).size:
-            to = np.minimum(at[some] + step[some], end)
-            goal, now = self.healthy(2 * to, to)[0], q[some]
-            target = self.moved(goal)
-            now[:, self.still[1:]] = goal[:, self.still[1:]]
-            for _ in range(_NEWTON):
-                error, slope = self.missed(self.moved(now), target)
-                if np.abs(error).max(initial=0.0) < _NEAR:
+    def can_finish(self, locks: Ints) -> Flags:
+        """Return a mask of lock instants (N,) from which Newton's method follows the path to its end within the limits; a
+        heuristic look-ahead.
+        """
+        path_end = (len(self.knots) - 1) * SEGMENT_INSTANTS
+        q, (lower, upper) = self.interpolate_healthy(2 * locks, np.maximum(locks, 1))[0], self.limits.T
+        instants, steps, is_followed = locks.copy(), np.full(len(locks), _FIRST_STEP_INSTANTS), np.ones(len(locks), dtype=bool)
+        while (active := np.flatnonzero(is_followed & (instants < path_end))).size:
+            next_instants = np.minimum(instants[active] + steps[active], path_end)
+            goal, next_q = self.interpolate_healthy(2 * next_instants, next_instants)[0], q[active]
+            target = self.compute_tool_state(goal)
+            next_q[:, self.driven[1:]] = goal[:, self.driven[1:]]
+            for _ in range(_NEWTON_STEPS):
+                error, jacobian = self.compute_tracking_error(self.compute_tool_state(next_q), target)
+                if np.abs(error).max(initial=0.0) < _TRACKING_TOLERANCE:
                     break
-                now[:, self.free] -= np.clip(solved(slope[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
-            met = (np.abs(error) < _NEAR).all(axis=1) & ((now >= low) & (now <= high)).all(axis=1)
-            met &= (np.abs(now - q[some]) < _JUMP).all(axis=1)
-            q[some[met]], at[some[met]] = now[met], to[met]
-            step[some] = np.where(met, np.minimum(2 * step[some], _STRIDE), step[some] // 4)
-            good[some] = step[some] >= _SLOWEST
-        return good
+                next_q[:, self.free] -= np.clip(
+                    solve_regularized(jacobian[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5
+                )
+            converged = (np.abs(error) < _TRACKING_TOLERANCE).all(axis=1) & ((next_q >= lower) & (next_q <= upper)).all(axis=1)
+            converged &= (np.abs(next_q - q[active]) < _MAX_JOINT_JUMP).all(axis=1)
+            q[active[converged]], instants[active[converged]] = next_q[converged], next_instants[converged]
+            steps[active] = np.where(converged, np.minimum(2 * steps[active], _MAX_STEP_INSTANTS), steps[active] // 4)
+            is_followed[active] = steps[active] >= _MIN_STEP_INSTANTS
+        return is_followed
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
-    def moved(self, q: Array) -> tuple[Array, Array, Array, Array]:
-        """Place and rotation of the tool, axes that turn it (N, n, 3), and how the place follows the joints (N, n, 3)."""
+    def compute_tool_state(self, q: Array) -> tuple[Array, Array, Array, Array]:
+        """Return position and rotation of the tool, the axes that rotate it (N, n, 3), and the derivatives of its position by
+        the joints (N, n, 3).
+        """
         count, sine, cosine = len(q), np.sin(q), np.cos(q)
-        place, turn = np.zeros((count, 3)), np.tile(np.eye(3), (count, 1, 1))
+        position, rotation = np.zeros((count, 3)), np.tile(np.eye(3), (count, 1, 1))
         axes, points = np.empty((2, count, self.n, 3))
-        for k in range(self.n):
-            rows = turn.reshape(-1, 3)  # products of few large matrices are faster than of many small ones
-            place = place + (rows @ self.chain.origins[k]).reshape(count, 3)
-            x, y, z = (rows @ self.chain.rotations[k]).reshape(count, 3, 3).transpose(2, 0, 1)
-            axes[:, k], points[:, k] = z, place
-            s, c = sine[:, [k]], cosine[:, [k]]
-            if self.slides[k]:
-                place, s, c = place + z * q[:, [k]], np.zeros_like(s), np.ones_like(c)
-            turn = np.empty((count, 3, 3))
-            turn[:, :, 0], turn[:, :, 1], turn[:, :, 2] = c * x + s * y, c * y - s * x, z
-        place = place + turn @ self.chain.origins[self.n]
-        spin, along = axes * ~self.slides[:, None], axes * self.slides[:, None]
-        return place, turn @ self.chain.rotations[self.n], spin, np.cross(spin, place[:, None] - points) + along
+        for joint in range(self.n):
+            rotation_rows = rotation.reshape(-1, 3)  # products of few large matrices are faster than of many small ones
+            position = position + (rotation_rows @ self.chain.origins[joint]).reshape(count, 3)
+            x, y, z = (rotation_rows @ self.chain.rotations[joint]).reshape(count, 3, 3).transpose(2, 0, 1)
+            axes[:, joint], points[:, joint] = z, position
+            s, c = sine[:, [joint]], cosine[:, [joint]]
+            if self.slides[joint]:
+                position, s, c = position + z * q[:, [joint]], np.zeros_like(s), np.ones_like(c)
+            rotation = np.empty((count, 3, 3))
+            rotation[:, :, 0], rotation[:, :, 1], rotation[:, :, 2] = c * x + s * y, c * y - s * x, z
+        position = position + rotation @ self.chain.origins[self.n]
+        spin, sliding = axes * ~self.slides[:, None], axes * self.slides[:, None]
+        return position, rotation @ self.chain.rotations[self.n], spin, np.cross(spin, position[:, None] - points) + sliding
 
-    def missed(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
-        """Error (N, m) and its slopes by the arm's joints (N, m, n)."""
-        error, slope = at[0] - target[0], at[3].transpose(0, 2, 1)
-        if self.rotated:
-            off = at[1] @ target[1].transpose(0, 2, 1)
-            turned = (sideways(target) @ at[1][:, :, 2:])[:, :, 0] if self._pointing else axial(off)
-            error = np.concatenate([error, turned], axis=1)
-            turns = sideways(target) @ swept(at) if self._pointing else onto(off) @ at[2].transpose(0, 2, 1)
-            slope = np.concatenate([slope, turns], axis=1)
-        return error[:, self._rows], slope[:, self._rows]
+    def compute_tracking_error(self, tool_state: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
+        """Return the tracking error (N, m) and its Jacobian by the arm's joints (N, m, n)."""
+        error, jacobian = tool_state[0] - target[0], tool_state[3].transpose(0, 2, 1)
+        if self.uses_rotation:
+            rotation_error = tool_state[1] @ target[1].transpose(0, 2, 1)
+            angular_error = (
+                (transverse_axes(target) @ tool_state[1][:, :, 2:])[:, :, 0] if self._pointing else axial_vector(rotation_error)
+            )
+            error = np.concatenate([error, angular_error], axis=1)
+            angular_jacobian = (
+                transverse_axes(target) @ axis_jacobian(tool_state)
+                if self._pointing
+                else axial_map(rotation_error) @ tool_state[2].transpose(0, 2, 1)
+            )
+            jacobian = np.concatenate([jacobian, angular_jacobian], axis=1)
+        return error[:, self._rows], jacobian[:, self._rows]
 
-    def straight(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
-        """(N,) 1 + 2 cos of the angle by which tools are turned from what is wanted."""
+    def compute_rotation_trace(self, tool_state: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
+        """Return (N,) 1 + 2 cos of the angle between the tools and their targets."""
         if self._pointing:
-            return np.asarray(1 + 2 * np.einsum("ni,ni->n", at[1][:, :, 2], np.broadcast_to(target[1], at[1].shape)[:, :, 2]))
-        return np.asarray(np.einsum("nij,nij->n", at[1], np.broadcast_to(target[1], at[1].shape)))
+            return np.asarray(
+                1 + 2 * np.einsum("ni,ni->n", tool_state[1][:, :, 2], np.broadcast_to(target[1], tool_state[1].shape)[:, :, 2])
+            )
+        return np.asarray(np.einsum("nij,nij->n", tool_state[1], np.broadcast_to(target[1], tool_state[1].shape)))
 
-    def _theirs(self, at: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
-        """Slopes (N, m, n) by the healthy arm's joints."""
-        slope = -target[3].transpose(0, 2, 1)
-        if self.rotated:
-            off = at[1] @ target[1].transpose(0, 2, 1)
-            turns = sideways(target) @ swept(target) if self._pointing else onto(off) @ off @ target[2].transpose(0, 2, 1)
-            slope = np.concatenate([slope, -turns], axis=1)
-        return np.asarray(slope[:, self._rows])
+    def _healthy_jacobian(self, tool_state: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
+        """Return the Jacobian (N, m, n) of the error by the healthy arm's joints."""
+        jacobian = -target[3].transpose(0, 2, 1)
+        if self.uses_rotation:
+            rotation_error = tool_state[1] @ target[1].transpose(0, 2, 1)
+            angular_jacobian = (
+                transverse_axes(target) @ axis_jacobian(target)
+                if self._pointing
+                else axial_map(rotation_error) @ rotation_error @ target[2].transpose(0, 2, 1)
+            )
+            jacobian = np.concatenate([jacobian, -angular_jacobian], axis=1)
+        return np.asarray(jacobian[:, self._rows])
 
-    def _bent(self, at: tuple[Array, ...], target: tuple[Array, ...], d: Array) -> Array:
-        """Second derivatives (N, m, c, c) along the columns of d."""
-        n, ours, theirs = self.n, d[:, : self.n], d[:, self.n :]
+    def _error_hessian(self, tool_state: tuple[Array, ...], target: tuple[Array, ...], directions: Array) -> Array:
+        """Return the second derivatives (N, m, c, c) of the error along the columns of ``directions``."""
+        n, locked_moves, healthy_moves = self.n, directions[:, : self.n], directions[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
-        both = twice(at[2], at[3], ours) - twice(target[2], target[3], theirs)
+        second = second_derivatives(tool_state[2], tool_state[3], locked_moves) - second_derivatives(
+            target[2], target[3], healthy_moves
+        )
         if self._pointing:
-            turns = (twice(x[2], swept(x).transpose(0, 2, 1), moves) for x, moves in ((at, ours), (target, theirs)))
-            rows = np.einsum("nri,nicd->nrcd", sideways(target), next(turns) - next(turns))
-            both = np.concatenate([both, rows], axis=1)
-        elif self.rotated:
-            off = at[1] @ target[1].transpose(0, 2, 1)
-            axes = np.concatenate([at[2], -(off[:, None] @ target[2][..., None])[..., 0][:, ::-1]], axis=1)
-            moves = np.concatenate([ours, theirs[:, ::-1]], axis=1)
-            before = np.cumsum(axes[:, :, None] * moves[..., None], axis=1)  # (N, 2n, c, 3)
-            last = before - axes[:, :, None] * moves[..., None] / 2  # a joint with itself counts half
-            turned = np.cross(axes[:, :, None, :], off.transpose(0, 2, 1)[:, None])  # rows: z x each column of off
-            later = onto(turned.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(len(off), 2 * n, 3, 3)
-            half = np.einsum("nkri,nkai,nkb->nrab", later, last, moves, optimize=True)
-            both = np.concatenate([both, half + half.transpose(0, 1, 3, 2)], axis=1)
-        return np.asarray(both[:, self._rows])
+            axis_terms = (
+                second_derivatives(state[2], axis_jacobian(state).transpose(0, 2, 1), moves)
+                for state, moves in ((tool_state, locked_moves), (target, healthy_moves))
+            )
+            rows = np.einsum("nri,nicd->nrcd", transverse_axes(target), next(axis_terms) - next(axis_terms))
+            second = np.concatenate([second, rows], axis=1)
+        elif self.uses_rotation:
+            rotation_error = tool_state[1] @ target[1].transpose(0, 2, 1)
+            axes = np.concatenate([tool_state[2], -(rotation_error[:, None] @ target[2][..., None])[..., 0][:, ::-1]], axis=1)
+            moves = np.concatenate([locked_moves, healthy_moves[:, ::-1]], axis=1)
+            cumulative = np.cumsum(axes[:, :, None] * moves[..., None], axis=1)  # (N, 2n, c, 3)
+            midpoints = cumulative - axes[:, :, None] * moves[..., None] / 2  # a joint with itself counts half
+            rotated = np.cross(axes[:, :, None, :], rotation_error.transpose(0, 2, 1)[:, None])  # rows: z x each column of off
+            derivative_maps = axial_map(rotated.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(
+                len(rotation_error), 2 * n, 3, 3
+            )
+            half_terms = np.einsum("nkri,nkai,nkb->nrab", derivative_maps, midpoints, moves, optimize=True)
+            second = np.concatenate([second, half_terms + half_terms.transpose(0, 1, 3, 2)], axis=1)
+        return np.asarray(second[:, self._rows])
 
     # ---- bounds ------------------------------------------------------------------------------------------------
 
-    def _third(self, far: Array, out: Array) -> Array:
-        """(N, m) what is left behind the second order; ``out`` (N, 2n): how far slides are."""
-        place, slid = np.zeros(len(far)), far * (1 - self._turns)
-        for chain in (slice(0, self.n), slice(self.n, None)):
-            c, most = np.cumsum((far * self._turns)[:, chain], axis=1), self.chain.lengths + (out + slid)[:, chain]
-            place += (c**3 * most + 3 * c**2 * slid[:, chain]).sum(axis=1) / 6
-        turn = (far @ self._turns) ** 3 / 6
-        return np.stack([place] * self._linear + [turn] * (self.m - self._linear), axis=1)
+    def _third_order_remainder(self, joint_travel: Array, slide_extent: Array) -> Array:
+        """Return the (N, m) remainder after second order; ``slide_extent`` (N, 2n) is the extent of the slides."""
+        position_remainder, slide_range = np.zeros(len(joint_travel)), joint_travel * (1 - self._revolute)
+        for joints in (slice(0, self.n), slice(self.n, None)):
+            c, max_lengths = (
+                np.cumsum((joint_travel * self._revolute)[:, joints], axis=1),
+                self.chain.lengths + (slide_extent + slide_range)[:, joints],
+            )
+            position_remainder += (c**3 * max_lengths + 3 * c**2 * slide_range[:, joints]).sum(axis=1) / 6
+        rotation_remainder = (joint_travel @ self._revolute) ** 3 / 6
+        return np.stack([position_remainder] * self._linear + [rotation_remainder] * (self.m - self._linear), axis=1)
 
-    def _closed(self, given: _Bounds, half: Array) -> tuple[Flags, Array, Array]:
-        """Whether section boxes, put into half, are mapped into themselves; how far joints go then, and turn the tool."""
+    def _close_section(self, bounds: _CellBounds, half: Array) -> tuple[Flags, Array, Array]:
+        """Find section boxes, stored in place in ``half``, that are mapped into themselves; return a mask, the joint travel,
+        and the rotation of the tool.
+        """
         count, s = len(half), half[:, -self.m :]
-        closed, far, angle = np.zeros(count, dtype=bool), np.full((count, 2 * self.n), _NEVER), np.full(count, _NEVER)
+        closed, joint_travel, angle = (
+            np.zeros(count, dtype=bool),
+            np.full((count, 2 * self.n), _MAX_SECTION_SIZE),
+            np.full(count, _MAX_SECTION_SIZE),
+        )
         rows = np.arange(count)
-        for k in range(_ROUNDS + _TIGHTER):
-            if not rows.size and k < _ROUNDS:  # each is closed, or never will be
+        for iteration in range(_SECTION_ROUNDS + _TIGHTENING_ROUNDS):
+            if not rows.size and iteration < _SECTION_ROUNDS:  # each is closed, or never will be
                 continue
-            rows = np.flatnonzero(closed) if k >= _ROUNDS else rows
-            e, far[rows], angle[rows] = self._excess(given.take(rows), half[rows])
-            done = (_MARGIN * e + _LEAST <= s[rows]).all(axis=1) & (s[rows] < 1).all(axis=1)
-            closed[rows] = done
-            if k < _ROUNDS:
-                rows = rows[~done]
-                s[rows] = np.clip(np.nan_to_num(1.05 * e[~done] + 2 * _LEAST, nan=_NEVER), 0, _NEVER)
+            rows = np.flatnonzero(closed) if iteration >= _SECTION_ROUNDS else rows
+            excess, joint_travel[rows], angle[rows] = self._bound_excess(bounds.select(rows), half[rows])
+            is_closed = (_VERIFIER_MARGIN * excess + _MIN_SLACK <= s[rows]).all(axis=1) & (s[rows] < 1).all(axis=1)
+            closed[rows] = is_closed
+            if iteration < _SECTION_ROUNDS:
+                rows = rows[~is_closed]
+                s[rows] = np.clip(
+                    np.nan_to_num(1.05 * excess[~is_closed] + 2 * _MIN_SLACK, nan=_MAX_SECTION_SIZE), 0, _MAX_SECTION_SIZE
+                )
                 rows = rows[(s[rows] < 1).all(axis=1)]
             else:
-                s[rows] = _MARGIN * e + 1.01 * _LEAST
-        return closed, far[:, : self.n], angle
+                s[rows] = _VERIFIER_MARGIN * excess + 1.01 * _MIN_SLACK
+        return closed, joint_travel[:, : self.n], angle
 
-    def _excess(self, given: _Bounds, half: Array) -> tuple[Array, Array, Array]:
-        """How far the error may be from the section, how far joints go, and by how much they turn the tool."""
-        far, square = (given.reach @ half[:, :, None])[:, :, 0], half**2
-        rest = self._third(far, given.out) + (given.left @ half[:, :, None])[:, :, 0]
-        mixed = ((given.second @ half[:, None, :, None])[..., 0] * half[:, None]).sum(axis=2)
-        rest += (mixed - (np.abs(given.own) @ square[:, :, None])[:, :, 0]) / 2
-        high, low = (rest + (np.maximum(x, 0) @ square[:, :, None])[:, :, 0] / 2 for x in (given.own, -given.own))
-        return np.maximum(given.error + high, low - given.error), far, far @ self._turns
+    def _bound_excess(self, bounds: _CellBounds, half: Array) -> tuple[Array, Array, Array]:
+        """Bound the distance of the error from the section, the joint travel, and the rotation of the tool."""
+        joint_travel, square = (bounds.reach @ half[:, :, None])[:, :, 0], half**2
+        remainder = self._third_order_remainder(joint_travel, bounds.out) + (bounds.left @ half[:, :, None])[:, :, 0]
+        mixed = ((bounds.second @ half[:, None, :, None])[..., 0] * half[:, None]).sum(axis=2)
+        remainder += (mixed - (np.abs(bounds.own) @ square[:, :, None])[:, :, 0]) / 2
+        upper, lower = (
+            remainder + (np.maximum(curvature, 0) @ square[:, :, None])[:, :, 0] / 2 for curvature in (bounds.own, -bounds.own)
+        )
+        return np.maximum(bounds.error + upper, lower - bounds.error), joint_travel, joint_travel @ self._revolute
 
-    def _slopes(self, given: _Bounds, half: Array) -> Array:
-        """(N, m, 1 + m) above the slopes of the error less the section by the path and by the section."""
-        last = [1, *range(half.shape[1] - self.m, half.shape[1])]
-        far = (given.reach @ half[:, :, None])[:, :, 0]
-        slope = given.left[:, :, last] + (given.second @ half[:, None, :, None])[:, :, last, 0]
-        turn, slid = np.zeros((len(half), 1 + self.m)), far * (1 - self._turns)
-        by = given.reach[:, :, last]
-        for chain in (slice(0, self.n), slice(self.n, None)):
-            turns = self._turns[chain]
-            c, own = np.cumsum(far[:, chain] * turns, axis=1), np.cumsum(by[:, chain] * turns[:, None], axis=1)
-            most = (self.chain.lengths + (given.out + slid)[:, chain]) * c**2 + 2 * c * slid[:, chain]
-            slope[:, : self._linear] += (most[:, None] @ own + (c**2 * (1 - turns))[:, None] @ by[:, chain]) / 2
-            turn += own[:, -1]
-        slope[:, self._linear :] += (turn * (far @ self._turns)[:, None] ** 2 / 2)[:, None]
-        return np.asarray(slope)
+    def _bound_gradients(self, bounds: _CellBounds, half: Array) -> Array:
+        """Bound the gradients (N, m, 1 + m) of the error less the section by the path and by the section."""
+        columns = [1, *range(half.shape[1] - self.m, half.shape[1])]
+        joint_travel = (bounds.reach @ half[:, :, None])[:, :, 0]
+        gradients = bounds.left[:, :, columns] + (bounds.second @ half[:, None, :, None])[:, :, columns, 0]
+        angle_gradient, slide_range = np.zeros((len(half), 1 + self.m)), joint_travel * (1 - self._revolute)
+        response = bounds.reach[:, :, columns]
+        for joints in (slice(0, self.n), slice(self.n, None)):
+            revolute = self._revolute[joints]
+            c, cumulative = (
+                np.cumsum(joint_travel[:, joints] * revolute, axis=1),
+                np.cumsum(response[:, joints] * revolute[:, None], axis=1),
+            )
+            weights = (self.chain.lengths + (bounds.out + slide_range)[:, joints]) * c**2 + 2 * c * slide_range[:, joints]
+            gradients[:, : self._linear] += (
+                weights[:, None] @ cumulative + (c**2 * (1 - revolute))[:, None] @ response[:, joints]
+            ) / 2
+            angle_gradient += cumulative[:, -1]
+        gradients[:, self._linear :] += (angle_gradient * (joint_travel @ self._revolute)[:, None] ** 2 / 2)[:, None]
+        return np.asarray(gradients)
 
-    def _contracts(self, given: _Bounds, half: Array, wide: Array) -> Flags:
-        """Whether there is at most one solution in section boxes (N, m)."""
-        slope = self._slopes(given, np.concatenate([half[:, : -self.m], wide], axis=1))[:, :, 1:]
-        return np.asarray((_MARGIN * (slope @ wide[:, :, None])[:, :, 0] < 0.998 * wide).all(axis=1))
+    def _is_contraction(self, bounds: _CellBounds, half: Array, section_box: Array) -> Flags:
+        """Return a mask of the section boxes (N, m) with at most one solution."""
+        gradients = self._bound_gradients(bounds, np.concatenate([half[:, : -self.m], section_box], axis=1))[:, :, 1:]
+        return np.asarray((_VERIFIER_MARGIN * (gradients @ section_box[:, :, None])[:, :, 0] < 0.998 * section_box).all(axis=1))
 
-    def _forward(self, given: _Bounds, half: Array, own: Array, place: Array) -> Flags:
-        """Whether turned cells only go forward on the path, and end within the segment, ``place`` (N,) from the end of that."""
-        slope = self._slopes(given, half)
-        moves = solved(np.eye(self.m) - slope[:, :, 1:], slope[:, :, :1])[:, :, 0]
-        slower = (np.abs(own[:, -1, -self.m :]) * moves).sum(axis=1)
-        off = (np.abs(own[:, -1]) * half).sum(axis=1)
-        fine = (moves >= 0).all(axis=1) & (_MARGIN * slower < own[:, -1, 1])
-        return np.asarray(fine & (place + _MARGIN * off < 0))
+    def _moves_forward(self, bounds: _CellBounds, half: Array, response: Array, overshoot: Array) -> Flags:
+        """Return a mask of tangent cells that only go forward on the path and end within their segment, from ``overshoot`` (N,)
+        of its end.
+        """
+        gradients = self._bound_gradients(bounds, half)
+        section_rates = solve_regularized(np.eye(self.m) - gradients[:, :, 1:], gradients[:, :, :1])[:, :, 0]
+        slowdown = (np.abs(response[:, -1, -self.m :]) * section_rates).sum(axis=1)
+        extent = (np.abs(response[:, -1]) * half).sum(axis=1)
+        is_forward = (section_rates >= 0).all(axis=1) & (_VERIFIER_MARGIN * slowdown < response[:, -1, 1])
+        return np.asarray(is_forward & (overshoot + _VERIFIER_MARGIN * extent < 0))
 
 
 @dataclass(frozen=True, eq=False)
-class _Bounds:
-    """Of cells: errors; sizes of what joints follow, of what is left of slopes, of second derivatives; their own; slides."""
+class _CellBounds:
+    """Bounds of cells: errors, response, gradient residual and second derivatives (magnitudes), curvature, slide extents."""
 
     error: Array
     reach: Array
@@ -370,6 +466,6 @@ class _Bounds:
     own: Array
     out: Array
 
-    def take(self, rows: Ints) -> _Bounds:
-        """Of some of them."""
-        return _Bounds(*(getattr(self, field.name)[rows] for field in fields(self)))
+    def select(self, rows: Ints) -> _CellBounds:
+        """Return the bounds of some rows."""
+        return _CellBounds(*(getattr(self, field.name)[rows] for field in fields(self)))

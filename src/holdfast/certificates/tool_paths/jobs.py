@@ -1,4 +1,4 @@
-"""The search for motions in jobs: one for each lock, which leaves slabs to others once it has looked at very many cells.
+"""The search for motions as jobs: one for each lock, which defers slabs to child jobs after it has examined very many cells.
 
 What a job finds depends on its claim and its slabs alone: not on how many processes there are, nor on what was found before by
 a search that was stopped.
@@ -14,75 +14,85 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.claims import ROWS
-from holdfast.certificates.crew import Stop
-from holdfast.certificates.taylor import Chain
-from holdfast.certificates.tool_paths.cells import SEGMENT
+from holdfast.certificates.claims import TASK_ROWS
+from holdfast.certificates.crew import StopCheck
+from holdfast.certificates.taylor import CertificateChain
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.forms import Following
-from holdfast.certificates.tool_paths.march import March
-from holdfast.certificates.tool_paths.rings import Never, rings_of
+from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
+from holdfast.certificates.tool_paths.march import SlabMarch
+from holdfast.certificates.tool_paths.rings import RefutedInterval, make_closure_exclusion
 from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.tree import SearchState
 from holdfast.engine.memory import Parts
 
-_JOB, _PARTS = 1 << 12, 8  # cells that a job looks at; jobs that it leaves
+_CELLS_PER_JOB, _MAX_CHILD_JOBS = 1 << 12, 8  # cells that a job looks at; jobs that it leaves
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
-    """What a job found.
+class ToolPathResult:
+    """Result of a tool path job.
 
     Attributes:
         slabs: Intervals of lock instants that are proved, in order, each with its cells.
         never: Those that are refuted, in order.
-        left: Those that are left to other jobs.
-        closed: Instants of slabs that are done with.
+        deferred: Those that are left to other jobs.
+        closed_instants: Instants of slabs that are done with.
         nodes: Cells that were looked at.
         finished: Nothing is open, but for what is left.
         seconds: Measured.
-        whole: Instants of the claim.
+        claimed_instants: Instants of the claim.
     """
 
     slabs: Sequence[Slab]
-    never: Sequence[Never]
-    left: Sequence[Slab]
-    closed: int
+    never: Sequence[RefutedInterval]
+    deferred: Sequence[Slab]
+    closed_instants: int
     nodes: int
     finished: bool
     seconds: float
-    whole: int
+    claimed_instants: int
 
     @property
     def state(self) -> SearchState:
-        """Of the lock."""
-        done, gone = (sum(one.stop - one.begin for one in ours) for ours in (self.slabs, self.never))
-        proved, refuted, rest = (x / self.whole for x in (done, gone, self.closed - done - gone))
-        left = 1 - self.closed / self.whole
-        return SearchState(proved=proved, refuted=refuted, undecided=rest, open=left, nodes=self.nodes)
+        """Progress, as fractions of the lock instants of one joint."""
+        proved_instants, refuted_instants = (
+            sum(interval.stop - interval.begin for interval in intervals) for intervals in (self.slabs, self.never)
+        )
+        proved, refuted, undecided = (
+            instants / self.claimed_instants
+            for instants in (proved_instants, refuted_instants, self.closed_instants - proved_instants - refuted_instants)
+        )
+        open_fraction = 1 - self.closed_instants / self.claimed_instants
+        return SearchState(proved=proved, refuted=refuted, undecided=undecided, open=open_fraction, nodes=self.nodes)
 
-    def stored(self) -> Parts:
-        """As a memory keeps it."""
-        cells = [x for slab in self.slabs for x in (slab.begin, slab.stop, slab.halvings, len(slab.ends), *slab.ends)]
-        left = [x for slab in self.left for x in (slab.begin, slab.stop, slab.halvings)]
-        made: dict[str, NDArray[np.int64]] = {
+    def to_arrays(self) -> Parts:
+        """Return the result as arrays for the search memory."""
+        cells = [number for slab in self.slabs for number in (slab.begin, slab.stop, slab.halvings, len(slab.ends), *slab.ends)]
+        deferred = [number for slab in self.deferred for number in (slab.begin, slab.stop, slab.halvings)]
+        arrays: dict[str, NDArray[np.int64]] = {
             "cells": np.array(cells, dtype=np.int64),
-            "centres": np.array([row for slab in self.slabs for row in slab.centres], dtype=np.int64),
-            "left": np.array(left, dtype=np.int64),
+            "centres": np.array([center for slab in self.slabs for center in slab.centers], dtype=np.int64),
+            "left": np.array(deferred, dtype=np.int64),
             "never": np.array(
-                [x for one in self.never for x in (one.begin, one.stop, one.at, len(one.tree), *one.tree)], dtype=np.int64
+                [
+                    number
+                    for interval in self.never
+                    for number in (interval.begin, interval.stop, interval.path_instant, len(interval.tree), *interval.tree)
+                ],
+                dtype=np.int64,
             ),
-            "counts": np.array([self.closed, self.nodes, self.whole], dtype=np.int64),
+            "counts": np.array([self.closed_instants, self.nodes, self.claimed_instants], dtype=np.int64),
         }
-        return {**made, "seconds": np.array([self.seconds])}
+        return {**arrays, "seconds": np.array([self.seconds])}
 
-    def need_room(self) -> None:
-        """There always is: a slab is one of a claim, halved so often at most."""
+    def require_capacity(self) -> None:
+        """Do nothing: the cells always fit, since a slab is one of the claim, halved a limited number of times."""
 
 
 @dataclass(frozen=True, eq=False)
-class Job:
-    """The march of some slabs of one lock.
+class ToolPathJob:
+    """The march through some slabs of one lock.
 
     Attributes:
         claim: The claim.
@@ -90,7 +100,7 @@ class Job:
         followers: Joints that go on with the healthy motion.
         halvings: Of slabs, at most.
         slabs: Which.
-        most: Cells that it looks at, and each of those that it leaves some to.
+        max_cells: Cells that it looks at, and each of those that it leaves some to.
         name: For a memory.
     """
 
@@ -99,104 +109,117 @@ class Job:
     followers: tuple[int, ...]
     halvings: int
     slabs: tuple[Slab, ...]
-    most: int
+    max_cells: int
     name: str
 
     @classmethod
-    def whole(cls, claim: PathClaim, joint: int, followers: tuple[int, ...], halvings: int) -> Job:
-        """All lock instants of a joint."""
+    def for_lock(cls, claim: PathClaim, joint: int, followers: tuple[int, ...], halvings: int) -> ToolPathJob:
+        """Make the job of all lock instants of a joint."""
         first, last = claim.during
-        faces = [first, *range((first // SEGMENT + 1) * SEGMENT, last, SEGMENT), last]
+        faces = [first, *range((first // SEGMENT_INSTANTS + 1) * SEGMENT_INSTANTS, last, SEGMENT_INSTANTS), last]
         slabs = tuple(Slab(begin, stop) for begin, stop in pairwise(faces))
-        return cls(claim, joint, followers, halvings, slabs, _JOB, f"lock {joint + 1}")
+        return cls(claim, joint, followers, halvings, slabs, _CELLS_PER_JOB, f"lock {joint + 1}")
 
     @property
-    def share(self) -> float:
-        """States are about the lock."""
+    def claim_fraction(self) -> float:
+        """Fraction of the claim part to which the states refer: the whole lock."""
         return 1.0
 
     @property
-    def instants(self) -> int:
-        """Of the claim."""
+    def claimed_instants(self) -> int:
+        """Number of lock instants of the claim."""
         return self.claim.during[1] - self.claim.during[0]
 
-    def begun(self, until: float) -> Running:
-        """At work."""
-        return Running(self)
+    def start(self, deadline: float) -> RunningToolPathJob:
+        """Start the job."""
+        return RunningToolPathJob(self)
 
-    def nothing(self) -> Found:
-        """All undecided."""
-        return Found((), (), (), 0, 0, False, 0.0, self.instants)
+    def empty_result(self) -> ToolPathResult:
+        """Return a result in which everything is undecided."""
+        return ToolPathResult((), (), (), 0, 0, False, 0.0, self.claimed_instants)
 
-    def read(self, stored: Parts) -> Found:
-        """What :meth:`Found.stored` kept."""
-        numbers, rows, slabs = stored["cells"].tolist(), iter(stored["centres"]), list[Slab]()
+    def from_arrays(self, arrays: Parts) -> ToolPathResult:
+        """Rebuild a result from the arrays of :meth:`ToolPathResult.to_arrays`."""
+        numbers, centers, slabs = arrays["cells"].tolist(), iter(arrays["centres"]), list[Slab]()
         while numbers:
             begin, stop, halvings, count = numbers[:4]
             ends, numbers = numbers[4 : 4 + count], numbers[4 + count :]
-            slabs.append(Slab(begin, stop, halvings, ends, [next(rows) for _ in ends]))
-        given, never = stored["never"].tolist(), list[Never]()
-        while given:
-            (begin, stop, at, size), given = given[:4], given[4:]
-            never.append(Never(begin, stop, at, bytes(given[:size])))
-            given = given[size:]
-        left = [Slab(*numbers) for numbers in stored["left"].reshape(-1, 3).tolist()]
-        closed, nodes, whole = stored["counts"].tolist()
-        return Found(slabs, never, left, closed, nodes, True, float(stored["seconds"][0]), whole)
+            slabs.append(Slab(begin, stop, halvings, ends, [next(centers) for _ in ends]))
+        values, refuted = arrays["never"].tolist(), list[RefutedInterval]()
+        while values:
+            (begin, stop, path_instant, tree_bytes), values = values[:4], values[4:]
+            refuted.append(RefutedInterval(begin, stop, path_instant, bytes(values[:tree_bytes])))
+            values = values[tree_bytes:]
+        deferred = [Slab(*numbers) for numbers in arrays["left"].reshape(-1, 3).tolist()]
+        closed, nodes, total = arrays["counts"].tolist()
+        return ToolPathResult(slabs, refuted, deferred, closed, nodes, True, float(arrays["seconds"][0]), total)
 
-    def parted(self, found: Found) -> list[Job]:
-        """The jobs of slabs that are left."""
-        parts = np.array_split(np.arange(len(found.left)), min(_PARTS, len(found.left))) if found.left else []
+    def child_jobs(self, result: ToolPathResult) -> list[ToolPathJob]:
+        """Return the child jobs of the deferred slabs."""
+        row_groups = (
+            np.array_split(np.arange(len(result.deferred)), min(_MAX_CHILD_JOBS, len(result.deferred)))
+            if result.deferred
+            else []
+        )
         return [
-            replace(self, slabs=tuple(found.left[k] for k in some), name=f"{self.name} {number}")
-            for number, some in enumerate(parts, 1)
+            replace(self, slabs=tuple(result.deferred[index] for index in rows), name=f"{self.name} {number}")
+            for number, rows in enumerate(row_groups, 1)
         ]
 
-    def joined(self, found: Found, parts: Sequence[Found]) -> Found:
-        """With what is found of slabs that were left."""
-        every = [found, *parts]
-        slabs = sorted((slab for one in every for slab in one.slabs), key=lambda slab: slab.begin)
-        never = sorted((one for part in every for one in part.never), key=lambda one: one.begin)
-        return Found(
-            slabs, never, (), sum(one.closed for one in every), sum(one.nodes for one in every),
-            all(one.finished for one in every), sum(one.seconds for one in every), found.whole,
+    def merge(self, result: ToolPathResult, child_results: Sequence[ToolPathResult]) -> ToolPathResult:
+        """Merge the results of the deferred slabs into this result."""
+        results = [result, *child_results]
+        slabs = sorted((slab for entry in results for slab in entry.slabs), key=lambda slab: slab.begin)
+        refuted = sorted((entry for partial_result in results for entry in partial_result.never), key=lambda entry: entry.begin)
+        return ToolPathResult(
+            slabs, refuted, (), sum(entry.closed_instants for entry in results), sum(entry.nodes for entry in results),
+            all(entry.finished for entry in results), sum(entry.seconds for entry in results), result.claimed_instants,
         )  # fmt: skip
 
 
-class Running:
-    """A job at work.
+class RunningToolPathJob:
+    """A started tool path job.
 
     Attributes:
         job: Which.
         finished: Nothing is open, but for what is left to others.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: ToolPathJob) -> None:
         self.job, self.finished, self._seconds = job, False, 0.0
         claim = job.claim
-        tube = claim.tube[[int(row > 2) for row in ROWS[claim.task]]] if claim.tube.any() else np.empty(0)
+        tube = claim.tube[[int(row > 2) for row in TASK_ROWS[claim.task]]] if claim.tube.any() else np.empty(0)
         limits = np.column_stack([claim.arm.lower, claim.arm.upper])
-        following = Following(
-            Chain.of(claim.arm), claim.knots, claim.task, still=[job.joint, *job.followers], tube=tube, limits=limits,
+        enclosure = LockedTrackingEnclosure(
+            CertificateChain.from_arm(claim.arm), claim.knots, claim.task, driven=[job.joint, *job.followers], tube=tube, limits=limits,
             slides=claim.arm.prismatic,
         )  # fmt: skip
-        self._march = March(following, job.slabs, job.halvings, job.most, rings_of(claim, job.joint))
+        self._march = SlabMarch(enclosure, job.slabs, job.halvings, job.max_cells, make_closure_exclusion(claim, job.joint))
 
-    def run(self, until: float, stop: Stop, tell: Callable[[], None]) -> None:
-        """On with it until it is time (``monotonic``), or to stop."""
-        began = perf_counter()
-        self.finished = self._march.run(until, stop, tell)
-        self._seconds += perf_counter() - began
+    def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
+        """Continue the search until the monotonic time ``deadline``, or until ``should_stop()`` is true."""
+        started = perf_counter()
+        self.finished = self._march.run(deadline, should_stop, report_progress)
+        self._seconds += perf_counter() - started
 
     @property
     def state(self) -> SearchState:
-        """How far it is."""
-        return self.found().state
+        """Current progress of the job."""
+        return self.result().state
 
-    def found(self) -> Found:
-        """What is found so far."""
+    def result(self) -> ToolPathResult:
+        """Return the result so far."""
         march = self._march
         slabs = sorted(march.proved, key=lambda slab: slab.begin)
-        left = march.left if self.finished else []
-        never = sorted(march.never, key=lambda one: one.begin)
-        return Found(slabs, never, left, march.closed, march.nodes, self.finished, self._seconds, self.job.instants)
+        deferred = march.deferred_slabs if self.finished else []
+        refuted = sorted(march.refuted, key=lambda interval: interval.begin)
+        return ToolPathResult(
+            slabs,
+            refuted,
+            deferred,
+            march.closed_instants,
+            march.nodes,
+            self.finished,
+            self._seconds,
+            self.job.claimed_instants,
+        )

@@ -1,4 +1,4 @@
-"""Slabs of lock instants, each with cells from the lock to the end of the path, in which one motion goes on."""
+"""March through slabs of lock instants: cells from the lock to the end of the path, in which one motion continues."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from time import monotonic
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tool_paths.cells import SEGMENT, UNIT, Cells, Forms
-from holdfast.certificates.tool_paths.forms import Following
-from holdfast.certificates.tool_paths.rings import Never, Rings
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
+from holdfast.certificates.tool_paths.rings import ClosureExclusion, RefutedInterval
 from holdfast.certificates.tool_paths.slabs import Slab
-from holdfast.certificates.tool_paths.turned import PLAIN, led
+from holdfast.certificates.tool_paths.turned import MIN_SINGULAR_HALVINGS, march_through_singularity
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_AT_ONCE = 64  # slabs that march side by side
+_MAX_ACTIVE_SLABS = 64  # slabs that march side by side
 
 
 @dataclass(frozen=True, kw_only=True)
 class LockedPath:
-    """What was found for the lock of one joint.
+    """Result of the search for the lock of one joint.
 
     Attributes:
         joint: Index of it.
         followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
         slabs: Intervals of lock instants that are proved, in order, each with its cells.
-        never: Those that are refuted, in order.
+        refuted_intervals: Those that are refuted, in order.
         proved, refuted: Exact parts of the lock instants.
         nodes: Cells that were looked at.
         finished: False if the search was stopped.
@@ -41,7 +41,7 @@ class LockedPath:
     joint: int
     followers: tuple[int, ...]
     slabs: tuple[Slab, ...]
-    never: tuple[Never, ...]
+    refuted_intervals: tuple[RefutedInterval, ...]
     proved: Fraction
     refuted: Fraction
     nodes: int
@@ -49,173 +49,184 @@ class LockedPath:
     seconds: float
 
     @property
-    def spans(self) -> list[tuple[int, int]]:
+    def proved_spans(self) -> list[tuple[int, int]]:
         """Proved intervals of lock instants."""
         return [(slab.begin, slab.stop) for slab in self.slabs]
 
     @property
     def refuted_spans(self) -> list[tuple[int, int]]:
-        """Refuted ones."""
-        return [(one.begin, one.stop) for one in self.never]
+        """Refuted intervals of lock instants."""
+        return [(interval.begin, interval.stop) for interval in self.refuted_intervals]
 
     @property
     def undecided(self) -> Fraction:
-        """The rest."""
+        """Exact fraction of the lock instants that is neither proved nor refuted."""
         return 1 - self.proved - self.refuted
 
     @property
     def leaves(self) -> int:
-        """Cells of proved slabs, and boxes of joints that refute others."""
-        return sum(len(slab.ends) for slab in self.slabs) + sum(1 + len(one.tree) for one in self.never) // 2
+        """Number of cells of proved slabs and of joint boxes that refute others."""
+        return (
+            sum(len(slab.ends) for slab in self.slabs) + sum(1 + len(interval.tree) for interval in self.refuted_intervals) // 2
+        )
 
 
-class March:
-    """The search of one lock.
+class SlabMarch:
+    """The search for one lock.
 
     Args:
-        following: The locked arm and the path.
+        enclosure: The locked arm and the path.
         slabs: Of lock instants.
         halvings: Of slabs, at most.
-        most: Cells that are looked at before no more slabs begin.
-        rings: What refutes slabs that lead nowhere; None: nothing does.
+        max_nodes: Cells that are looked at before no more slabs begin.
+        exclusion: What refutes slabs that lead nowhere; None: nothing does.
 
     Attributes:
         proved: Slabs, in no order.
-        never: Refuted ones, in no order.
+        refuted: Refuted ones, in no order.
         nodes: Cells and boxes that were looked at.
-        closed: Instants of slabs that are done with.
+        closed_instants: Instants of slabs that are done with.
     """
 
     def __init__(
-        self, following: Following, slabs: Sequence[Slab], halvings: int, most: float = np.inf, rings: Rings | None = None
+        self,
+        enclosure: LockedTrackingEnclosure,
+        slabs: Sequence[Slab],
+        halvings: int,
+        max_nodes: float = np.inf,
+        exclusion: ClosureExclusion | None = None,
     ) -> None:
-        self.following, self._halvings, self._most, self._rings = following, halvings, most, rings
-        self._end = (len(following.knots) - 1) * SEGMENT
+        self.enclosure, self._max_halvings, self._max_nodes, self._exclusion = enclosure, halvings, max_nodes, exclusion
+        self._path_end = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
         self.proved: list[Slab] = []
-        self.never: list[Never] = []
-        self.nodes, self.closed = 0, 0
-        self._waiting = deque(slab.anew for slab in slabs)
-        self._moving: list[Slab] = []
+        self.refuted: list[RefutedInterval] = []
+        self.nodes, self.closed_instants = 0, 0
+        self._waiting = deque(slab.restarted_slab for slab in slabs)
+        self._active: list[Slab] = []
         self._failed: list[Slab] = []
         self._hopeless: list[Slab] = []
-        self._before: Forms | None = None
+        self._previous: PathFormBatch | None = None
 
-    def run(self, until: float, stop: Callable[[], bool], tell: Callable[[], None]) -> bool:
-        """On with it until it is time (``monotonic``), or to stop; whether only slabs that have not begun are left."""
-        while monotonic() < until and not stop():
-            if self.nodes < self._most:
-                self._filled()
+    def run(self, deadline: float, should_stop: Callable[[], bool], report_progress: Callable[[], None]) -> bool:
+        """Search until a monotonic time or a stop request; return True if only slabs that were not started remain."""
+        while monotonic() < deadline and not should_stop():
+            if self.nodes < self._max_nodes:
+                self._activate_slabs()
             if self._hopeless:  # it takes little
-                self._refuted(self._hopeless.pop())
-            elif self._moving:
-                self._moved()
+                self._refute_slab(self._hopeless.pop())
+            elif self._active:
+                self._advance_slabs()
             elif self._failed:
-                self._halved()
+                self._split_failed()
             else:
                 break
-            tell()
-        return not (self._moving or self._failed or self._hopeless or (self._waiting and self.nodes < self._most))
+            report_progress()
+        return not (self._active or self._failed or self._hopeless or (self._waiting and self.nodes < self._max_nodes))
 
     @property
-    def left(self) -> list[Slab]:
-        """Slabs that have not begun, in order."""
-        return [slab.anew for slab in sorted(self._waiting, key=lambda slab: slab.begin)]
+    def deferred_slabs(self) -> list[Slab]:
+        """Slabs that were not started, in order."""
+        return [slab.restarted_slab for slab in sorted(self._waiting, key=lambda slab: slab.begin)]
 
-    def _filled(self) -> None:
-        """Slabs that wait begin where there is room."""
-        new = [self._waiting.popleft() for _ in range(min(_AT_ONCE - len(self._moving), len(self._waiting)))]
-        if not new:
+    def _activate_slabs(self) -> None:
+        """Activate waiting slabs while there is capacity."""
+        new_slabs = [self._waiting.popleft() for _ in range(min(_MAX_ACTIVE_SLABS - len(self._active), len(self._waiting)))]
+        if not new_slabs:
             return
-        self._moving += new
-        f = self.following
-        none = Forms.none(f.n, f.m, 2 + len(f.tube) + f.m)
-        for slab in new:
-            found, slab.found = slab.found or none, None
-            self._before = found if self._before is None else self._before.joined(found)
+        self._active += new_slabs
+        enclosure = self.enclosure
+        empty = PathFormBatch.make_empty(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
+        for slab in new_slabs:
+            form, slab.last_form = slab.last_form or empty, None
+            self._previous = form if self._previous is None else self._previous.append(form)
 
-    def _moved(self) -> None:
-        """The next cell of each slab: found, or half as long, or given up."""
-        assert self._before is not None
-        f, slabs, before = self.following, self._moving, self._before
+    def _advance_slabs(self) -> None:
+        """Try the next cell of each active slab: accept it, halve its length, or give the slab up."""
+        assert self._previous is not None
+        enclosure, slabs, previous = self.enclosure, self._active, self._previous
         begin, stop, start, end = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
-        cells = Cells(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
-        first = np.array([not slab.ends for slab in slabs])
-        middle = before.half[:, 1] + cells.half[:, 1]
-        q = f.guessed(before, cells, middle)
-        q[first] = f.healthy(cells.start + cells.end, cells.end)[0][first]
-        q = f.solved(q, cells)
-        rows = np.round(q / UNIT).astype(np.int64)
-        rows[:, f.still] = 0
-        forms = f.forms(q, cells)
+        cells = PathCellBatch(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
+        is_first = np.array([not slab.ends for slab in slabs])
+        distances = previous.half[:, 1] + cells.half[:, 1]
+        q = enclosure.predict_start(previous, cells, distances)
+        q[is_first] = enclosure.interpolate_healthy(cells.start + cells.end, cells.end)[0][is_first]
+        q = enclosure.solve_centers(q, cells)
+        center_units = np.round(q / PATH_CENTER_UNIT).astype(np.int64)
+        center_units[:, enclosure.driven] = 0
+        forms = enclosure.expand_cells(q, cells)
         self.nodes += len(slabs)
-        goes_on = np.where(first, f.begins(forms, cells), f.goes_on(before, forms))
-        good, kept = forms.good & goes_on, []
-        for k, slab in enumerate(slabs):
-            if good[k]:
+        continues = np.where(is_first, enclosure.starts_at_lock(forms, cells), enclosure.continues_from(previous, forms))
+        accepted, active_rows = forms.good & continues, []
+        for index, slab in enumerate(slabs):
+            if accepted[index]:
                 slab.ends.append(slab.next)
-                slab.centres.append(rows[k])
-                slab.lengthened()
-            elif not slab.shortest:
+                slab.centers.append(center_units[index])
+                slab.lengthen_step()
+            elif not slab.is_shortest:
                 slab.step //= 2
             else:
-                slab.found = before.take(np.array([k]))
+                slab.last_form = previous.select(np.array([index]))
                 self._failed.append(slab)
                 continue
-            if slab.at < self._end:
-                kept.append(k)
+            if slab.at < self._path_end:
+                active_rows.append(index)
             else:
-                self._done(slab)
-        self._before = before.put(np.flatnonzero(good), forms.take(np.flatnonzero(good))).take(np.array(kept, dtype=np.int64))
-        self._moving = [slabs[k] for k in kept]
+                self._record_proved(slab)
+        self._previous = previous.replace_rows(np.flatnonzero(accepted), forms.select(np.flatnonzero(accepted))).select(
+            np.array(active_rows, dtype=np.int64)
+        )
+        self._active = [slabs[index] for index in active_rows]
 
-    def _done(self, slab: Slab) -> None:
-        """Proved."""
+    def _record_proved(self, slab: Slab) -> None:
+        """Record a slab as proved."""
         self.proved.append(slab)
-        self.closed += slab.stop - slab.begin
+        self.closed_instants += slab.stop - slab.begin
 
-    def _turned(self, slabs: list[Slab]) -> list[Slab]:
-        """Slabs, less those from which turned cells lead on, and one behind them that is not."""
-        f = self.following
-        some = [] if len(f.tube) else [slab for slab in slabs if slab.halvings >= PLAIN]
-        for slab, found in zip(some, led(f, some), strict=True):
-            if found is None:
+    def _march_singular(self, slabs: list[Slab]) -> list[Slab]:
+        """March slabs through singularities by tangent cells and one plain cell; return the slabs for which that fails."""
+        enclosure = self.enclosure
+        candidates = [] if len(enclosure.tube) else [slab for slab in slabs if slab.halvings >= MIN_SINGULAR_HALVINGS]
+        for slab, passage in zip(candidates, march_through_singularity(enclosure, candidates), strict=True):
+            if passage is None:
                 continue
-            ends, centres, slab.found = found
-            slabs = [one for one in slabs if one is not slab]
+            ends, centers, slab.last_form = passage
+            slabs = [other for other in slabs if other is not slab]
             self.nodes += len(ends)
             slab.ends += ends
-            slab.centres += centres
+            slab.centers += centers
             slab.step = slab.at & -slab.at
-            slab.lengthened()
-            if slab.at < self._end:
+            slab.lengthen_step()
+            if slab.at < self._path_end:
                 self._waiting.append(slab)
             else:
-                self._done(slab)
+                self._record_proved(slab)
         return slabs
 
-    def _halved(self) -> None:
-        """Slabs that came no further go on in turned cells, or are halved, if lock instants, alone, are followed to the end."""
+    def _split_failed(self) -> None:
+        """March failed slabs on through tangent cells, or split them, if single lock instants can be followed to the end."""
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
-        ends = np.asarray(self.following.finishes(locks.ravel())).reshape(-1, 3)
-        whole = [slab for slab, good in zip(slabs, ends, strict=True) if good.all()]
-        left = {id(slab) for slab in self._turned(whole)}
-        for slab, good in zip(slabs, ends, strict=True):
-            if good.all() and id(slab) not in left:
+        finishes = np.asarray(self.enclosure.can_finish(locks.ravel())).reshape(-1, 3)
+        followed = [slab for slab, reached in zip(slabs, finishes, strict=True) if reached.all()]
+        unsolved_ids = {id(slab) for slab in self._march_singular(followed)}
+        for slab, reached in zip(slabs, finishes, strict=True):
+            if reached.all() and id(slab) not in unsolved_ids:
                 continue
-            if not good.any():
+            if not reached.any():
                 self._hopeless.append(slab)
-            elif slab.halvings == self._halvings:
-                self.closed += slab.stop - slab.begin
+            elif slab.halvings == self._max_halvings:
+                self.closed_instants += slab.stop - slab.begin
             else:
                 self._waiting += slab.halves
 
-    def _refuted(self, slab: Slab) -> None:
-        """From no instant of a slab that was looked at a motion was found: it is refuted, or its halves may be."""
-        never, parts, nodes = (None, False, 0) if self._rings is None else self._rings.tried(slab.begin, slab.stop)
+    def _refute_slab(self, slab: Slab) -> None:
+        """Refute a slab from no examined instant of which a motion was found, or queue its halves."""
+        interval, may_split, nodes = (
+            (None, False, 0) if self._exclusion is None else self._exclusion.refute_instants(slab.begin, slab.stop)
+        )
         self.nodes += nodes
-        if never is None and parts and slab.halvings < self._halvings:
+        if interval is None and may_split and slab.halvings < self._max_halvings:
             self._hopeless += slab.halves
             return
-        self.never += [] if never is None else [never]
-        self.closed += slab.stop - slab.begin
+        self.refuted += [] if interval is None else [interval]
+        self.closed_instants += slab.stop - slab.begin

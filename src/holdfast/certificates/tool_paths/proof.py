@@ -1,4 +1,4 @@
-"""What the search for motions found."""
+"""Proofs that the path of a tool is finished after a lock."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.claims import ROWS
-from holdfast.certificates.crew import Effort
-from holdfast.certificates.proof import InParts, early, written
+from holdfast.certificates.claims import TASK_ROWS
+from holdfast.certificates.crew import SearchBudget
+from holdfast.certificates.proof import CompositeResult, format_early_stop, write_document
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.jobs import Job
+from holdfast.certificates.tool_paths.jobs import ToolPathJob
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.verified import paths
 
@@ -25,8 +25,8 @@ Span = tuple[int, int]
 
 
 @dataclass(frozen=True, kw_only=True)
-class PathProof(InParts):
-    """What the search for motions found. It is not verified: :func:`check_certificate` does that.
+class PathProof(CompositeResult):
+    """Result of the search for motions. It is not verified: :func:`check_certificate` does that.
 
     Attributes:
         claim: What was asked.
@@ -40,28 +40,28 @@ class PathProof(InParts):
 
     @property
     def ok(self) -> bool:
-        """True if all is proved."""
+        """True if every lock instant is proved."""
         return self.proved == 1
 
     @property
     def refuted(self) -> Fraction:
-        """Exact part of the lock instants at which nothing finishes the path, with the lock of which most is."""
+        """Exact fraction of the lock instants after which nothing finishes the path, for the lock with the largest one."""
         return max(part.refuted for part in self.parts)
 
     @property
     def undecided(self) -> Fraction:
-        """Exact part of them that is neither proved nor refuted, with the lock of which most is."""
+        """Exact fraction of the lock instants that is neither proved nor refuted, for the lock with the largest one."""
         return max(part.undecided for part in self.parts)
 
     @property
     def tolerant(self) -> Fraction:
-        """Exact part of the lock instants that is proved whichever joint locks."""
-        left = [gap for part in self.parts for gap in paths.gaps(part.spans, self.document)]
-        return 1 - paths.share(left, self.document)
+        """Exact fraction of the lock instants that is proved for every single lock."""
+        unproved_spans = [gap for part in self.parts for gap in paths.find_gaps(part.proved_spans, self.document)]
+        return 1 - paths.measure_coverage(unproved_spans, self.document)
 
     def gaps(self, part: LockedPath) -> list[Span]:
-        """Undecided intervals of lock instants."""
-        return paths.gaps(part.spans + part.refuted_spans, self.document)
+        """Return the undecided intervals of lock instants."""
+        return paths.find_gaps(part.proved_spans + part.refuted_spans, self.document)
 
     def write(self, file: str | Path) -> Path:
         """Write the certificate.
@@ -69,52 +69,57 @@ class PathProof(InParts):
         Raises:
             StoreError: The file cannot be written.
         """
-        return written(self.document, Path(file))
+        return write_document(self.document, Path(file))
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        whichever = f"; whichever joint locks, {verifier.per_cent(self.tolerant)}" if len(self.parts) > 1 else ""
+        """Return the claim and the result of the search as sentences."""
+        whichever = f"; whichever joint locks, {verifier.format_percent(self.tolerant)}" if len(self.parts) > 1 else ""
         worst = min(self.parts, key=lambda part: part.proved)
-        shares = f"proved {verifier.per_cent(worst.proved)}, "
-        shares += f"refuted {verifier.per_cent(worst.refuted)}, " * bool(worst.refuted)
-        shares += f"undecided {verifier.per_cent(worst.undecided, up=True)}"
-        least = "" if self.ok else f" with a lock of {self.claim.arm.joint_names[worst.joint]}, of which least is proved"
+        fraction_texts = f"proved {verifier.format_percent(worst.proved)}, "
+        fraction_texts += f"refuted {verifier.format_percent(worst.refuted)}, " * bool(worst.refuted)
+        fraction_texts += f"undecided {verifier.format_percent(worst.undecided, up=True)}"
+        qualifier = "" if self.ok else f" with a lock of {self.claim.arm.joint_names[worst.joint]}, of which least is proved"
         return [
             verifier.qualify_claim(self.document["claim"], self.tolerant),
-            f"Found by the prover, not yet verified: of the lock instants {shares}{least}{whichever}{early(self.finished)}.",
+            f"Found by the prover, not yet verified: of the lock instants "
+            f"{fraction_texts}{qualifier}{whichever}{format_early_stop(self.finished)}.",
             f"{self.leaves:,} cells, each glued to the next or with no configuration in it, of {self.nodes:,} that were looked "
             f"at; {self.seconds:.1f} s.",
         ]
 
 
-def proved(claim: PathClaim, halvings: int, effort: Effort) -> PathProof:
-    """As much of a claim as can be proved."""
-    whole = claim.during[1] - claim.during[0]
-    jobs = [Job.whole(claim, joint, _followers(claim, joint), halvings) for joint in claim.locks]
+def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathProof:
+    """Prove as much of a claim as possible."""
+    total_instants = claim.during[1] - claim.during[0]
+    jobs = [ToolPathJob.for_lock(claim, joint, _choose_followers(claim, joint), halvings) for joint in claim.locks]
     parts = tuple(
         LockedPath(
-            joint=job.joint, followers=job.followers, slabs=tuple(found.slabs),
-            never=tuple(found.never),
-            proved=Fraction(sum(slab.stop - slab.begin for slab in found.slabs), whole),
-            refuted=Fraction(sum(one.stop - one.begin for one in found.never), whole), nodes=found.nodes,
-            finished=found.finished, seconds=found.seconds,
+            joint=job.joint, followers=job.followers, slabs=tuple(result.slabs),
+            refuted_intervals=tuple(result.never),
+            proved=Fraction(sum(slab.stop - slab.begin for slab in result.slabs), total_instants),
+            refuted=Fraction(sum(interval.stop - interval.begin for interval in result.never), total_instants), nodes=result.nodes,
+            finished=result.finished, seconds=result.seconds,
         )
-        for job, found in zip(jobs, effort.found(jobs), strict=True)
+        for job, result in zip(jobs, budget.run_jobs(jobs), strict=True)
     )  # fmt: skip
-    return PathProof(claim=claim, parts=parts, document=documents.path(claim, parts))
+    return PathProof(claim=claim, parts=parts, document=documents.build_path_document(claim, parts))
 
 
-def _followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
-    """Which joints go on with the healthy motion after a lock: such that the others are farthest from singular on it."""
-    rows = ROWS[claim.task]
-    others = [k for k in range(claim.arm.n) if k != joint]
-    if len(others) == len(rows):
+def _choose_followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
+    """Choose the joints that continue the healthy motion after a lock, so that the other joints stay farthest from singular on
+    it.
+    """
+    task_rows = TASK_ROWS[claim.task]
+    others = [other for other in range(claim.arm.n) if other != joint]
+    if len(others) == len(task_rows):
         return ()
-    slopes = claim.arm.jacobian(claim.knots)
+    jacobians = claim.arm.jacobian(claim.knots)
     if claim.task == "pointing":  # turns about the tool's own axes
-        tools = claim.arm.forward_kinematics(claim.knots)[:, :3, :3]
-        slopes = np.concatenate([slopes[:, :3], tools.transpose(0, 2, 1) @ slopes[:, 3:]], axis=1)
-    slopes = slopes[:, rows]
-    choices = list(combinations(others, len(others) - len(rows)))
-    least = [np.linalg.svd(np.delete(slopes, [joint, *left], axis=2), compute_uv=False)[:, -1].min() for left in choices]
-    return choices[int(np.argmax(least))]
+        rotations = claim.arm.forward_kinematics(claim.knots)[:, :3, :3]
+        jacobians = np.concatenate([jacobians[:, :3], rotations.transpose(0, 2, 1) @ jacobians[:, 3:]], axis=1)
+    jacobians = jacobians[:, task_rows]
+    choices = list(combinations(others, len(others) - len(task_rows)))
+    min_singular_values = [
+        np.linalg.svd(np.delete(jacobians, [joint, *followers], axis=2), compute_uv=False)[:, -1].min() for followers in choices
+    ]
+    return choices[int(np.argmax(min_singular_values))]

@@ -1,4 +1,4 @@
-"""How tools and their axes follow joints, of many configurations at once."""
+"""Derivatives of tool positions and tool axes by the joints, for many configurations in parallel."""
 
 from __future__ import annotations
 
@@ -8,42 +8,47 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def tangents(wide: Array) -> tuple[Array, Array]:
-    """Unit vectors (N, m + 1) that matrices (N, m, m + 1) take to 0, the last number positive, and pseudo-inverses."""
+def compute_tangents(wide: Array) -> tuple[Array, Array]:
+    """Return unit vectors (N, m + 1) in the null space of matrices (N, m, m + 1), with positive last number, and
+    pseudo-inverses.
+    """
     u, sizes, v = np.linalg.svd(wide)
-    tangent, across = v[:, -1], v[:, :-1].transpose(0, 2, 1) / np.maximum(sizes, 1e-14)[:, None] @ u.transpose(0, 2, 1)
-    return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(across)
+    tangent, pseudo_inverse = v[:, -1], v[:, :-1].transpose(0, 2, 1) / np.maximum(sizes, 1e-14)[:, None] @ u.transpose(0, 2, 1)
+    return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(pseudo_inverse)
 
 
-def twice(axes: Array, columns: Array, moves: Array) -> Array:
-    """(N, 3, c, c) second derivatives of a place along the columns of moves (N, n, c)."""
+def second_derivatives(axes: Array, columns: Array, moves: Array) -> Array:
+    """Return the (N, 3, c, c) second derivatives of a position along the columns of moves (N, n, c)."""
     steps = axes[:, :, None] * moves[..., None]
-    last = np.cumsum(steps, axis=1) - steps / 2
-    half = np.cross(last[:, :, :, None], (columns[:, :, None] * moves[..., None])[:, :, None]).sum(axis=1)
-    return np.asarray((half + half.transpose(0, 2, 1, 3)).transpose(0, 3, 1, 2))
+    midpoints = np.cumsum(steps, axis=1) - steps / 2
+    half_terms = np.cross(midpoints[:, :, :, None], (columns[:, :, None] * moves[..., None])[:, :, None]).sum(axis=1)
+    return np.asarray((half_terms + half_terms.transpose(0, 2, 1, 3)).transpose(0, 3, 1, 2))
 
 
-def sideways(target: tuple[Array, ...]) -> Array:
-    """(N, 2, 3) unit vectors across the axis that is wanted."""
+def transverse_axes(target: tuple[Array, ...]) -> Array:
+    """Return (N, 2, 3) unit vectors perpendicular to the target axis."""
     return np.asarray(target[1][:, :, :2].transpose(0, 2, 1))
 
 
-def swept(at: tuple[Array, ...]) -> Array:
-    """(N, 3, n) how the tool's axis follows the joints."""
-    return np.asarray(np.cross(at[2], at[1][:, None, :, 2]).transpose(0, 2, 1))
+def axis_jacobian(tool_state: tuple[Array, ...]) -> Array:
+    """Return the (N, 3, n) Jacobian of the tool's axis by the joints."""
+    return np.asarray(np.cross(tool_state[2], tool_state[1][:, None, :, 2]).transpose(0, 2, 1))
 
 
-def axial(turn: Array) -> Array:
-    """(N, 3) the axial vectors of rotations."""
-    twice = np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1)
-    return np.asarray(twice / 2)
+def axial_vector(rotation: Array) -> Array:
+    """Return the (N, 3) axial vectors of rotations."""
+    doubled = np.stack(
+        [rotation[:, 2, 1] - rotation[:, 1, 2], rotation[:, 0, 2] - rotation[:, 2, 0], rotation[:, 1, 0] - rotation[:, 0, 1]],
+        axis=1,
+    )
+    return np.asarray(doubled / 2)
 
 
-def onto(turn: Array) -> Array:
-    """(N, 3, 3) what takes a to the axial vector of [a] R."""
-    return np.asarray((np.trace(turn, axis1=1, axis2=2)[:, None, None] * np.eye(3) - turn) / 2)
+def axial_map(rotation: Array) -> Array:
+    """Return the (N, 3, 3) maps from a to the axial vector of [a] R."""
+    return np.asarray((np.trace(rotation, axis1=1, axis2=2)[:, None, None] * np.eye(3) - rotation) / 2)
 
 
-def solved(matrix: Array, right: Array) -> Array:
-    """With a matrix that is nearly singular, something large."""
+def solve_regularized(matrix: Array, right: Array) -> Array:
+    """Solve linear systems with a small regularization; a nearly singular matrix gives a large result."""
     return np.asarray(np.linalg.solve(matrix + 1e-14 * np.eye(matrix.shape[-1]), right))

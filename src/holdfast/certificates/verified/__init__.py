@@ -1,1 +1,3 @@
-"""Parts of the verifier: standard library, NumPy and python-flint only; where the folder lies beside it, it runs alone."""
+"""Parts of the verifier; they need the standard library, NumPy and python-flint only, and run without holdfast next to
+``verifier.py``.
+"""

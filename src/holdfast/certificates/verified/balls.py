@@ -1,4 +1,4 @@
-"""Arrays of balls: true numbers, and how far from them the doubles are at most."""
+"""Arrays of balls: true numbers enclosed by doubles with error radii."""
 
 from __future__ import annotations
 
@@ -16,79 +16,82 @@ except ImportError:  # told when a file is to be checked: the sentence of a clai
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-UP, LEAST = 1 + 1e-12, 1e-300  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
+ROUND_UP, MIN_ROUNDING = (
+    1 + 1e-12,
+    1e-300,
+)  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
 
 
-class Balls:
-    """An array of true numbers, each within ``off`` of ``at``."""
+class BallArray:
+    """An array of true numbers, each within ``radius`` of ``center``."""
 
-    def __init__(self, at: Any, off: Any = 0.0) -> None:
-        self.at: Array = np.asarray(at, dtype=np.float64)
-        self.off: Array = np.broadcast_to(np.asarray(off, dtype=np.float64), self.at.shape)
+    def __init__(self, center: Any, radius: Any = 0.0) -> None:
+        self.center: Array = np.asarray(center, dtype=np.float64)
+        self.radius: Array = np.broadcast_to(np.asarray(radius, dtype=np.float64), self.center.shape)
 
-    def __getitem__(self, key: Any) -> Balls:
-        return Balls(self.at[key], self.off[key])
+    def __getitem__(self, key: Any) -> BallArray:
+        return BallArray(self.center[key], self.radius[key])
 
-    def __neg__(self) -> Balls:
-        return Balls(-self.at, self.off)
+    def __neg__(self) -> BallArray:
+        return BallArray(-self.center, self.radius)
 
-    def __add__(self, other: Balls | Array) -> Balls:
-        other = ball(other)
-        at = self.at + other.at
-        return Balls(at, (self.off + other.off + 2.0**-52 * abs(at)) * UP + LEAST)
+    def __add__(self, other: BallArray | Array) -> BallArray:
+        other = as_balls(other)
+        center = self.center + other.center
+        return BallArray(center, (self.radius + other.radius + 2.0**-52 * abs(center)) * ROUND_UP + MIN_ROUNDING)
 
-    def transposed(self, *axes: int) -> Balls:
-        """With the axes in this order."""
-        return Balls(self.at.transpose(axes), self.off.transpose(axes))
+    def transpose(self, *axes: int) -> BallArray:
+        """Permute the axes into this order."""
+        return BallArray(self.center.transpose(axes), self.radius.transpose(axes))
 
-    def signed(self, by: Any) -> Balls:
-        """Times an array of -1, 0 and 1, which rounds nothing."""
-        return Balls(self.at * by, self.off * abs(by))
+    def multiply_signs(self, signs: Any) -> BallArray:
+        """Multiply by an array of -1, 0 and 1, which causes no rounding."""
+        return BallArray(self.center * signs, self.radius * abs(signs))
 
-    def mirrored(self) -> Balls:
-        """Of square matrices, those with what is above the diagonal below it as well."""
-        upper = np.triu(np.ones(self.at.shape[-2:]))
-        half, above = self.signed(upper), self.signed(np.triu(upper, 1))
-        return Balls(half.at + above.at.swapaxes(-1, -2), half.off + above.off.swapaxes(-1, -2))
-
-    @property
-    def size(self) -> Array:
-        """Above the absolute values."""
-        return (abs(self.at) + self.off) * UP
+    def symmetrize(self) -> BallArray:
+        """Copy the part of square matrices above the diagonal to the part below it."""
+        upper = np.triu(np.ones(self.center.shape[-2:]))
+        half, strict_upper = self.multiply_signs(upper), self.multiply_signs(np.triu(upper, 1))
+        return BallArray(half.center + strict_upper.center.swapaxes(-1, -2), half.radius + strict_upper.radius.swapaxes(-1, -2))
 
     @property
-    def low(self) -> Array:
-        """Below the numbers."""
-        return np.nextafter(self.at - self.off, -np.inf)
+    def magnitude(self) -> Array:
+        """Upper bounds of the absolute values."""
+        return (abs(self.center) + self.radius) * ROUND_UP
+
+    @property
+    def lower(self) -> Array:
+        """Lower bounds of the numbers."""
+        return np.nextafter(self.center - self.radius, -np.inf)
 
 
-def ball(x: Balls | Array) -> Balls:
-    """Doubles are the numbers themselves."""
-    return x if isinstance(x, Balls) else Balls(x)
+def as_balls(x: BallArray | Array) -> BallArray:
+    """Convert doubles, which are exact numbers, to an array of balls."""
+    return x if isinstance(x, BallArray) else BallArray(x)
 
 
-def times(form: str, a: Balls | Array, b: Balls | Array) -> Balls:
-    """A product of arrays, as of ``einsum``, whose sums have at most 64 terms: each is off by less than 65 roundings."""
-    a, b = ball(a), ball(b)
-    off = np.einsum(form, abs(a.at), b.off * UP + 2.0**-46 * abs(b.at))
-    if a.off.any():
-        off += np.einsum(form, a.off, b.size)
-    return Balls(np.einsum(form, a.at, b.at), off * UP + LEAST)
+def einsum(subscripts: str, a: BallArray | Array, b: BallArray | Array) -> BallArray:
+    """Multiply arrays as ``einsum`` does, with sums of at most 64 terms, so that the error is below 65 roundings."""
+    a, b = as_balls(a), as_balls(b)
+    radius = np.einsum(subscripts, abs(a.center), b.radius * ROUND_UP + 2.0**-46 * abs(b.center))
+    if a.radius.any():
+        radius += np.einsum(subscripts, a.radius, b.magnitude)
+    return BallArray(np.einsum(subscripts, a.center, b.center), radius * ROUND_UP + MIN_ROUNDING)
 
 
-def crossed(a: Balls) -> Balls:
-    """The matrices (..., 3, 3) that take b to a x b."""
-    made = [np.zeros((*a.at.shape, 3)) for _ in range(2)]
+def cross_matrix(a: BallArray) -> BallArray:
+    """Return the matrices (..., 3, 3) that take b to a x b."""
+    arrays = [np.zeros((*a.center.shape, 3)) for _ in range(2)]
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        for x, given, sign in ((made[0], a.at, -1.0), (made[1], a.off, 1.0)):
-            x[..., i, j], x[..., j, i] = sign * given[..., k], given[..., k]
-    return Balls(*made)
+        for matrix, vector, sign in ((arrays[0], a.center, -1.0), (arrays[1], a.radius, 1.0)):
+            matrix[..., i, j], matrix[..., j, i] = sign * vector[..., k], vector[..., k]
+    return BallArray(*arrays)
 
 
-def length(x: Array, axis: int = 1) -> Array:
-    """Above the lengths of vectors."""
-    return np.asarray(np.sqrt((x**2).sum(axis=axis)) * UP + 1e-160)
+def bound_length(x: Array, axis: int = 1) -> Array:
+    """Return upper bounds of the lengths of vectors."""
+    return np.asarray(np.sqrt((x**2).sum(axis=axis)) * ROUND_UP + 1e-160)
 
 
 def solve_regular(a: Array, b: Array) -> Array:
@@ -97,22 +100,24 @@ def solve_regular(a: Array, b: Array) -> Array:
     return np.where(regular, np.linalg.solve(np.where(regular, a, np.eye(a.shape[-1])), b), np.nan)
 
 
-def joined(axis: int, *parts: Balls) -> Balls:
-    """One after the other, along an axis."""
-    return Balls(np.concatenate([x.at for x in parts], axis), np.concatenate([x.off for x in parts], axis))
+def concatenate(axis: int, *parts: BallArray) -> BallArray:
+    """Concatenate arrays along an axis."""
+    return BallArray(
+        np.concatenate([part.center for part in parts], axis), np.concatenate([part.radius for part in parts], axis)
+    )
 
 
-def stacked(parts: list[Balls]) -> Balls:
-    """Along a new axis, the second."""
-    return joined(1, *(x[:, None] for x in parts))
+def stack_second(parts: list[BallArray]) -> BallArray:
+    """Stack arrays along a new second axis."""
+    return concatenate(1, *(part[:, None] for part in parts))
 
 
-def either(which: Flags, a: Balls, b: Balls) -> Balls:
-    """Rows of the one where ``which`` (N,) says so, else of the other."""
-    mask = which.reshape(-1, *[1] * (a.at.ndim - 1))
-    return Balls(np.where(mask, a.at, b.at), np.where(mask, a.off, b.off))
+def select_rows(use_first: Flags, a: BallArray, b: BallArray) -> BallArray:
+    """Select rows of the first array where ``use_first`` (N,) is true, and of the second elsewhere."""
+    mask = use_first.reshape(-1, *[1] * (a.center.ndim - 1))
+    return BallArray(np.where(mask, a.center, b.center), np.where(mask, a.radius, b.radius))
 
 
-def above(ball: Any) -> float:
-    """A double above a ball of Arb's."""
-    return math.nextafter(float(ball.upper()), math.inf)
+def round_up(arb_ball: Any) -> float:
+    """Return a double above an Arb ball."""
+    return math.nextafter(float(arb_ball.upper()), math.inf)

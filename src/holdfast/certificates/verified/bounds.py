@@ -1,4 +1,4 @@
-"""The leaves of ceilings and floors of relative manipulability.
+"""Verification of the leaves of upper and lower bounds of relative manipulability.
 
 With the moments a_l of any wrench about the axes, relative manipulability after a lock of joint k is at most
 sqrt(A / (A + a_k^2)), A the sum of the other a_l^2. In each leaf of a ceiling a wrench that is affine in the joints shows this
@@ -16,159 +16,247 @@ from typing import Any
 
 import numpy as np
 
-from .balls import LEAST, UP, Array, Balls, Flags, above, crossed, flint, joined, length, solve_regular, stacked, times
-from .chain import Boxes, Chain, Leaf, configuration
-from .forms import need, real, unpacked
-from .taylor import Form
-from .tree import MOST_LEAVES, SPLIT, Cell, cells
+from .balls import (
+    MIN_ROUNDING,
+    ROUND_UP,
+    Array,
+    BallArray,
+    Flags,
+    bound_length,
+    concatenate,
+    cross_matrix,
+    einsum,
+    flint,
+    round_up,
+    solve_regular,
+    stack_second,
+)
+from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration
+from .forms import decompress_payload, parse_hex, require
+from .taylor import DerivativeEnclosure
+from .tree import MAX_LEAVES, SPLIT_TOKEN, Cell, iterate_cells
 
-SIX = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # rows of a screw that count
-LOCK = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
+SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # rows of a screw that count
+FIRST_LOCK_TOKEN = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
 
 
-class Screws:
-    """Axes and their moments about a point on the middle one, in boxes of joints, seen from the link in the middle.
+class ScrewEnclosure:
+    """Enclosure of the axes and their moments about a point on the middle axis, in boxes of joints, in the frame of the middle
+    link.
 
     Joints are ordered from there to the tool, then to the base. The derivative of screw l by joint j is the bracket of screws j
     and l if j is nearer, and so on with joints nearer still; before the middle with the other sign.
     """
 
-    def __init__(self, arm: Chain, joints: list[Array]) -> None:
+    def __init__(self, arm: BallChain, joints: list[Array]) -> None:
         n, middle = arm.n, arm.n // 2
-        self.order, moved = [*range(middle, n), *range(middle - 1, -1, -1)], arm.moved(joints)
-        self.half = np.stack([joints[k][:, 2] for k in self.order], 1)
+        self.order, kinematics = [*range(middle, n), *range(middle - 1, -1, -1)], arm.enclose_point(joints)
+        self.half = np.stack([joints[joint][:, 2] for joint in self.order], 1)
         self.side = np.array([1.0] * (n - middle) + [-1.0] * middle)
-        self.same = 1.0 * (self.side[:, None] == self.side)
-        self.moves = np.tril(self.same, -1)  # axis l by joint j
-        z, path, last = moved.axes[:, self.order], list[Balls](), moved.tip
+        self.same_side = 1.0 * (self.side[:, None] == self.side)
+        self.moves = np.tril(self.same_side, -1)  # axis l by joint j
+        z, axis_points, previous = kinematics.axes[:, self.order], list[BallArray](), kinematics.tip
         links = np.zeros(self.half.shape)
-        for j, k in enumerate(self.order):  # any point of an axis will do: one that is near the one before
-            last, at = path[0] if j == n - middle else last, moved.places[:, k]
-            path.append(at + times("n,na->na", np.nan_to_num(((last.at - at.at) * z.at[:, j]).sum(axis=1)), z[:, j]))
-            links[:, j], last = length((path[j] + -last).size), path[j]
-        away = stacked(path) + -path[0][:, None]
-        v = times("nlij,nlj->nli", crossed(away), z)
-        spin, shift, none = crossed(z), crossed(v), Balls(np.zeros((*z.at.shape, 3)))
-        self.screw, self.operator = joined(2, z, v), joined(2, joined(3, spin, none), joined(3, shift, spin))
+        for index, joint in enumerate(self.order):  # any point of an axis will do: one that is near the one before
+            previous, points = axis_points[0] if index == n - middle else previous, kinematics.points[:, joint]
+            axis_points.append(
+                points
+                + einsum(
+                    "n,na->na", np.nan_to_num(((previous.center - points.center) * z.center[:, index]).sum(axis=1)), z[:, index]
+                )
+            )
+            links[:, index], previous = bound_length((axis_points[index] + -previous).magnitude), axis_points[index]
+        offsets = stack_second(axis_points) + -axis_points[0][:, None]
+        moments = einsum("nlij,nlj->nli", cross_matrix(offsets), z)
+        spin, shift, zeros = cross_matrix(z), cross_matrix(moments), BallArray(np.zeros((*z.center.shape, 3)))
+        self.screws, self.operators = (
+            concatenate(2, z, moments),
+            concatenate(2, concatenate(3, spin, zeros), concatenate(3, shift, spin)),
+        )
         # (N, j, l, 6), of which the second derivative by i and j is the bracket with i.
-        self.bracket = times("njab,nlb->njla", self.operator, self.screw).signed(self.moves.T[:, :, None])
+        self.brackets = einsum("njab,nlb->njla", self.operators, self.screws).multiply_signs(self.moves.T[:, :, None])
         # A link of the path to an axis goes with the joints between the middle and it.
         c = self.half @ self.moves.T
-        one, two, three = ((links * c**power) @ (self.moves + np.eye(n)).T for power in (1, 2, 3))
-        far = length(away.size, 2) + one
-        left = [(c**2, two + 2 * one * c + far * c**2), (c**3 / 3, (three + 3 * two * c + 3 * one * c**2 + far * c**3) / 3)]
+        first_sum, second_sum, third_sum = ((links * c**power) @ (self.moves + np.eye(n)).T for power in (1, 2, 3))
+        distances = bound_length(offsets.magnitude, 2) + first_sum
+        remainders = [
+            (c**2, second_sum + 2 * first_sum * c + distances * c**2),
+            (c**3 / 3, (third_sum + 3 * second_sum * c + 3 * first_sum * c**2 + distances * c**3) / 3),
+        ]
         # Above what is left behind first order, and behind second; (N, n, 6).
-        self.second, self.third = (np.stack([x] * 3 + [y] * 3, 2) / 2 * UP + LEAST for x, y in left)
+        self.second_remainder, self.third_remainder = (
+            np.stack([axis_part] * 3 + [moment_part] * 3, 2) / 2 * ROUND_UP + MIN_ROUNDING
+            for axis_part, moment_part in remainders
+        )
 
 
-class Wrenches(Boxes):
-    """The leaves of a ceiling of relative manipulability; each has a joint whose lock costs enough."""
+class CeilingVerifier(LeafVerifier):
+    """Verifier of an upper bound of relative manipulability; each leaf has a joint whose lock reduces it enough."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document, document["joint_box"])
-        self.arm = Chain(document["arm"], document["task"] == "planar-pose")
-        self.threshold, self.rows, self.locks = real(document["threshold"]), SIX[document["task"]], document["locks"]
+        self.arm = BallChain(document["arm"], document["task"] == "planar-pose")
+        self.threshold, self.screw_rows, self.locks = (
+            parse_hex(document["threshold"]),
+            SCREW_ROWS[document["task"]],
+            document["locks"],
+        )
 
-    def leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """How many there are, which cells are undecided, and the leaves, each with a joint, or 0 of a floor."""
-        tree, n = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree"), self.arm.n
-        good = {LOCK + k for k in self.locks} if document["kind"] == "ceiling" else {0}
-        need(set(tree) <= good | {2, *range(SPLIT, SPLIT + n)}, "a token of the tree is unknown, or not among the locks")
-        undecided = [cell for token, cell in cells(tree, n, 2, LOCK) if token == 2]
+    def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
+        """Return the number of leaves, the undecided cells, and an iterator of the leaves, each with a joint, or 0 for a lower
+        bound.
+        """
+        tree, n = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"), self.arm.n
+        valid_tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
+        require(
+            set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)},
+            "a token of the tree is unknown, or not among the locks",
+        )
+        undecided = [cell for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN) if token == 2]
 
-        def leaves() -> Iterator[Leaf]:
-            return ((cell, max(token - LOCK, 0)) for token, cell in cells(tree, n, 2, LOCK) if token != 2)
+        def iterate_leaves() -> Iterator[Leaf]:
+            return (
+                (cell, max(token - FIRST_LOCK_TOKEN, 0))
+                for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN)
+                if token != 2
+            )
 
-        return sum(tree.count(token) for token in good), undecided, leaves
+        return sum(tree.count(token) for token in valid_tokens), undecided, iterate_leaves
 
-    def proves(self, kind: int, leaves: list[Leaf]) -> Flags:
-        """Whether a lock of one joint costs enough, in leaves that say so."""
-        x, c = Screws(self.arm, self.middles(cell for cell, _ in leaves)), self.threshold
-        k, half, moves = x.order.index(kind), x.half, x.bracket.signed(x.side[:, None, None])
-        y, turn = self.wrench(x, k)
-        slopes = times("njla,na->nlj", moves, y) + times("nla,naj->nlj", x.screw, turn)
-        cross = times("nai,njla->nlij", turn, moves)
-        twice = times("nib,njlb->nlij", times("niab,na->nib", x.operator, y), x.bracket).signed(x.moves[:, :, None])
-        second = twice.mirrored() + cross + cross.transposed(0, 1, 3, 2)
-        form = Form(times("nla,na->nl", x.screw, y), slopes, second)
-        rest = sum(
-            (length(turn[:, part]) * half).sum(axis=1)[:, None] * x.second[:, :, part.start]
-            + length(y[:, part])[:, None] * x.third[:, :, part.start]
+    def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
+        """Return a mask of the leaves in which a lock of joint ``kind`` reduces relative manipulability enough."""
+        screws, threshold = ScrewEnclosure(self.arm, self.enclose_centers(cell for cell, _ in leaves)), self.threshold
+        position, half, moves = (
+            screws.order.index(kind),
+            screws.half,
+            screws.brackets.multiply_signs(screws.side[:, None, None]),
+        )
+        y, wrench_rate = self.choose_wrench(screws, position)
+        gradients = einsum("njla,na->nlj", moves, y) + einsum("nla,naj->nlj", screws.screws, wrench_rate)
+        cross_terms = einsum("nai,njla->nlij", wrench_rate, moves)
+        second_brackets = einsum("nib,njlb->nlij", einsum("niab,na->nib", screws.operators, y), screws.brackets).multiply_signs(
+            screws.moves[:, :, None]
+        )
+        second = second_brackets.symmetrize() + cross_terms + cross_terms.transpose(0, 1, 3, 2)
+        form = DerivativeEnclosure(einsum("nla,na->nl", screws.screws, y), gradients, second)
+        remainder = sum(
+            (bound_length(wrench_rate[:, part]) * half).sum(axis=1)[:, None] * screws.second_remainder[:, :, part.start]
+            + bound_length(y[:, part])[:, None] * screws.third_remainder[:, :, part.start]
             for part in (slice(0, 3), slice(3, 6))
         )
-        others = form.most(half, rest)
-        least = np.maximum(np.nextafter(form.value.low - (form.loss(half)[0] + rest) * UP, -np.inf)[:, k], 0)
-        others[:, k] = 0
-        high, low = (others**2).sum(axis=1) * ((1 - c) * (1 + c)) * UP, c**2 * least**2 * (1 - 1e-12)
-        return np.asarray((high < low) & (least > 1e-100))
+        moments = form.bound_magnitude(half, remainder)
+        own_moment = np.maximum(
+            np.nextafter(form.value.lower - (form.bound_change(half)[0] + remainder) * ROUND_UP, -np.inf)[:, position], 0
+        )
+        moments[:, position] = 0
+        upper, lower = (
+            (moments**2).sum(axis=1) * ((1 - threshold) * (1 + threshold)) * ROUND_UP,
+            threshold**2 * own_moment**2 * (1 - 1e-12),
+        )
+        return np.asarray((upper < lower) & (own_moment > 1e-100))
 
-    def wrench(self, x: Screws, k: int) -> tuple[Array, Array]:
-        """Any wrench y (N, 6), and how it follows the joints (N, 6, n): such that other moments hardly change."""
-        own, others = x.screw.at[:, k], np.delete(x.screw.at, k, axis=1)
-        counts = (x.half * x.moves.any(axis=0)).max(axis=1)
-        gram = np.einsum("nla,nlb->nab", others, others) + (0.01 * counts**2 + 1e-30)[:, None, None] * np.eye(6)
-        y = solve_regular(gram, own[:, :, None])[:, :, 0]
-        y = y / (y * own).sum(axis=1)[:, None]
-        slopes = np.einsum("njla,na->nlj", x.bracket.at, y) * x.side
-        turn = -solve_regular(gram, np.einsum("nla,nlj->naj", others, np.delete(slopes, k, axis=1)))
-        turn = turn - y[:, :, None] * (np.einsum("na,naj->nj", own, turn) + slopes[:, k])[:, None]
-        return np.nan_to_num(y), np.nan_to_num(turn)
+    def choose_wrench(self, screws: ScrewEnclosure, k: int) -> tuple[Array, Array]:
+        """Choose a wrench y (N, 6) and its derivatives by the joints (N, 6, n) such that the other moments hardly change; any
+        choice is valid.
+        """
+        own_screw, other_screws = screws.screws.center[:, k], np.delete(screws.screws.center, k, axis=1)
+        moving_half = (screws.half * screws.moves.any(axis=0)).max(axis=1)
+        gram = np.einsum("nla,nlb->nab", other_screws, other_screws) + (0.01 * moving_half**2 + 1e-30)[:, None, None] * np.eye(
+            6
+        )
+        y = solve_regular(gram, own_screw[:, :, None])[:, :, 0]
+        y = y / (y * own_screw).sum(axis=1)[:, None]
+        gradients = np.einsum("njla,na->nlj", screws.brackets.center, y) * screws.side
+        wrench_rate = -solve_regular(gram, np.einsum("nla,nlj->naj", other_screws, np.delete(gradients, k, axis=1)))
+        wrench_rate = wrench_rate - y[:, :, None] * (np.einsum("na,naj->nj", own_screw, wrench_rate) + gradients[:, k])[:, None]
+        return np.nan_to_num(y), np.nan_to_num(wrench_rate)
 
-    def occurs(self, q: list[str]) -> tuple[float, float]:
-        """Around the least relative manipulability at a configuration: its square is 1 - J_k' (JJ')^-1 J_k."""
-        inside = all(real(a) <= real(x) <= real(b) for x, (a, b) in zip(q, self._given["joint_box"], strict=True))
-        need(inside, "the configuration that was found is outside of the box")
+    def enclose_attained(self, q: list[str]) -> tuple[float, float]:
+        """Enclose the least relative manipulability at a configuration, whose square is 1 - J_k' (JJ')^-1 J_k."""
+        inside = all(
+            parse_hex(a) <= parse_hex(x) <= parse_hex(b) for x, (a, b) in zip(q, self._document["joint_box"], strict=True)
+        )
+        require(inside, "the configuration that was found is outside of the box")
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
-            moved = self.arm.moved(configuration(q))
-            made = joined(2, moved.axes, moved.columns)[0][:, self.rows].transposed(1, 0)
-            entries = [flint.arb(float(x), float(e)) for x, e in zip(made.at.flat, made.off.flat, strict=True)]
-            jacobian = flint.arb_mat(*made.at.shape, entries)
+            kinematics = self.arm.enclose_point(enclose_configuration(q))
+            columns = concatenate(2, kinematics.axes, kinematics.columns)[0][:, self.screw_rows].transpose(1, 0)
+            entries = [
+                flint.arb(float(x), float(radius)) for x, radius in zip(columns.center.flat, columns.radius.flat, strict=True)
+            ]
+            jacobian = flint.arb_mat(*columns.center.shape, entries)
             try:
-                solved = (jacobian * jacobian.transpose()).solve(jacobian)
+                solution = (jacobian * jacobian.transpose()).solve(jacobian)
             except ZeroDivisionError:
                 return 0.0, 1.0
-            kept = [1 - sum(jacobian[i, k] * solved[i, k] for i in range(len(self.rows))) for k in self.locks]
-            low, high = max(0.0, -max(above(-x) for x in kept)), max(0.0, min(above(x) for x in kept))
-        return math.sqrt(low) * (1 - 1e-15), math.sqrt(high) * (1 + 1e-15)
+            squares = [1 - sum(jacobian[i, k] * solution[i, k] for i in range(len(self.screw_rows))) for k in self.locks]
+            lower, upper = max(0.0, -max(round_up(-x) for x in squares)), max(0.0, min(round_up(x) for x in squares))
+        return math.sqrt(lower) * (1 - 1e-15), math.sqrt(upper) * (1 + 1e-15)
 
 
-class Motions(Wrenches):
-    """The leaves of a floor; each has a motion that keeps the tool where it is."""
+class FloorVerifier(CeilingVerifier):
+    """Verifier of a lower bound of relative manipulability; each leaf has a motion that keeps the tool in place."""
 
-    def proves(self, kind: int, leaves: list[Leaf]) -> Flags:
-        """Whether all locks leave enough."""
-        x = Screws(self.arm, self.middles(cell for cell, _ in leaves))
-        locks, n = [x.order.index(k) for k in self.locks], self.arm.n
-        jacobian = np.nan_to_num(x.screw.at[:, :, self.rows].transpose(0, 2, 1))
+    def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
+        """Return a mask of the leaves in which the bound holds after all locks."""
+        screws = ScrewEnclosure(self.arm, self.enclose_centers(cell for cell, _ in leaves))
+        positions, n = [screws.order.index(position) for position in self.locks], self.arm.n
+        jacobian = np.nan_to_num(screws.screws.center[:, :, self.screw_rows].transpose(0, 2, 1))
         inverse = np.nan_to_num(np.linalg.pinv(jacobian))
-        if n - len(self.rows) == 1:
-            return self.enough(x, np.linalg.svd(jacobian)[2][:, -1], inverse, locks)
-        onto = np.eye(n) - inverse @ jacobian
-        return np.asarray(np.all([self.enough(x, onto[:, :, k], inverse, [k]) for k in locks], axis=0))
+        if n - len(self.screw_rows) == 1:
+            return self.verify_null_motion(screws, np.linalg.svd(jacobian)[2][:, -1], inverse, positions)
+        null_projector = np.eye(n) - inverse @ jacobian
+        return np.asarray(
+            np.all(
+                [
+                    self.verify_null_motion(screws, null_projector[:, :, position], inverse, [position])
+                    for position in positions
+                ],
+                axis=0,
+            )
+        )
 
-    def enough(self, x: Screws, nu: Array, inverse: Array, locks: list[int]) -> Flags:
-        """Whether some nu + N (q - q_c) + P s keeps the tool still all over the leaf, and its parts are large enough."""
-        nu, half, rows = np.nan_to_num(nu / length(nu)[:, None]), x.half, self.rows
-        moves, screw = x.bracket.signed(x.side[:, None, None])[..., rows], x.screw[..., rows]
-        u = times("njlb,nl->njb", x.bracket, nu)
-        slopes = u.signed(x.side[:, None])[:, :, rows].transposed(0, 2, 1)
-        follow = np.nan_to_num(-np.einsum("nlb,nbj->nlj", inverse, slopes.at))
-        cross = times("njlb,nli->nbij", moves, follow)
-        twice = times("niab,njb->naij", x.operator, u)[:, rows].signed(x.same).mirrored()
-        slopes, second = slopes + times("nlb,nlj->nbj", screw, follow), twice + cross + cross.transposed(0, 1, 3, 2)
-        far = np.einsum("nlj,nj->nl", abs(follow), half) * UP
-        rest = np.einsum("nl,nlb->nb", abs(nu), x.third[..., rows]) + np.einsum("nl,nlb->nb", far, x.second[..., rows])
-        off = Form(times("nlb,nl->nb", screw, nu), slopes, second).most(half, rest * UP)
-        whole = times("nlb,nlc->nbc", screw, inverse) + -np.eye(len(rows))
-        miss = whole.size + np.einsum("njbc,nj->nbc", times("njlb,nlc->njbc", moves, inverse).size, half)
-        miss = (miss + np.einsum("nlb,nlc->nbc", x.second[..., rows], abs(inverse))) * UP + LEAST
-        s = off
+    def verify_null_motion(self, screws: ScrewEnclosure, nu: Array, inverse: Array, positions: list[int]) -> Flags:
+        """Return a mask of leaves all over which some nu + N (q - q_c) + P s keeps the tool still and has large enough
+        components.
+        """
+        nu, half, rows = np.nan_to_num(nu / bound_length(nu)[:, None]), screws.half, self.screw_rows
+        moves, screw = screws.brackets.multiply_signs(screws.side[:, None, None])[..., rows], screws.screws[..., rows]
+        motion_brackets = einsum("njlb,nl->njb", screws.brackets, nu)
+        gradients = motion_brackets.multiply_signs(screws.side[:, None])[:, :, rows].transpose(0, 2, 1)
+        response = np.nan_to_num(-np.einsum("nlb,nbj->nlj", inverse, gradients.center))
+        cross_terms = einsum("njlb,nli->nbij", moves, response)
+        second_brackets = (
+            einsum("niab,njb->naij", screws.operators, motion_brackets)[:, rows].multiply_signs(screws.same_side).symmetrize()
+        )
+        gradients, second = (
+            gradients + einsum("nlb,nlj->nbj", screw, response),
+            second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2),
+        )
+        joint_travel = np.einsum("nlj,nj->nl", abs(response), half) * ROUND_UP
+        remainder = np.einsum("nl,nlb->nb", abs(nu), screws.third_remainder[..., rows]) + np.einsum(
+            "nl,nlb->nb", joint_travel, screws.second_remainder[..., rows]
+        )
+        residual = DerivativeEnclosure(einsum("nlb,nl->nb", screw, nu), gradients, second).bound_magnitude(
+            half, remainder * ROUND_UP
+        )
+        identity_error = einsum("nlb,nlc->nbc", screw, inverse) + -np.eye(len(rows))
+        contraction = identity_error.magnitude + np.einsum(
+            "njbc,nj->nbc", einsum("njlb,nlc->njbc", moves, inverse).magnitude, half
+        )
+        contraction = (
+            contraction + np.einsum("nlb,nlc->nbc", screws.second_remainder[..., rows], abs(inverse))
+        ) * ROUND_UP + MIN_ROUNDING
+        s = residual
         for _ in range(12):
-            s = 1.02 * (off + np.einsum("nbc,nc->nb", miss, s)) + 1e-15
+            s = 1.02 * (residual + np.einsum("nbc,nc->nb", contraction, s)) + 1e-15
         # s -> s - J x sends its box into itself; and as miss s < s, J P has an inverse everywhere: nothing is singular.
-        closed = ((off + np.einsum("nbc,nc->nb", miss, s)) * UP < s).all(axis=1) & (s < 1e3).all(axis=1)
-        shift = np.einsum("nlb,nb->nl", abs(inverse), s) * UP
-        long = (nu**2).sum(axis=1) + 2 * (times("nl,nlj->nj", nu, follow).size * half).sum(axis=1) + (far**2).sum(axis=1)
-        long = (np.sqrt(long * UP) + length(shift)) * UP
-        least = np.nextafter(abs(nu) - (far + shift) * UP, -np.inf)[:, locks].min(axis=1)
-        return np.asarray(closed & (least > 1e-100) & (least > self.threshold * long * UP))
+        is_closed = ((residual + np.einsum("nbc,nc->nb", contraction, s)) * ROUND_UP < s).all(axis=1) & (s < 1e3).all(axis=1)
+        shift = np.einsum("nlb,nb->nl", abs(inverse), s) * ROUND_UP
+        norm_bound = (
+            (nu**2).sum(axis=1)
+            + 2 * (einsum("nl,nlj->nj", nu, response).magnitude * half).sum(axis=1)
+            + (joint_travel**2).sum(axis=1)
+        )
+        norm_bound = (np.sqrt(norm_bound * ROUND_UP) + bound_length(shift)) * ROUND_UP
+        min_component = np.nextafter(abs(nu) - (joint_travel + shift) * ROUND_UP, -np.inf)[:, positions].min(axis=1)
+        return np.asarray(is_closed & (min_component > 1e-100) & (min_component > self.threshold * norm_bound * ROUND_UP))

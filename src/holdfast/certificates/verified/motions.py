@@ -1,4 +1,4 @@
-"""Paths: after a lock at any instant, one continuous motion finishes the path of the tool.
+"""Verification of path claims: after a lock at any instant, one continuous motion finishes the path of the tool.
 
 The healthy motion goes along straight segments from knot to knot. Whole numbers count its instants, 2^20 to a segment. A slab
 is an interval of lock instants; cells are intervals of the path, from the slab to the end. In a cell the error g is that of
@@ -26,203 +26,265 @@ from typing import Any
 
 import numpy as np
 
-from .balls import LEAST, UP, Array, Balls, Flags, either, flint, joined, solve_regular, times
-from .chain import Chain, exactly, turned
-from .forms import TASKS, real
-from .paths import SEGMENT, UNIT, Ints, Slab
-from .taylor import Error, Inclusion
+from .balls import MIN_ROUNDING, ROUND_UP, Array, BallArray, Flags, concatenate, einsum, flint, select_rows, solve_regular
+from .chain import BallChain, enclose_angle, enclose_values
+from .forms import TASK_FORMS, parse_hex
+from .paths import PATH_CENTER_UNIT, SEGMENT_INSTANTS, Ints, StoredSlab
+from .taylor import Inclusion, TaskErrorEnclosure
 
-AT_ONCE = 256  # cells
-_WIDER = 0.25 * 0.5 ** np.arange(27)  # of section boxes, tried one after the other
+BATCH_CELLS = 256  # cells
+_UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of section boxes, tried one after the other
 
 
-class Motion:
-    """The healthy motion of a path, exactly: from knot to knot along straight segments."""
+class HealthyMotion:
+    """The exact healthy motion of a path: straight segments from knot to knot."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         payloads = {"cells": "", "centres": "", "refutations": []}
-        self._given = document | {"locks": [lock | payloads for lock in document["locks"]]}
-        self.task, self.knots = document["task"], np.array([[real(x) for x in knot] for knot in document["knots"]])
-        self._exact = [[Fraction(x) for x in knot] for knot in self.knots.tolist()]
+        self._document = document | {"locks": [lock | payloads for lock in document["locks"]]}
+        self.task, self.knots = (
+            document["task"],
+            np.array([[parse_hex(number) for number in knot] for knot in document["knots"]]),
+        )
+        self._exact_knots = [[Fraction(number) for number in knot] for knot in self.knots.tolist()]
 
     def __reduce__(self) -> tuple[Any, ...]:  # to another process
-        return type(self), (self._given,)
+        return type(self), (self._document,)
 
-    def joints(self, twice: int, segment: int) -> list[Fraction]:
-        """Where they are at half of an instant, of a segment."""
-        part = Fraction(twice, 2 * SEGMENT) - segment
-        return [a + (b - a) * part for a, b in zip(*self._exact[segment : segment + 2], strict=True)]
+    def interpolate_joints(self, doubled_instant: int, segment: int) -> list[Fraction]:
+        """Return the exact joint values at half of ``doubled_instant`` in a segment."""
+        fraction = Fraction(doubled_instant, 2 * SEGMENT_INSTANTS) - segment
+        return [start + (end - start) * fraction for start, end in zip(*self._exact_knots[segment : segment + 2], strict=True)]
 
 
-class Faults(Motion):
-    """What slabs of a path do not prove."""
+class PathVerifier(HealthyMotion):
+    """Verifier of the slabs of a path."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document)
-        linear, turning, _ = TASKS[self.task]
-        self.m, self.chain = linear + turning, Chain(document["arm"], self.task == "planar-pose")
-        self.n, self._known = self.chain.n, dict[tuple[int, int], Array]()
-        self.limits = np.array([[real(x) for x in pair] for pair in document["limits"]])
-        metres, radians = (real(x) for x in document["tube"])
+        linear, turning, _ = TASK_FORMS[self.task]
+        self.m, self.chain = linear + turning, BallChain(document["arm"], self.task == "planar-pose")
+        self.n, self._cache = self.chain.n, dict[tuple[int, int], Array]()
+        self.limits = np.array([[parse_hex(number) for number in pair] for pair in document["limits"]])
+        metres, radians = (parse_hex(number) for number in document["tube"])
         self.tube = np.array([metres] * linear + [radians] * turning) if metres or radians else np.empty(0)
-        self.still = [[lock["joint"], *lock["followers"]] for lock in document["locks"]]
+        self.driven = [[lock["joint"], *lock["followers"]] for lock in document["locks"]]
 
-    def healthy(self, middles: Ints, ends: Ints) -> tuple[list[Array], Balls]:
-        """Joints of the healthy motion at middles (twice the instants), as :func:`turned` has them, and their rates.
+    def enclose_motion(self, middles: Ints, ends: Ints) -> tuple[list[Array], BallArray]:
+        """Return the joints of the healthy motion at middles (twice the instants), as :func:`enclose_angle` gives them, and
+        their rates.
 
         Rates are those over the segments of ends.
         """
-        segment, found = (ends - 1) // SEGMENT, []
+        segment, rows = (ends - 1) // SEGMENT_INSTANTS, []
         for key in zip(segment.tolist(), middles.tolist(), strict=True):
-            if key not in self._known:
-                self._known[key] = np.array([turned(x) for x in self.joints(key[1], key[0])])
-            found.append(self._known[key])
-        return list(np.array(found).transpose(1, 0, 2)), Balls(self.knots[segment + 1]) + -self.knots[segment]
+            if key not in self._cache:
+                self._cache[key] = np.array([enclose_angle(number) for number in self.interpolate_joints(key[1], key[0])])
+            rows.append(self._cache[key])
+        return list(np.array(rows).transpose(1, 0, 2)), BallArray(self.knots[segment + 1]) + -self.knots[segment]
 
-    def section(self, slope: Array, rates: tuple[Balls, Balls], still: list[int], turned: Flags) -> tuple[Balls, Balls]:
-        """D (N, 2n, 2 + tube + m), and how free joints, then the place on the path follow its columns (N, f + 1, ...).
+    def choose_section(
+        self, gradients: Array, rates: tuple[BallArray, BallArray], driven: list[int], is_tangent: Flags
+    ) -> tuple[BallArray, BallArray]:
+        """Choose D (N, 2n, 2 + tube + m), and the response of the free joints and the path position to its columns (N, f + 1,
+        ...).
 
         Any numbers will do. Of a turned cell the path is followed along the tangent of the locked arm's motion, and the place
         on it is one more of what the section moves.
         """
-        tube, free, (locked, path) = len(self.tube), [k for k in range(self.n) if k not in still], rates
-        slope, only, follows = np.nan_to_num(slope), np.arange(self.n) == still[0], np.isin(np.arange(2 * self.n), still[1:])
-        driven = joined(1, path, path[:, ::-1]).signed(follows | (np.arange(2 * self.n) >= self.n))
-        jacobian, drift = slope[:, :, free], np.einsum("nmk,nk->nm", slope[:, :, : self.n], locked.at * only)
-        ahead = np.einsum("nmk,nk->nm", slope, driven.at)
-        wide, good = np.concatenate([jacobian, ahead[:, :, None]], axis=2), abs(np.linalg.det(jacobian)) > 1e-12
-        across = np.linalg.inv(np.where(good[:, None, None], jacobian, np.eye(self.m)))
-        tangent = np.pad(-np.einsum("nfm,nm->nf", across, ahead), ((0, 0), (0, 1)), constant_values=1.0)
-        across = np.pad(across, ((0, 0), (0, 1), (0, 0)))
-        if turned.any():
-            across[turned], most = np.linalg.pinv(wide[turned]), np.linalg.svd(wide[turned])[2][:, -1]
-            tangent[turned] = most * np.where(most[:, -1:] < 0, -1.0, 1.0)
-        beside = turned * ((tangent[:, :-1] * locked.at[:, free]).sum(axis=1) + tangent[:, -1])
-        begin = tangent * beside[:, None] - np.einsum("nfm,nm->nf", across, drift)
-        own = np.concatenate([np.stack([begin, tangent], 2), across[:, :, :tube], across], axis=2)
-        own, moved = np.nan_to_num(own), np.zeros((len(slope), 2 * self.n, own.shape[2]))
-        moved[:, free] = own[:, :-1]
-        lock = times("nk,c->nkc", joined(1, locked.signed(only), path.signed(0)), 1.0 * (np.arange(own.shape[2]) == 0))
-        return times("nk,nc->nkc", driven, own[:, -1]) + lock + moved, Balls(own)
+        tube, free, (locked, path) = len(self.tube), [joint for joint in range(self.n) if joint not in driven], rates
+        gradients, lock_mask, is_follower = (
+            np.nan_to_num(gradients),
+            np.arange(self.n) == driven[0],
+            np.isin(np.arange(2 * self.n), driven[1:]),
+        )
+        driven_rates = concatenate(1, path, path[:, ::-1]).multiply_signs(is_follower | (np.arange(2 * self.n) >= self.n))
+        jacobian, drift = gradients[:, :, free], np.einsum("nmk,nk->nm", gradients[:, :, : self.n], locked.center * lock_mask)
+        path_gradient = np.einsum("nmk,nk->nm", gradients, driven_rates.center)
+        extended, is_regular = (
+            np.concatenate([jacobian, path_gradient[:, :, None]], axis=2),
+            abs(np.linalg.det(jacobian)) > 1e-12,
+        )
+        pseudo_inverse = np.linalg.inv(np.where(is_regular[:, None, None], jacobian, np.eye(self.m)))
+        tangent = np.pad(-np.einsum("nfm,nm->nf", pseudo_inverse, path_gradient), ((0, 0), (0, 1)), constant_values=1.0)
+        pseudo_inverse = np.pad(pseudo_inverse, ((0, 0), (0, 1), (0, 0)))
+        if is_tangent.any():
+            pseudo_inverse[is_tangent], null_vectors = (
+                np.linalg.pinv(extended[is_tangent]),
+                np.linalg.svd(extended[is_tangent])[2][:, -1],
+            )
+            tangent[is_tangent] = null_vectors * np.where(null_vectors[:, -1:] < 0, -1.0, 1.0)
+        lock_speed = is_tangent * ((tangent[:, :-1] * locked.center[:, free]).sum(axis=1) + tangent[:, -1])
+        lock_response = tangent * lock_speed[:, None] - np.einsum("nfm,nm->nf", pseudo_inverse, drift)
+        response = np.concatenate([np.stack([lock_response, tangent], 2), pseudo_inverse[:, :, :tube], pseudo_inverse], axis=2)
+        response, free_motion = np.nan_to_num(response), np.zeros((len(gradients), 2 * self.n, response.shape[2]))
+        free_motion[:, free] = response[:, :-1]
+        lock_motion = einsum(
+            "nk,c->nkc",
+            concatenate(1, locked.multiply_signs(lock_mask), path.multiply_signs(0)),
+            1.0 * (np.arange(response.shape[2]) == 0),
+        )
+        return einsum("nk,nc->nkc", driven_rates, response[:, -1]) + lock_motion + free_motion, BallArray(response)
 
-    def slopes(self, cells: Inclusion, half: Array) -> Array:
-        """(N, m, 1 + m) above the slopes of g - s by the path and by s."""
-        last, error = [1, *range(half.shape[1] - self.m, half.shape[1])], cells.error
-        far = np.einsum("nkc,nc->nk", cells.reach, half) * UP
-        slope = cells.form.steep[:, :, last] + np.einsum("nabk,nk->nab", cells.form.curved[:, :, last], half)
-        turned = np.zeros(slope[:, 0].shape)
-        ways = zip(error.halves(far), error.halves(cells.reach), strict=True)
-        for (chain, out, way), (_, _, every) in ways:
-            by = every[:, :, last]
-            c, own = np.cumsum(way * ~chain.slides, axis=1) * UP, np.cumsum(by * ~chain.slides[:, None], axis=1) * UP
-            slid = way * chain.slides
+    def bound_gradients(self, cells: Inclusion, half: Array) -> Array:
+        """Bound the gradients (N, m, 1 + m) of g - s by the path and by s."""
+        columns, error = [1, *range(half.shape[1] - self.m, half.shape[1])], cells.error
+        joint_travel = np.einsum("nkc,nc->nk", cells.response, half) * ROUND_UP
+        gradients = cells.form.gradient_magnitude[:, :, columns] + np.einsum(
+            "nabk,nk->nab", cells.form.curvature_magnitude[:, :, columns], half
+        )
+        angle_gradient = np.zeros(gradients[:, 0].shape)
+        chain_terms = zip(error.split_by_chain(joint_travel), error.split_by_chain(cells.response), strict=True)
+        for (chain, slide_extent, travel), (_, _, responses) in chain_terms:
+            response = responses[:, :, columns]
+            c, cumulative = (
+                np.cumsum(travel * ~chain.slides, axis=1) * ROUND_UP,
+                np.cumsum(response * ~chain.slides[:, None], axis=1) * ROUND_UP,
+            )
+            slide_range = travel * chain.slides
             # What a slide goes out by, d, counts first order already: its slope by a turn changes by d c, whatever c is.
-            most = (chain.whole + abs(out) * chain.slides) * c**2 + 2 * c * slid
-            third = np.einsum("nk,nkb->nb", most, own) + np.einsum("nk,nkb->nb", c**2, by * chain.slides[:, None])
-            slope[:, : error.linear] += third[:, None] / 2
-            turned += own[:, -1]
-        slope[:, error.linear :] += (turned * cells.error.rest(far)[1][:, None] ** 2 / 2)[:, None]
-        return np.asarray(slope * UP * UP + LEAST)
+            weights = (chain.link_lengths + abs(slide_extent) * chain.slides) * c**2 + 2 * c * slide_range
+            third = np.einsum("nk,nkb->nb", weights, cumulative) + np.einsum(
+                "nk,nkb->nb", c**2, response * chain.slides[:, None]
+            )
+            gradients[:, : error.linear] += third[:, None] / 2
+            angle_gradient += cumulative[:, -1]
+        gradients[:, error.linear :] += (angle_gradient * cells.error.bound_remainder(joint_travel)[1][:, None] ** 2 / 2)[
+            :, None
+        ]
+        return np.asarray(gradients * ROUND_UP * ROUND_UP + MIN_ROUNDING)
 
-    def contracts(self, cells: Inclusion, s: Array) -> Flags:
-        """Whether s -> s - g moves any two points of the box nearer to each other."""
-        slope = self.slopes(cells, np.concatenate([cells.w[:, : -self.m], s], axis=1))[:, :, 1:]
-        return np.asarray((np.einsum("nab,nb->na", slope, s) * UP + LEAST < 0.999 * s).all(axis=1))
+    def is_contraction(self, cells: Inclusion, s: Array) -> Flags:
+        """Return a mask of cells in which s -> s - g moves any two points of the box closer to each other."""
+        gradients = self.bound_gradients(cells, np.concatenate([cells.half_widths[:, : -self.m], s], axis=1))[:, :, 1:]
+        return np.asarray((np.einsum("nab,nb->na", gradients, s) * ROUND_UP + MIN_ROUNDING < 0.999 * s).all(axis=1))
 
-    def forward(self, cells: Inclusion, own: Balls, place: Array) -> Flags:
-        """Whether turned cells only go forward on the path, and end within the segment; place (N,) from the end of that.
+    def moves_forward(self, cells: Inclusion, response: BallArray, overshoot: Array) -> Flags:
+        """Return a mask of tangent cells that only go forward on the path and end within their segment; ``overshoot`` (N,) is
+        measured from its end.
 
         As motions begin in it, they stay there. Where slopes by s are at most M, and by the path at most b, the solution moves
         by at most u if b + M u <= u.
         """
-        slope = self.slopes(cells, cells.w)
-        b, inner = slope[:, :, 0], slope[:, :, 1:]
+        gradients = self.bound_gradients(cells, cells.half_widths)
+        b, inner = gradients[:, :, 0], gradients[:, :, 1:]
         u = solve_regular(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
-        found = (u >= 0).all(axis=1) & ((b + np.einsum("nab,nb->na", inner, u) * UP) * UP + LEAST <= u).all(axis=1)
-        slower = np.einsum("nb,nb->n", abs(own.at[:, -1, -self.m :]), u) * UP
-        off = np.einsum("nc,nc->n", abs(own.at[:, -1]), cells.w) * UP
-        return np.asarray(found & (slower < own.at[:, -1, 1]) & (place + off * UP < 0))
+        is_bounded = (u >= 0).all(axis=1) & (
+            (b + np.einsum("nab,nb->na", inner, u) * ROUND_UP) * ROUND_UP + MIN_ROUNDING <= u
+        ).all(axis=1)
+        slowdown = np.einsum("nb,nb->n", abs(response.center[:, -1, -self.m :]), u) * ROUND_UP
+        extent = np.einsum("nc,nc->n", abs(response.center[:, -1]), cells.half_widths) * ROUND_UP
+        return np.asarray(is_bounded & (slowdown < response.center[:, -1, 1]) & (overshoot + extent * ROUND_UP < 0))
 
-    def fine(self, slabs: list[Slab]) -> Flags:
-        """Which of the cells of slabs of one lock go on with what the one before found."""
-        still, counts, tube, m = self.still[slabs[0][0]], [len(one[3]) for one in slabs], len(self.tube), self.m
-        free = [k for k in range(self.n) if k not in still]
-        begin, stop = np.repeat([one[1] for one in slabs], counts, axis=0).T
-        starts, ends, width = np.concatenate([one[2] for one in slabs]).T
-        first, turned = np.concatenate([np.arange(count) == 0 for count in counts]), width > 0
-        locked, rate = self.healthy(begin + stop, stop)
-        healthy, along = self.healthy(starts + ends, ends)
-        joints = [exactly(values) for values in (np.concatenate([one[3] for one in slabs]) * UNIT).T]
-        for k in still:
-            joints[k] = (locked if k == still[0] else healthy)[k]
-        error = Error(self.task, self.chain, joints, self.chain, healthy)
-        d, own = self.section(error.slopes.at[:, :m], (rate, along), still, turned)
-        less, w = np.zeros((m, 2 + tube + m)), np.zeros((len(ends), 2 + tube + m))
-        less[:, 2 : 2 + tube] = np.eye(m)[:, :tube]
-        w[:, 0], w[:, 2 : 2 + tube] = (stop - begin) / (2 * SEGMENT), self.tube
-        w[:, 1] = np.where(turned, width * UNIT, (ends - starts) / (2 * SEGMENT))
-        cells = Inclusion(error, d, less, w)
-        wide, unique = np.zeros((len(ends), m)), np.zeros(len(ends), dtype=bool)
-        for size in _WIDER:
-            t = np.where(unique[:, None], wide, w[:, -m:] + size)
-            unique |= self.contracts(cells, t)
-            wide = np.where(unique[:, None], t, wide)
+    def verify_cells(self, slabs: list[StoredSlab]) -> Flags:
+        """Return a mask of the cells, in slabs of one lock, that continue the solution of the previous cell."""
+        driven, counts, tube, m = self.driven[slabs[0][0]], [len(slab[3]) for slab in slabs], len(self.tube), self.m
+        free = [joint for joint in range(self.n) if joint not in driven]
+        begin, stop = np.repeat([slab[1] for slab in slabs], counts, axis=0).T
+        starts, ends, half_width = np.concatenate([slab[2] for slab in slabs]).T
+        is_first, is_tangent = np.concatenate([np.arange(count) == 0 for count in counts]), half_width > 0
+        locked, lock_rate = self.enclose_motion(begin + stop, stop)
+        healthy, path_rate = self.enclose_motion(starts + ends, ends)
+        joints = [enclose_values(values) for values in (np.concatenate([slab[3] for slab in slabs]) * PATH_CENTER_UNIT).T]
+        for joint in driven:
+            joints[joint] = (locked if joint == driven[0] else healthy)[joint]
+        error = TaskErrorEnclosure(self.task, self.chain, joints, self.chain, healthy)
+        directions, response = self.choose_section(error.slopes.center[:, :m], (lock_rate, path_rate), driven, is_tangent)
+        offsets, half = np.zeros((m, 2 + tube + m)), np.zeros((len(ends), 2 + tube + m))
+        offsets[:, 2 : 2 + tube] = np.eye(m)[:, :tube]
+        half[:, 0], half[:, 2 : 2 + tube] = (stop - begin) / (2 * SEGMENT_INSTANTS), self.tube
+        half[:, 1] = np.where(is_tangent, half_width * PATH_CENTER_UNIT, (ends - starts) / (2 * SEGMENT_INSTANTS))
+        inclusion = Inclusion(error, directions, offsets, half)
+        unique_box, unique = np.zeros((len(ends), m)), np.zeros(len(ends), dtype=bool)
+        for size in _UNIQUE_BOX_SIZES:
+            trial_box = np.where(unique[:, None], unique_box, half[:, -m:] + size)
+            unique |= self.is_contraction(inclusion, trial_box)
+            unique_box = np.where(unique[:, None], trial_box, unique_box)
             if unique.all():
                 break
-        middle, q, each = (starts + ends) / (2 * SEGMENT), _values(joints), Balls(np.ones((len(ends), 1)))
-        good = cells.good & unique & cells.within(q, self.limits, free)
-        if turned.any():
-            good &= ~turned | self.forward(cells, own, middle - (ends - 1) // SEGMENT - 1)
-        here = joined(1, q[:, free], Balls(middle[:, None]))
-        lock = (
-            joined(1, _values(locked)[:, free], Balls((begin + stop)[:, None] / (2 * SEGMENT))),
-            joined(1, rate[:, free], each),
+        middle, q, ones = (starts + ends) / (2 * SEGMENT_INSTANTS), _joint_values(joints), BallArray(np.ones((len(ends), 1)))
+        is_valid = inclusion.is_proved & unique & inclusion.is_within_limits(q, self.limits, free)
+        if is_tangent.any():
+            is_valid &= ~is_tangent | self.moves_forward(inclusion, response, middle - (ends - 1) // SEGMENT_INSTANTS - 1)
+        centers = concatenate(1, q[:, free], BallArray(middle[:, None]))
+        lock_start = (
+            concatenate(1, _joint_values(locked)[:, free], BallArray((begin + stop)[:, None] / (2 * SEGMENT_INSTANTS))),
+            concatenate(1, lock_rate[:, free], ones),
         )
-        return good & self.glued(here, own, w, wide, lock, first, turned)
+        return is_valid & self.stays_in_unique_box(centers, response, half, unique_box, lock_start, is_first, is_tangent)
 
-    def glued(
-        self, here: Balls, own: Balls, w: Array, wide: Array, lock: tuple[Balls, Balls], first: Flags, turned: Flags
+    def stays_in_unique_box(
+        self,
+        centers: BallArray,
+        response: BallArray,
+        half: Array,
+        unique_box: Array,
+        lock_start: tuple[BallArray, BallArray],
+        is_first: Flags,
+        is_tangent: Flags,
     ) -> Flags:
-        """Whether what the cell before found, or the configuration at the lock, lies in the box in which there is one only.
+        """Return a mask of cells whose unique box contains the solution of the previous cell, or the configuration at the lock.
 
         What is entered is a place of the free joints and on the path, as coordinates of the path and of the section.
         """
-        m, kept = self.m, [0, *range(2, w.shape[1] - self.m)]
-        there, before, earlier = _before(here), _before(own), np.roll(w, 1, axis=0)
-        place = either(first, lock[0], there + times("nf,n->nf", before[:, :, 1], Balls(earlier[:, 1]))) + -here
-        begun = Balls(np.zeros((*own.at.shape[:2], len(kept))))
-        leaves = lock[1] + -own[:, :, 0]
-        begun.at[:, :, 0], begun.off = leaves.at, np.repeat(leaves.off[:, :, None], len(kept), axis=2)
-        spread = either(first, begun, before[:, :, kept] + -own[:, :, kept])
-        found = either(first, Balls(np.zeros((*own.at.shape[:2], m))), before[:, :, -m:])
-        matrix = own[:, :, [1, *range(-m, 0)]]
-        inverse = Balls(solve_regular(matrix.at, np.eye(m + 1)[None]))
-        off = (times("nab,nbc->nac", inverse, matrix) + -np.eye(m + 1)).size
+        m, columns = self.m, [0, *range(2, half.shape[1] - self.m)]
+        previous_centers, previous_response, previous_half = (
+            _previous_rows(centers),
+            _previous_rows(response),
+            np.roll(half, 1, axis=0),
+        )
+        offset = (
+            select_rows(
+                is_first,
+                lock_start[0],
+                previous_centers + einsum("nf,n->nf", previous_response[:, :, 1], BallArray(previous_half[:, 1])),
+            )
+            + -centers
+        )
+        departure_spread = BallArray(np.zeros((*response.center.shape[:2], len(columns))))
+        departure = lock_start[1] + -response[:, :, 0]
+        departure_spread.center[:, :, 0], departure_spread.radius = (
+            departure.center,
+            np.repeat(departure.radius[:, :, None], len(columns), axis=2),
+        )
+        spread = select_rows(is_first, departure_spread, previous_response[:, :, columns] + -response[:, :, columns])
+        section_spread = select_rows(
+            is_first, BallArray(np.zeros((*response.center.shape[:2], m))), previous_response[:, :, -m:]
+        )
+        matrix = response[:, :, [1, *range(-m, 0)]]
+        inverse = BallArray(solve_regular(matrix.center, np.eye(m + 1)[None]))
+        inverse_error = (einsum("nab,nbc->nac", inverse, matrix) + -np.eye(m + 1)).magnitude
         # Between cells that are not turned this is on a face, exactly, and the diagonal where motions begin is in the cell.
-        face = ~turned & (first | ~np.roll(turned, 1))
-        room = np.concatenate([np.where(face, w[:, 1] * (1 + 1e-6) + 1e-12, w[:, 1])[:, None], wide], axis=1)
-        most = times("nab,nb->na", inverse, place).size + np.einsum("nab,nb->na", off, room)
-        most += np.einsum("nac,nc->na", times("nab,nbc->nac", inverse, spread).size, w[:, kept])
-        most += np.einsum("nac,nc->na", times("nab,nbc->nac", inverse, found).size, earlier[:, -m:])
-        return np.asarray(((most * UP + LEAST) < room).all(axis=1))
+        on_face = ~is_tangent & (is_first | ~np.roll(is_tangent, 1))
+        target_box = np.concatenate(
+            [np.where(on_face, half[:, 1] * (1 + 1e-6) + 1e-12, half[:, 1])[:, None], unique_box], axis=1
+        )
+        bounds = einsum("nab,nb->na", inverse, offset).magnitude + np.einsum("nab,nb->na", inverse_error, target_box)
+        bounds += np.einsum("nac,nc->na", einsum("nab,nbc->nac", inverse, spread).magnitude, half[:, columns])
+        bounds += np.einsum("nac,nc->na", einsum("nab,nbc->nac", inverse, section_spread).magnitude, previous_half[:, -m:])
+        return np.asarray(((bounds * ROUND_UP + MIN_ROUNDING) < target_box).all(axis=1))
 
-    def rejected(self, chunk: list[Slab]) -> tuple[int, list[tuple[Slab, int]]]:
-        """How many cells were checked, and slabs that prove nothing, each with how many of its cells are bad."""
-        bad, totals = list[tuple[Slab, int]](), accumulate(len(slab[3]) for slab in chunk)
+    def check_leaves(self, chunk: list[StoredSlab]) -> tuple[int, list[tuple[StoredSlab, int]]]:
+        """Check slabs; return the number of cells, and the slabs that prove nothing, each with its number of rejected cells."""
+        rejected, totals = list[tuple[StoredSlab, int]](), accumulate(len(slab[3]) for slab in chunk)
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
-            for _, some in groupby(zip(chunk, totals, strict=True), lambda one: (one[0][0], one[1] // AT_ONCE)):
-                slabs = [slab for slab, _ in some]
-                wrong = np.split(~self.fine(slabs), np.cumsum([len(one[3]) for one in slabs])[:-1])
-                bad += [(one, int(cells.sum())) for one, cells in zip(slabs, wrong, strict=True) if cells.any()]
-        return sum(len(slab[3]) for slab in chunk), bad
+            for _, group in groupby(zip(chunk, totals, strict=True), lambda entry: (entry[0][0], entry[1] // BATCH_CELLS)):
+                slabs = [slab for slab, _ in group]
+                wrong = np.split(~self.verify_cells(slabs), np.cumsum([len(entry[3]) for entry in slabs])[:-1])
+                rejected += [
+                    (entry, int(rejected_cells.sum()))
+                    for entry, rejected_cells in zip(slabs, wrong, strict=True)
+                    if rejected_cells.any()
+                ]
+        return sum(len(slab[3]) for slab in chunk), rejected
 
 
-def _before(x: Balls) -> Balls:
-    """Of the cell before."""
-    return Balls(np.roll(x.at, 1, axis=0), np.roll(x.off, 1, axis=0))
+def _previous_rows(x: BallArray) -> BallArray:
+    """Return the rows of the previous cells."""
+    return BallArray(np.roll(x.center, 1, axis=0), np.roll(x.radius, 1, axis=0))
 
 
-def _values(joints: list[Array]) -> Balls:
-    """(N, n) of joints as :func:`turned` has them."""
+def _joint_values(joints: list[Array]) -> BallArray:
+    """Return the joints (N, n) of the rows of :func:`enclose_angle`."""
     values = np.stack([joint[:, :2] for joint in joints], 2)
-    return Balls(values[:, 0], values[:, 1])
+    return BallArray(values[:, 0], values[:, 1])

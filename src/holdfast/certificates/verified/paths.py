@@ -1,4 +1,6 @@
-"""What files of paths hold: slabs of lock instants, and cells behind each; and what part of the instants that is."""
+"""Contents of path certificates: slabs of lock instants with their cells, refuted intervals, and the fractions that
+they cover.
+"""
 
 from __future__ import annotations
 
@@ -9,98 +11,129 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .forms import need, real, unpacked
-from .tree import MOST_LEAVES, Cell, cells
+from .forms import decompress_payload, parse_hex, require
+from .tree import MAX_LEAVES, Cell, iterate_cells
 
 Ints = NDArray[np.int64]
-Slab = tuple[int, tuple[int, int], Ints, Ints]  # the lock; its ends; of its cells start, end and half width; their centres
-Never = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
+StoredSlab = tuple[
+    int, tuple[int, int], Ints, Ints
+]  # the lock; its ends; of its cells start, end and half width; their centres
+StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
 
-SEGMENT, UNIT = 1 << 20, 2.0**-28  # instants; rad
-MOST_CELLS = 1 << 24
+SEGMENT_INSTANTS, PATH_CENTER_UNIT = 1 << 20, 2.0**-28  # instants; rad
+MAX_CELLS = 1 << 24
 
 
-def share(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> Fraction:
-    """What intervals cover of the lock instants that are claimed; they may overlap."""
+def measure_coverage(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> Fraction:
+    """Return the fraction of the claimed lock instants that intervals cover; intervals may overlap."""
     (first, last), total, reached = document["during"], 0, 0
     for begin, stop in sorted(spans):
         total, reached = total + max(0, stop - max(begin, reached)), max(stop, reached)
     return Fraction(total, last - first)
 
 
-def gaps(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> list[tuple[int, int]]:
-    """Where none of some intervals is, among the lock instants that are claimed."""
-    (at, last), left = document["during"], []
+def find_gaps(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> list[tuple[int, int]]:
+    """Return the gaps between intervals among the claimed lock instants."""
+    (reached, last), uncovered = document["during"], []
     for begin, stop in sorted(spans):
-        left += [(at, begin)] * (begin > at)
-        at = max(at, stop)
-    return left + [(at, last)] * (last > at)
+        uncovered += [(reached, begin)] * (begin > reached)
+        reached = max(reached, stop)
+    return uncovered + [(reached, last)] * (last > reached)
 
 
-def text(part: Fraction) -> str:
-    """As the file writes it."""
-    return f"{part.numerator}/{part.denominator}"
+def format_fraction(fraction: Fraction) -> str:
+    """Format a fraction as the file contains it."""
+    return f"{fraction.numerator}/{fraction.denominator}"
 
 
-def volumes(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
-    """What is proved at least, refuted and undecided at most, of the lock of each joint: (proved, refuted)."""
-    least, most = min(a for a, _ in parts), max(b for _, b in parts)
-    return {"proved": text(least), "refuted": text(most), "undecided": text(max(1 - a - b for a, b in parts))}
+def compute_volumes(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
+    """Return the smallest proved and the largest refuted and undecided fractions over the locks of all joints, given (proved,
+    refuted).
+    """
+    min_proved, max_refuted = min(proved for proved, _ in parts), max(refuted for _, refuted in parts)
+    return {
+        "proved": format_fraction(min_proved),
+        "refuted": format_fraction(max_refuted),
+        "undecided": format_fraction(max(1 - proved - refuted for proved, refuted in parts)),
+    }
 
 
-def slabs(document: dict[str, Any]) -> Iterator[Slab]:
-    """Of all locks, in order; refused unless each is whole, within the claim and behind the one before."""
+def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
+    """Yield the slabs of all locks in order; raise an error unless each is complete, within the claim and behind the previous
+    one.
+    """
     first, last = document["during"]
-    end, n = (len(document["knots"]) - 1) * SEGMENT, len(document["arm"]["joints"])
-    for which, lock in enumerate(document["locks"]):
-        packed = unpacked(lock["cells"], 8 * 4 * MOST_CELLS, "cells")
-        need(len(packed) % 8 == 0, "cells are cut off")
+    path_end, n = (len(document["knots"]) - 1) * SEGMENT_INSTANTS, len(document["arm"]["joints"])
+    for lock_index, lock in enumerate(document["locks"]):
+        packed = decompress_payload(lock["cells"], 8 * 4 * MAX_CELLS, "cells")
+        require(len(packed) % 8 == 0, "cells are cut off")
         numbers = np.frombuffer(packed, "<i8").astype(np.int64)
-        centres = unpacked(lock["centres"], 4 * n * MOST_CELLS, "centres")
-        need(len(centres) % (4 * n) == 0, "centres are cut off")
-        rows, at, used, after = np.frombuffer(centres, "<i4").reshape(-1, n).astype(np.int64), 0, 0, first
-        need(not rows[:, lock["followers"]].any(), "centres of joints that follow must be 0")
-        while at < len(numbers):
-            begin, stop, count = (int(x) for x in numbers[at : at + 3]) if at + 3 <= len(numbers) else (0, 0, 0)
-            given = numbers[at + 3 : at + 3 + max(count, 0)]
-            good = after <= begin < stop <= last and (stop - 1) // SEGMENT == begin // SEGMENT
-            need(good and 0 < count == len(given), "a slab of lock instants is out of place, or without cells")
-            need(used + count <= len(rows), "there are fewer centres than cells")
-            some = rows[used : used + count].copy()
-            cells = _cells(begin, given, some[:, lock["joint"]])
-            some[:, lock["joint"]] = 0
-            need((cells[:, 2] == 0).all() or not any(map(real, document["tube"])), "in a tube there are no turned cells")
-            need(cells[-1, 1] == end and not cells[-1, 2], "cells of a slab end before the path")
-            need(cells[0, 2] or cells[0, 1] >= stop, "the first cell of a slab does not hold it")
-            yield which, (begin, stop), cells, some
-            at, used, after = at + 3 + count, used + count, stop
-        need(used == len(rows), "centres are left over")
+        payload = decompress_payload(lock["centres"], 4 * n * MAX_CELLS, "centres")
+        require(len(payload) % (4 * n) == 0, "centres are cut off")
+        rows, cursor, used, earliest = np.frombuffer(payload, "<i4").reshape(-1, n).astype(np.int64), 0, 0, first
+        require(not rows[:, lock["followers"]].any(), "centres of joints that follow must be 0")
+        while cursor < len(numbers):
+            begin, stop, count = (
+                (int(number) for number in numbers[cursor : cursor + 3]) if cursor + 3 <= len(numbers) else (0, 0, 0)
+            )
+            encoded_ends = numbers[cursor + 3 : cursor + 3 + max(count, 0)]
+            is_valid = earliest <= begin < stop <= last and (stop - 1) // SEGMENT_INSTANTS == begin // SEGMENT_INSTANTS
+            require(is_valid and 0 < count == len(encoded_ends), "a slab of lock instants is out of place, or without cells")
+            require(used + count <= len(rows), "there are fewer centres than cells")
+            slab_centers = rows[used : used + count].copy()
+            slab_cells = _decode_cells(begin, encoded_ends, slab_centers[:, lock["joint"]])
+            slab_centers[:, lock["joint"]] = 0
+            require(
+                (slab_cells[:, 2] == 0).all() or not any(map(parse_hex, document["tube"])),
+                "in a tube there are no turned cells",
+            )
+            require(slab_cells[-1, 1] == path_end and not slab_cells[-1, 2], "cells of a slab end before the path")
+            require(slab_cells[0, 2] or slab_cells[0, 1] >= stop, "the first cell of a slab does not hold it")
+            yield lock_index, (begin, stop), slab_cells, slab_centers
+            cursor, used, earliest = cursor + 3 + count, used + count, stop
+        require(used == len(rows), "centres are left over")
 
 
-def refutations(document: dict[str, Any]) -> Iterator[Never]:
-    """Of all locks, in order, intervals of lock instants that are refuted at a later place of the path."""
+def read_refutations(document: dict[str, Any]) -> Iterator[StoredRefutation]:
+    """Yield, for all locks in order, the intervals of lock instants that are refuted at a later path instant."""
     first, last = document["during"]
-    for which, lock in enumerate(document["locks"]):
-        after = first
-        for one in lock["refutations"]:
-            begin, stop, at = (one[key] for key in ("begin", "stop", "at"))
-            good = after <= begin < stop <= min(last, at) and (stop - 1) // SEGMENT == begin // SEGMENT
-            need(good, "a refuted interval of lock instants is out of place")
-            tree = unpacked(one["tree"], 2 * MOST_LEAVES, "tree of a refutation")
-            yield which, (begin, stop), at, list(cells(tree, len(document["arm"]["joints"]), len(document["pairs"]) - 1))
-            after = stop
+    for lock_index, lock in enumerate(document["locks"]):
+        earliest = first
+        for entry in lock["refutations"]:
+            begin, stop, path_instant = (entry[key] for key in ("begin", "stop", "at"))
+            is_valid = (
+                earliest <= begin < stop <= min(last, path_instant)
+                and (stop - 1) // SEGMENT_INSTANTS == begin // SEGMENT_INSTANTS
+            )
+            require(is_valid, "a refuted interval of lock instants is out of place")
+            tree = decompress_payload(entry["tree"], 2 * MAX_LEAVES, "tree of a refutation")
+            yield (
+                lock_index,
+                (begin, stop),
+                path_instant,
+                list(iterate_cells(tree, len(document["arm"]["joints"]), len(document["pairs"]) - 1)),
+            )
+            earliest = stop
 
 
-def _cells(begin: int, given: Ints, placed: Ints) -> Ints:
-    """Starts, ends and half widths (0 unless turned) of cells, from their ends or negative half widths, and places of some."""
-    turned = given < 0
-    faces = np.append(begin, np.maximum.accumulate(np.where(turned, begin, given)))
-    behind = np.append(False, turned[:-1])
-    base, free = faces[:-1] // SEGMENT * SEGMENT, turned | behind
-    starts = np.where(free, base + placed, faces[:-1])
-    ends = np.where(turned, starts, given)
-    need(not placed[~free].any(), "centres of joints that are not free must be 0")
-    good = (starts - base >= turned) & (starts - base <= SEGMENT - ~turned) & (given >= -(1 << 31))
-    good &= turned | ((starts < ends) & ((ends - 1) // SEGMENT == base // SEGMENT) & (ends > faces[:-1]))
-    need(good.all(), "cells of a slab leave a gap")
-    return np.stack([starts, ends, np.where(turned, -given, 0)], axis=1)
+def _decode_cells(begin: int, encoded_ends: Ints, encoded_positions: Ints) -> Ints:
+    """Return starts, ends and half widths (0 unless tangent) of cells, from their ends or negative half widths, and the
+    positions of some.
+    """
+    is_tangent = encoded_ends < 0
+    faces = np.append(begin, np.maximum.accumulate(np.where(is_tangent, begin, encoded_ends)))
+    follows_tangent = np.append(False, is_tangent[:-1])
+    segment_starts, has_position = faces[:-1] // SEGMENT_INSTANTS * SEGMENT_INSTANTS, is_tangent | follows_tangent
+    starts = np.where(has_position, segment_starts + encoded_positions, faces[:-1])
+    ends = np.where(is_tangent, starts, encoded_ends)
+    require(not encoded_positions[~has_position].any(), "centres of joints that are not free must be 0")
+    is_valid = (
+        (starts - segment_starts >= is_tangent)
+        & (starts - segment_starts <= SEGMENT_INSTANTS - ~is_tangent)
+        & (encoded_ends >= -(1 << 31))
+    )
+    is_valid &= is_tangent | (
+        (starts < ends) & ((ends - 1) // SEGMENT_INSTANTS == segment_starts // SEGMENT_INSTANTS) & (ends > faces[:-1])
+    )
+    require(is_valid.all(), "cells of a slab leave a gap")
+    return np.stack([starts, ends, np.where(is_tangent, -encoded_ends, 0)], axis=1)

@@ -1,4 +1,4 @@
-"""The leaves of a reach: for every target and locked value of each, some configuration near its centre reaches.
+"""Verification of the leaves of a reach: some configuration near each center reaches every target at every locked value.
 
 Joints follow the place in a leaf along any matrix, here the one by which the tool follows the target to first order.
 """
@@ -11,86 +11,107 @@ from typing import Any
 
 import numpy as np
 
-from .balls import Array, Balls, Flags
-from .chain import Boxes, Chain, Leaf, exactly, gantry, turned
-from .forms import TASKS, need, real, unpacked
-from .taylor import Error, Inclusion
-from .tree import MOST_LEAVES, PROVED, Cell, cells
+from .balls import Array, BallArray, Flags
+from .chain import BallChain, Leaf, LeafVerifier, build_target_chain, enclose_angle, enclose_values
+from .forms import TASK_FORMS, decompress_payload, parse_hex, require
+from .taylor import Inclusion, TaskErrorEnclosure
+from .tree import MAX_LEAVES, PROVED_TOKEN, Cell, iterate_cells
 
-UNIT = 2.0**-24  # rad or m, of centres
-
-
-class Targets(Boxes):
-    """Boxes whose last axes are those of a target and the arm that is to be there."""
-
-    def __init__(self, document: dict[str, Any], before: list[Any], after: list[Any], flat: bool) -> None:
-        super().__init__(document, [*before, *document["target"]["box"], *after])
-        self.task, self.locked, self.arm = document["task"], document["locked"], Chain(document["arm"], flat)
-        self.goal, self.n, self.p = Chain(gantry(document["target"])), self.arm.n, len(document["target"]["axes"])
-        self.limits = np.array([[real(x) for x in pair] for pair in document["limits"]])
-        linear = TASKS[self.task][0]
-        self.targets, self.turning = slice(len(before), len(before) + self.p), self.p - linear
-        self.places = [*range(linear)][::-1] + [*range(linear, self.p)][::-1]  # axes of a target, as its chain has them
-        self.variables = [*range(linear, self.p), *range(linear)]  # and as an error has them, behind the arm's joints
-
-    def error(self, joints: list[Array], target: list[Array]) -> Error:
-        """The rows of the task."""
-        return Error(self.task, self.arm, joints, self.goal, [target[axis] for axis in self.places])
+CENTER_UNIT = 2.0**-24  # rad or m, of centres
 
 
-class Leaves(Targets):
-    """The leaves of one reach claim and their proofs: the joints at their centres, in units."""
+class TargetLeafVerifier(LeafVerifier):
+    """Verifier of boxes whose last axes are those of a target that the arm must reach."""
+
+    def __init__(self, document: dict[str, Any], leading_axes: list[Any], trailing_axes: list[Any], planar: bool) -> None:
+        super().__init__(document, [*leading_axes, *document["target"]["box"], *trailing_axes])
+        self.task, self.locked, self.arm = document["task"], document["locked"], BallChain(document["arm"], planar)
+        self.goal, self.n, self.target_size = (
+            BallChain(build_target_chain(document["target"])),
+            self.arm.n,
+            len(document["target"]["axes"]),
+        )
+        self.limits = np.array([[parse_hex(number) for number in pair] for pair in document["limits"]])
+        linear = TASK_FORMS[self.task][0]
+        self.targets, self.turning = slice(len(leading_axes), len(leading_axes) + self.target_size), self.target_size - linear
+        self.chain_axes = [*range(linear)][::-1] + [*range(linear, self.target_size)][
+            ::-1
+        ]  # axes of a target, as its chain has them
+        self.error_axes = [
+            *range(linear, self.target_size),
+            *range(linear),
+        ]  # and as an error has them, behind the arm's joints
+
+    def enclose_error(self, joints: list[Array], target: list[Array]) -> TaskErrorEnclosure:
+        """Return the task rows of the error."""
+        return TaskErrorEnclosure(self.task, self.arm, joints, self.goal, [target[axis] for axis in self.chain_axes])
+
+
+class ReachVerifier(TargetLeafVerifier):
+    """Verifier of one reach claim; its proofs are joint values at the centers of leaves, in units."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         locked = document["locked"]
         super().__init__(document, [], [document["angle"]] if locked >= 0 else [], document["task"] == "planar-pose")
-        self.still = [k for k, (low, high) in enumerate(self.limits) if low == high and k != locked]
-        self.free = [k for k in range(self.n) if k != locked and k not in self.still]
+        self.fixed = [joint for joint, (low, high) in enumerate(self.limits) if low == high and joint != locked]
+        self.free = [joint for joint in range(self.n) if joint != locked and joint not in self.fixed]
 
-    def leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """How many there are, which cells are undecided, and the leaves."""
-        tree, axes = unpacked(document["tree"], 2 * MOST_LEAVES - 1, "tree"), len(self.width)
-        undecided = [cell for token, cell in cells(tree, axes) if token != PROVED]
-        count, row = tree.count(PROVED), 4 * self.n
-        packed = unpacked(document["centres"], row * count, "centres")
-        need(len(packed) == row * count, "there are fewer centres than leaves")
-        centres = np.frombuffer(packed, "<i4").reshape(count, self.n)
-        need(not np.delete(centres, self.free, axis=1).any(), "centres of joints that do not move must be 0")
-        return count, undecided, lambda: zip((x for token, x in cells(tree, axes) if token == PROVED), centres, strict=True)
+    def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
+        """Return the number of leaves, the undecided cells, and an iterator of the leaves."""
+        tree, axis_count = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"), len(self.width)
+        undecided = [cell for token, cell in iterate_cells(tree, axis_count) if token != PROVED_TOKEN]
+        count, row_bytes = tree.count(PROVED_TOKEN), 4 * self.n
+        packed = decompress_payload(document["centres"], row_bytes * count, "centres")
+        require(len(packed) == row_bytes * count, "there are fewer centres than leaves")
+        centers = np.frombuffer(packed, "<i4").reshape(count, self.n)
+        require(not np.delete(centers, self.free, axis=1).any(), "centres of joints that do not move must be 0")
+        return (
+            count,
+            undecided,
+            lambda: zip(
+                (proved_cell for token, proved_cell in iterate_cells(tree, axis_count) if token == PROVED_TOKEN),
+                centers,
+                strict=True,
+            ),
+        )
 
-    def placed(self, leaves: list[Leaf]) -> tuple[list[Array], list[Array]]:
-        """The joints at the centres, and the axes of the cells, as :func:`turned` gives them."""
-        axes = self.middles(cell for cell, _ in leaves)
-        joints = [exactly(values) for values in (np.array([counts for _, counts in leaves]) * UNIT).T]
-        for k in self.still:
-            joints[k] = np.array([turned(Fraction(self.limits[k, 0]))] * len(leaves))
+    def enclose_leaf_centers(self, leaves: list[Leaf]) -> tuple[list[Array], list[Array]]:
+        """Return the joints at the centers, and the axes of the cells, as :func:`enclose_angle` gives them."""
+        axes = self.enclose_centers(cell for cell, _ in leaves)
+        joints = [enclose_values(values) for values in (np.array([counts for _, counts in leaves]) * CENTER_UNIT).T]
+        for joint in self.fixed:
+            joints[joint] = np.array([enclose_angle(Fraction(self.limits[joint, 0]))] * len(leaves))
         if self.locked >= 0:
             joints[self.locked] = axes[-1]
         return joints, axes
 
-    def section(self, error: Error) -> Array:
-        """Any matrices D (N, V, axes of the cell and of the section); these follow the solution."""
-        slopes, axes = error.slopes.at[:, : error.m], len(self.width)
-        inverse = np.linalg.pinv(np.nan_to_num(slopes[:, :, self.free]))
-        made = np.zeros((len(slopes), slopes.shape[2], axes + error.m))
-        made[:, self.free, axes:] = inverse
-        for axis, variable in enumerate([*np.argsort(self.variables) + self.n, *[self.locked] * (axes - self.p)]):
-            made[:, variable, axis] = 1
-            made[:, self.free, axis] = -np.einsum("nfm,nm->nf", inverse, slopes[:, :, variable])
-        return np.nan_to_num(made)
+    def choose_section(self, error: TaskErrorEnclosure) -> Array:
+        """Choose matrices D (N, V, axes of the cell and of the section) that follow the solution; any choice is valid."""
+        gradients, axis_count = error.slopes.center[:, : error.m], len(self.width)
+        inverse = np.linalg.pinv(np.nan_to_num(gradients[:, :, self.free]))
+        directions = np.zeros((len(gradients), gradients.shape[2], axis_count + error.m))
+        directions[:, self.free, axis_count:] = inverse
+        for axis, variable in enumerate(
+            [*np.argsort(self.error_axes) + self.n, *[self.locked] * (axis_count - self.target_size)]
+        ):
+            directions[:, variable, axis] = 1
+            directions[:, self.free, axis] = -np.einsum("nfm,nm->nf", inverse, gradients[:, :, variable])
+        return np.nan_to_num(directions)
 
-    def included(self, leaves: list[Leaf]) -> tuple[Inclusion, Balls]:
-        """The leaves with their sections, and the middles (N, n)."""
-        joints, axes = self.placed(leaves)
-        error, q = self.error(joints, axes), np.stack([joint[:, :2] for joint in joints], 2)
-        w = np.stack([*(axis[:, 2] for axis in axes), *[np.zeros(len(leaves))] * error.m], 1)
-        return Inclusion(error, Balls(self.section(error)), np.zeros((error.m, w.shape[1])), w), Balls(q[:, 0], q[:, 1])
+    def enclose_leaves(self, leaves: list[Leaf]) -> tuple[Inclusion, BallArray]:
+        """Return the leaves with their sections, and the middles (N, n)."""
+        joints, axes = self.enclose_leaf_centers(leaves)
+        error, q = self.enclose_error(joints, axes), np.stack([joint[:, :2] for joint in joints], 2)
+        half = np.stack([*(axis[:, 2] for axis in axes), *[np.zeros(len(leaves))] * error.m], 1)
+        return Inclusion(error, BallArray(self.choose_section(error)), np.zeros((error.m, half.shape[1])), half), BallArray(
+            q[:, 0], q[:, 1]
+        )
 
-    def kind(self, leaf: Leaf) -> int:
-        """All are of one."""
+    def leaf_kind(self, leaf: Leaf) -> int:
+        """Return 0, because all leaves are of one kind."""
         return 0
 
-    def proves(self, kind: int, leaves: list[Leaf]) -> Flags:
-        """Whether every target and locked value has a configuration."""
-        found, q = self.included(leaves)
-        return found.good & found.within(q, self.limits, self.free)
+    def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
+        """Return a mask of the leaves in which every target and locked value has a configuration."""
+        inclusion, q = self.enclose_leaves(leaves)
+        return inclusion.is_proved & inclusion.is_within_limits(q, self.limits, self.free)

@@ -1,4 +1,5 @@
-"""Numbers over boxes, from exact first and second derivatives in the middle: of all claims but structural zeros.
+"""Enclosures of numbers over boxes, from exact first and second derivatives at the center, for all claims except structural
+zeros.
 
 The numbers of most claims are the error of a tool from where another chain has its tool: rows of the place, then of the
 rotation. Rows of a rotation are <W, E>, the sum of products of entries, with E the rotation from the other tool to the first
@@ -19,157 +20,202 @@ from typing import Any
 
 import numpy as np
 
-from .balls import LEAST, UP, Array, Balls, Flags, crossed, joined, times
-from .chain import Chain, Moved
-from .forms import TASKS
+from .balls import MIN_ROUNDING, ROUND_UP, Array, BallArray, Flags, concatenate, cross_matrix, einsum
+from .chain import BallChain, PointKinematics
+from .forms import TASK_FORMS
 
-STRAIGHT = -0.05  # of the last row: what is left to turn is then at most 0.32 rad
-MOST_TURNED = 1.5  # rad by which it may change: both together are less than half a turn
-BENT = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)  # [e_l], (3, 3, 3)
+MIN_COSINE_ROW = -0.05  # of the last row: what is left to turn is then at most 0.32 rad
+MAX_ROTATION_CHANGE_RAD = 1.5  # rad by which it may change: both together are less than half a turn
+CROSS_MATRICES = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)  # [e_l], (3, 3, 3)
 
 
-class Form:
-    """Numbers (N, a), their slopes (N, a, V) and second derivatives (N, a, V, V), each pair of variables both ways."""
+class DerivativeEnclosure:
+    """Numbers (N, a), their gradients (N, a, V) and second derivatives (N, a, V, V), which are symmetric."""
 
-    def __init__(self, value: Balls, slopes: Balls, second: Balls) -> None:
+    def __init__(self, value: BallArray, slopes: BallArray, second: BallArray) -> None:
         self.value, self.slopes, self.second = value, slopes, second
 
-    def rows(self, key: Any) -> Form:
-        """Some of the numbers."""
-        return Form(self.value[:, key], self.slopes[:, key], self.second[:, key])
+    def select(self, key: Any) -> DerivativeEnclosure:
+        """Select some of the numbers."""
+        return DerivativeEnclosure(self.value[:, key], self.slopes[:, key], self.second[:, key])
 
-    def along(self, d: Balls, less: Array) -> Form:
-        """Where variables follow columns D (N, V, C), less so much (a, C) of each column."""
-        twice = times("nki,nakj->naij", d, times("nakl,nlj->nakj", self.second, d))
-        return Form(self.value, times("nak,nkc->nac", self.slopes, d) + -less, twice)
+    def substitute_columns(self, d: BallArray, offsets: Array) -> DerivativeEnclosure:
+        """Substitute columns D (N, V, C) for the variables, less ``offsets`` (a, C) of each column."""
+        second = einsum("nki,nakj->naij", d, einsum("nakl,nlj->nakj", self.second, d))
+        return DerivativeEnclosure(self.value, einsum("nak,nkc->nac", self.slopes, d) + -offsets, second)
 
-    def summed(self, e: Balls) -> Form:
-        """One number, e (N, a) times these."""
-        value, slopes = times("na,na->n", e, self.value), times("na,nak->nk", e, self.slopes)
-        return Form(value[:, None], slopes[:, None], times("na,najk->njk", e, self.second)[:, None])
-
-    @cached_property
-    def steep(self) -> Array:
-        """Above the sizes of slopes."""
-        return self.slopes.size
+    def combine_rows(self, e: BallArray) -> DerivativeEnclosure:
+        """Combine the numbers with weights e (N, a) into one number."""
+        value, gradients = einsum("na,na->n", e, self.value), einsum("na,nak->nk", e, self.slopes)
+        return DerivativeEnclosure(value[:, None], gradients[:, None], einsum("na,najk->njk", e, self.second)[:, None])
 
     @cached_property
-    def curved(self) -> Array:
-        """Above the sizes of second derivatives."""
-        return self.second.size
+    def gradient_magnitude(self) -> Array:
+        """Upper bounds of the absolute gradients."""
+        return self.slopes.magnitude
 
     @cached_property
-    def pairs(self) -> Array:
-        """Of those by two variables, each pair once."""
-        return np.triu(self.curved, 1)
+    def curvature_magnitude(self) -> Array:
+        """Upper bounds of the absolute second derivatives."""
+        return self.second.magnitude
 
     @cached_property
-    def bends(self) -> tuple[Array, Array]:
-        """Below second derivatives by one variable, and below these with the other sign."""
-        low, high = (np.diagonal(x.low, axis1=2, axis2=3) for x in (self.second, -self.second))
-        return low, high
+    def mixed_curvature(self) -> Array:
+        """Upper bounds of the absolute mixed second derivatives, each pair once."""
+        return np.triu(self.curvature_magnitude, 1)
 
-    def loss(self, half: Array) -> list[Array]:
-        """Above what the numbers lose, and what they gain, within half widths (N, V), to second order."""
-        h, found = half[:, None], list[Array]()
-        both = ((self.pairs @ h[..., None])[..., 0] * h).sum(axis=2)
-        for own in self.bends:
-            most = np.where(self.steep < own * h, self.steep**2 / (2 * own), self.steep * h - own * h**2 / 2)
-            found.append((most.sum(axis=2) + both) * UP + LEAST)
-        return found
+    @cached_property
+    def own_curvature(self) -> tuple[Array, Array]:
+        """Lower bounds of the second derivatives by one variable, and of their negatives."""
+        lower, upper = (np.diagonal(balls.lower, axis1=2, axis2=3) for balls in (self.second, -self.second))
+        return lower, upper
 
-    def most(self, half: Array, rest: Array) -> Array:
-        """Above the sizes of the numbers, with what is left behind second order."""
-        (less, more), value = ((x + rest) * UP for x in self.loss(half)), self.value
-        over, under = np.nextafter(value.at + value.off, np.inf) + more, np.nextafter(value.off - value.at, np.inf) + less
-        return np.nextafter(np.maximum(over, under), np.inf) + LEAST
+    def bound_change(self, half: Array) -> list[Array]:
+        """Bound the decrease and the increase of the numbers within half widths (N, V), to second order."""
+        h, changes = half[:, None], list[Array]()
+        mixed_terms = ((self.mixed_curvature @ h[..., None])[..., 0] * h).sum(axis=2)
+        for curvature in self.own_curvature:
+            own_terms = np.where(
+                self.gradient_magnitude < curvature * h,
+                self.gradient_magnitude**2 / (2 * curvature),
+                self.gradient_magnitude * h - curvature * h**2 / 2,
+            )
+            changes.append((own_terms.sum(axis=2) + mixed_terms) * ROUND_UP + MIN_ROUNDING)
+        return changes
+
+    def bound_magnitude(self, half: Array, remainder: Array) -> Array:
+        """Bound the absolute values of the numbers, with the remainder after second order."""
+        (decrease, increase), value = ((change + remainder) * ROUND_UP for change in self.bound_change(half)), self.value
+        upper, lower = (
+            np.nextafter(value.center + value.radius, np.inf) + increase,
+            np.nextafter(value.radius - value.center, np.inf) + decrease,
+        )
+        return np.nextafter(np.maximum(upper, lower), np.inf) + MIN_ROUNDING
 
 
-class Error(Form):
-    """The rows of the tool of one chain from that of another, by the joints of the one, then of the other backwards."""
+class TaskErrorEnclosure(DerivativeEnclosure):
+    """Task rows of the tool of one chain relative to the tool of another, by the joints of the first, then those of the second
+    backwards.
+    """
 
-    def __init__(self, task: str, arm: Chain, joints: list[Array], goal: Chain, places: list[Array]) -> None:
-        self.linear, turning, _ = TASKS[task]
-        self.m, self.rotated = self.linear + turning, turning > 0
-        at, to = arm.moved(joints), goal.moved(places)
-        self.ways = [(x, np.stack([joint[:, 0] for joint in given], 1)) for x, given in ((arm, joints), (goal, places))]
-        parts = [place(at, at.columns, at.tip, to, to.columns, to.tip).rows(slice(self.linear))]
+    def __init__(self, task: str, arm: BallChain, joints: list[Array], goal: BallChain, places: list[Array]) -> None:
+        self.linear, turning, _ = TASK_FORMS[task]
+        self.m, self.uses_rotation = self.linear + turning, turning > 0
+        arm_point, goal_point = arm.enclose_point(joints), goal.enclose_point(places)
+        self.chains = [(x, np.stack([joint[:, 0] for joint in values], 1)) for x, values in ((arm, joints), (goal, places))]
+        parts = [
+            enclose_difference(
+                arm_point, arm_point.columns, arm_point.tip, goal_point, goal_point.columns, goal_point.tip
+            ).select(slice(self.linear))
+        ]
         if turning == 2:
-            a, b = at.turn[:, :, 2], to.turn[:, :, 2]
-            columns = (times("nkij,nj->nki", crossed(tool.spin), axis) for tool, axis in ((at, a), (to, b)))
-            axis, across = place(at, next(columns), a, to, next(columns), b), to.turn.at
-            slopes, second = times("nir,nij->nrj", across, axis.slopes), times("nir,nijk->nrjk", across, axis.second)
-            parts.append(Form(times("nir,ni->nr", across, axis.value), slopes, second))
+            arm_axis, goal_axis = arm_point.rotation[:, :, 2], goal_point.rotation[:, :, 2]
+            columns = (
+                einsum("nkij,nj->nki", cross_matrix(tool.spin_axes), axis)
+                for tool, axis in ((arm_point, arm_axis), (goal_point, goal_axis))
+            )
+            axis, transverse = (
+                enclose_difference(arm_point, next(columns), arm_axis, goal_point, next(columns), goal_axis),
+                goal_point.rotation.center,
+            )
+            gradients, second = (
+                einsum("nir,nij->nrj", transverse, axis.slopes),
+                einsum("nir,nijk->nrjk", transverse, axis.second),
+            )
+            parts.append(DerivativeEnclosure(einsum("nir,ni->nr", transverse, axis.value), gradients, second))
         elif turning:
-            off = times("nij,nkj->nik", at.turn, to.turn)
-            spin = joined(1, at.spin, -times("nij,nkj->nki", off, to.spin)[:, ::-1])
-            weights = np.concatenate([BENT[3 - turning :] / 2, [np.eye(3) / 2]])
-            moves = np.einsum("lik,rij->rlkj", BENT, weights)  # <W, [e_l]E> is this with E
-            value = times("rij,nij->nr", weights, off) + -np.append(np.zeros(turning), 1.5)
-            later = times("rlkj,nbkj->nrbl", moves, times("nbik,nkj->nbij", crossed(spin), off))
-            slopes = times("nrl,nal->nra", times("rlkj,nkj->nrl", moves, off), spin)
-            parts.append(Form(value, slopes, times("nrbl,nal->nrab", later, spin).mirrored()))
-        super().__init__(*(joined(1, *[getattr(x, key) for x in parts]) for key in ("value", "slopes", "second")))
+            rotation = einsum("nij,nkj->nik", arm_point.rotation, goal_point.rotation)
+            spin_axes = concatenate(1, arm_point.spin_axes, -einsum("nij,nkj->nki", rotation, goal_point.spin_axes)[:, ::-1])
+            weights = np.concatenate([CROSS_MATRICES[3 - turning :] / 2, [np.eye(3) / 2]])
+            moves = np.einsum("lik,rij->rlkj", CROSS_MATRICES, weights)  # <W, [e_l]E> is this with E
+            value = einsum("rij,nij->nr", weights, rotation) + -np.append(np.zeros(turning), 1.5)
+            second_map = einsum("rlkj,nbkj->nrbl", moves, einsum("nbik,nkj->nbij", cross_matrix(spin_axes), rotation))
+            gradients = einsum("nrl,nal->nra", einsum("rlkj,nkj->nrl", moves, rotation), spin_axes)
+            parts.append(DerivativeEnclosure(value, gradients, einsum("nrbl,nal->nrab", second_map, spin_axes).symmetrize()))
+        super().__init__(*(concatenate(1, *[getattr(x, key) for x in parts]) for key in ("value", "slopes", "second")))
 
-    def halves(self, far: Array) -> list[tuple[Chain, Array, Array]]:
-        """Of what is there for each variable, (N, V, ...), what belongs to the joints of each chain; and that with it."""
-        n = self.ways[0][0].n
-        return [(chain, out, x) for (chain, out), x in zip(self.ways, (far[:, :n], far[:, : n - 1 : -1]), strict=True)]
+    def split_by_chain(self, values: Array) -> list[tuple[BallChain, Array, Array]]:
+        """Split values for each variable (N, V, ...) into those of the joints of each chain, and return them with the chain."""
+        n = self.chains[0][0].n
+        return [
+            (chain, slide_extent, part)
+            for (chain, slide_extent), part in zip(self.chains, (values[:, :n], values[:, : n - 1 : -1]), strict=True)
+        ]
 
-    def rest(self, far: Array) -> tuple[Array, Array]:
-        """Above what is left of each row behind second order where joints go ``far`` (N, V), and the angle they turn by."""
-        parts = self.halves(far)
-        third = sum(chain.bend(3, way, chain.whole, out) for chain, out, way in parts) / 6 * UP
-        angle = sum((way * ~chain.slides).sum(axis=1) for chain, _, way in parts) * UP
-        turned = self.value.at.shape[1] - self.linear
-        return np.stack([third] * self.linear + [angle**3 / 6 * UP] * turned, axis=1), angle
+    def bound_remainder(self, joint_travel: Array) -> tuple[Array, Array]:
+        """Bound the remainder of each row after second order where joints travel ``joint_travel`` (N, V), and the angle of
+        their rotation.
+        """
+        parts = self.split_by_chain(joint_travel)
+        third = (
+            sum(chain.bound_derivative(3, travel, chain.link_lengths, slide_extent) for chain, slide_extent, travel in parts)
+            / 6
+            * ROUND_UP
+        )
+        angle = sum((travel * ~chain.slides).sum(axis=1) for chain, _, travel in parts) * ROUND_UP
+        rotation_rows = self.value.center.shape[1] - self.linear
+        return np.stack([third] * self.linear + [angle**3 / 6 * ROUND_UP] * rotation_rows, axis=1), angle
 
 
 class Inclusion:
-    """Boxes of places and sections, of half widths w (N, C), the last m of the section, which s -> s - g sends into itself."""
+    """Boxes of positions and sections, of half widths (N, C), the last m of the section, which s -> s - g maps into itself."""
 
-    def __init__(self, error: Error, d: Balls, less: Array, w: Array) -> None:
-        self.error, self.w, self.reach, self.m = error, w, d.size, error.m
-        whole = less.copy()
-        whole[:, -self.m :] += np.eye(self.m)
-        self.form, s = error.rows(slice(self.m)).along(d, whole), w[:, -self.m :]
+    def __init__(self, error: TaskErrorEnclosure, d: BallArray, column_offsets: Array, half_widths: Array) -> None:
+        self.error, self.half_widths, self.response, self.m = error, half_widths, d.magnitude, error.m
+        offsets = column_offsets.copy()
+        offsets[:, -self.m :] += np.eye(self.m)
+        self.form, s = error.select(slice(self.m)).substitute_columns(d, offsets), half_widths[:, -self.m :]
         for _ in range(38):
-            closed = self.closed()
+            closed = self.update_bounds()
             if closed.all():
                 break
-            s[:] = np.where(closed[:, None], s, 1.05 * self.most + 1e-9)
+            s[:] = np.where(closed[:, None], s, 1.05 * self.excess + 1e-9)
         for _ in range(8):  # as e grows with S, a little more than e(S) is such a box again
-            self.closed()
-            if (self.most[closed] > 0.999999 * s[closed]).all():
+            self.update_bounds()
+            if (self.excess[closed] > 0.999999 * s[closed]).all():
                 break
-            s[:] = np.where(closed[:, None], np.minimum(s, self.most * (1 + 1e-9)), s)
-        straight = (error.value.low[:, -1] > STRAIGHT) & (self.angle < MOST_TURNED)
-        self.good = closed & self.closed() & (straight | (not error.rotated))
+            s[:] = np.where(closed[:, None], np.minimum(s, self.excess * (1 + 1e-9)), s)
+        is_regular = (error.value.lower[:, -1] > MIN_COSINE_ROW) & (self.angle < MAX_ROTATION_CHANGE_RAD)
+        self.is_proved = closed & self.update_bounds() & (is_regular | (not error.uses_rotation))
 
-    def closed(self) -> Flags:
-        """Whether e(S) <= S; keeps e(S), how far joints go, and by how much they turn the tool; rounded up."""
-        self.far = np.einsum("nkc,nc->nk", self.reach, self.w) * UP
-        rest, self.angle = self.error.rest(self.far)
-        self.most, s = self.form.most(self.w, rest[:, : self.m]), self.w[:, -self.m :]
-        return np.asarray(((self.most <= s) & (s < 1e3)).all(axis=1))
+    def update_bounds(self) -> Flags:
+        """Update e(S), the joint travel and the rotation of the tool, rounded up; return a mask where e(S) <= S."""
+        self.joint_travel = np.einsum("nkc,nc->nk", self.response, self.half_widths) * ROUND_UP
+        remainder, self.angle = self.error.bound_remainder(self.joint_travel)
+        self.excess, s = self.form.bound_magnitude(self.half_widths, remainder[:, : self.m]), self.half_widths[:, -self.m :]
+        return np.asarray(((self.excess <= s) & (s < 1e3)).all(axis=1))
 
-    def within(self, q: Balls, limits: Array, free: list[int]) -> Flags:
-        """Whether free joints stay within limits (n, 2), from the middles (N, n) on."""
-        far = self.far[:, : q.at.shape[1]]
-        low, high = np.nextafter(q.low - far, -np.inf), np.nextafter(-(-q).low + far, np.inf)
-        return np.asarray(((low >= limits[:, 0]) & (high <= limits[:, 1]))[:, free].all(axis=1))
-
-
-def place(at: Moved, columns: Balls, tip: Balls, to: Moved, theirs: Balls, end: Balls) -> Form:
-    """A vector (N, 3) of one chain less that of another, by the joints of both, those of the other backwards."""
-    (slopes, second), (back, twice) = (derivatives(*x) for x in ((at.spin, columns), (to.spin, theirs)))
-    n, v = columns.at.shape[1], columns.at.shape[1] + theirs.at.shape[1]
-    made = [np.zeros((len(tip.at), 3, v, v)) for _ in range(2)]
-    for whole, one, other in ((made[0], second.at, -twice.at), (made[1], second.off, twice.off)):
-        whole[:, :, :n, :n], whole[:, :, n:, n:] = one, other[:, :, ::-1, ::-1]
-    return Form(tip + -end, joined(2, slopes, -back[:, :, ::-1]), Balls(*made))
+    def is_within_limits(self, q: BallArray, limits: Array, free: list[int]) -> Flags:
+        """Return a mask of the boxes in which the free joints stay within limits (n, 2), starting from the middles (N, n)."""
+        joint_travel = self.joint_travel[:, : q.center.shape[1]]
+        lower, upper = np.nextafter(q.lower - joint_travel, -np.inf), np.nextafter(-(-q).lower + joint_travel, np.inf)
+        return np.asarray(((lower >= limits[:, 0]) & (upper <= limits[:, 1]))[:, free].all(axis=1))
 
 
-def derivatives(spin: Balls, columns: Balls) -> tuple[Balls, Balls]:
-    """Slopes (N, 3, V) of a vector, and its second derivatives (N, 3, V, V): z_a x J_b by a and a later b."""
-    return columns.transposed(0, 2, 1), times("nari,nbi->nrab", crossed(spin), columns).mirrored()
+def enclose_difference(
+    point: PointKinematics,
+    columns: BallArray,
+    tip: BallArray,
+    other_point: PointKinematics,
+    other_columns: BallArray,
+    other_tip: BallArray,
+) -> DerivativeEnclosure:
+    """Enclose the difference (N, 3) of a vector of one chain and one of another, by the joints of both, the other's
+    backwards.
+    """
+    (gradients, second), (other_gradients, other_second) = (
+        compute_derivatives(*vectors) for vectors in ((point.spin_axes, columns), (other_point.spin_axes, other_columns))
+    )
+    n, v = columns.center.shape[1], columns.center.shape[1] + other_columns.center.shape[1]
+    arrays = [np.zeros((len(tip.center), 3, v, v)) for _ in range(2)]
+    for array, own_block, other_block in (
+        (arrays[0], second.center, -other_second.center),
+        (arrays[1], second.radius, other_second.radius),
+    ):
+        array[:, :, :n, :n], array[:, :, n:, n:] = own_block, other_block[:, :, ::-1, ::-1]
+    return DerivativeEnclosure(tip + -other_tip, concatenate(2, gradients, -other_gradients[:, :, ::-1]), BallArray(*arrays))
+
+
+def compute_derivatives(spin_axes: BallArray, columns: BallArray) -> tuple[BallArray, BallArray]:
+    """Return the gradients (N, 3, V) of a vector and its second derivatives (N, 3, V, V), z_a x J_b by a and a later b."""
+    return columns.transpose(0, 2, 1), einsum("nari,nbi->nrab", cross_matrix(spin_axes), columns).symmetrize()

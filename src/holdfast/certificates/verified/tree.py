@@ -1,49 +1,53 @@
-"""The bisection tree of a certificate: cells of its root box, and what part of it they are."""
+"""Bisection tree of a certificate: cells of its root box, and the fraction of the box that they fill."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from fractions import Fraction
 
-from .forms import need
+from .forms import require
 
 Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
 
-MOST_LEAVES, MOST_DEPTH = 1 << 24, 200
-MOST_STEPS = 1_000_000  # to find what overlapping cells cover
-PROVED, SPLIT = 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
+MAX_LEAVES, MAX_DEPTH = 1 << 24, 200
+MAX_COVER_STEPS = 1_000_000  # to find what overlapping cells cover
+PROVED_TOKEN, SPLIT_TOKEN = 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
 
 
-def cells(tree: bytes, axes: int, last: int = 2, locks: int = 256) -> Iterator[tuple[int, Cell]]:
-    """Token and cell of each leaf, in the order of the tree; tokens up to the last are those of leaves, and from ``locks``."""
+def iterate_cells(tree: bytes, axes: int, last_leaf_token: int = 2, first_lock_token: int = 256) -> Iterator[tuple[int, Cell]]:
+    """Yield token and cell of each leaf, in tree order; leaf tokens are those up to ``last_leaf_token`` and from
+    ``first_lock_token``.
+    """
     waiting: list[Cell] = [((0, 0),) * axes]
     for token in tree:
-        need(waiting, "the tree goes on behind its end")
-        cell, axis = waiting.pop(), token - SPLIT
-        if token <= last or token >= locks:
+        require(waiting, "the tree goes on behind its end")
+        cell, axis = waiting.pop(), token - SPLIT_TOKEN
+        if token <= last_leaf_token or token >= first_lock_token:
             yield token, cell
             continue
-        good = 0 <= axis < axes and sum(d for _, d in cell) < MOST_DEPTH
-        need(good, f"token {token} is unknown, or the tree deeper than {MOST_DEPTH}")
-        (k, d), after = cell[axis], cell[axis + 1 :]
-        waiting += [(*cell[:axis], (2 * k + upper, d + 1), *after) for upper in (1, 0)]
-    need(not waiting, "the tree ends early")
+        is_valid = 0 <= axis < axes and sum(d for _, d in cell) < MAX_DEPTH
+        require(is_valid, f"token {token} is unknown, or the tree deeper than {MAX_DEPTH}")
+        (k, d), later_axes = cell[axis], cell[axis + 1 :]
+        waiting += [(*cell[:axis], (2 * k + upper, d + 1), *later_axes) for upper in (1, 0)]
+    require(not waiting, "the tree ends early")
 
 
-def volume(parts: Iterable[Cell]) -> Fraction:
-    """What part of the root box cells are."""
+def compute_volume(parts: Iterable[Cell]) -> Fraction:
+    """Return the fraction of the root box that disjoint cells fill."""
     return sum((Fraction(1, 1 << sum(d for _, d in cell)) for cell in parts), Fraction(0))
 
 
-def covered(parts: Collection[Cell], steps: list[int]) -> Fraction:
-    """What part of the root box cells cover that may overlap; something above that once ``steps`` (one number) are spent."""
+def compute_covered_volume(parts: Collection[Cell], steps: list[int]) -> Fraction:
+    """Return the fraction of the root box that overlapping cells cover, or an upper bound once ``steps`` (one number) are
+    spent.
+    """
     steps[0] -= len(parts)
     if len(parts) < 2 or steps[0] < 0 or any(not any(d for _, d in cell) for cell in parts):
-        return min(Fraction(1), volume(parts))
+        return min(Fraction(1), compute_volume(parts))
     axis = min(range(len(next(iter(parts)))), key=lambda a: sum(cell[a][1] == 0 for cell in parts))
     halves: tuple[set[Cell], set[Cell]] = set(), set()
     for cell in parts:
-        (k, d), before, after = cell[axis], cell[:axis], cell[axis + 1 :]
+        (k, d), earlier_axes, later_axes = cell[axis], cell[:axis], cell[axis + 1 :]
         for upper in (0, 1) if d == 0 else (k >> (d - 1),):
-            halves[upper].add((*before, (k - (upper << (d - 1)), d - 1) if d else (0, 0), *after))
-    return (covered(halves[0], steps) + covered(halves[1], steps)) / 2
+            halves[upper].add((*earlier_axes, (k - (upper << (d - 1)), d - 1) if d else (0, 0), *later_axes))
+    return (compute_covered_volume(halves[0], steps) + compute_covered_volume(halves[1], steps)) / 2

@@ -1,4 +1,4 @@
-"""What a certificate claims, in words made from its numbers; its decimals are the shortest that mean the same doubles."""
+"""Sentences of claims, made from the numbers of certificates; decimals are the shortest that represent the same doubles."""
 
 from __future__ import annotations
 
@@ -9,65 +9,86 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import Any
 
-from .forms import real, spans
-from .paths import SEGMENT
-from .zeros import snap
+from .forms import format_intervals, parse_hex
+from .paths import SEGMENT_INSTANTS
+from .zeros import bound_snap_errors
 
 
-def sentence(document: dict[str, Any]) -> str:
-    """The claim of a certificate, made from its other keys."""
+def claim_sentence(document: dict[str, Any]) -> str:
+    """Return the claim of a certificate as a sentence, made from its other keys."""
     names = [joint["name"] for joint in document["arm"]["joints"]]
-    said = {"path": _path, "structural-zero": _zero, "ceiling": _bound, "floor": _bound}.get(document["kind"], _target)
-    return f"{said(document, names)} arm {document['arm_digest'][:12]}."
+    format_claim = {
+        "path": _path_claim,
+        "structural-zero": _structural_zero_claim,
+        "ceiling": _bound_claim,
+        "floor": _bound_claim,
+    }.get(document["kind"], _target_claim)
+    return f"{format_claim(document, names)} arm {document['arm_digest'][:12]}."
 
 
-def _zero(document: dict[str, Any], names: list[str]) -> str:
-    near = "{} rad and {} m".format(*(f"{_two_digits(Fraction(x), True):g}" if x else "0" for x in snap(document)))
-    text = f"For every configuration of an arm whose frames are within {near} of the file's, relative manipulability of the"
+def _structural_zero_claim(document: dict[str, Any], names: list[str]) -> str:
+    tolerance = "{} rad and {} m".format(
+        *(f"{_two_digits(Fraction(error), True):g}" if error else "0" for error in bound_snap_errors(document))
+    )
+    text = (
+        f"For every configuration of an arm whose frames are within {tolerance} of the file's, relative manipulability of the"
+    )
     return f"{text} pose after a lock of {names[document['locked']]} is 0;"
 
 
-def _bound(document: dict[str, Any], names: list[str]) -> str:
-    text = f"For every configuration with {spans(names, document['joint_box'])}, the least relative manipulability of the "
-    text += f"{document['task']} after a lock of one of {', '.join(names[k] for k in document['locks'])} is at "
-    return f"{text}{'most' if document['kind'] == 'ceiling' else 'least'} {real(document['threshold'])!r}; angles in rad,"
-
-
-def _path(document: dict[str, Any], names: list[str]) -> str:
-    knots, (first, last), locked = document["knots"], document["during"], [names[one["joint"]] for one in document["locks"]]
-    metres, radians = map(real, document["tube"])
-    made = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
+def _bound_claim(document: dict[str, Any], names: list[str]) -> str:
     text = (
-        f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {made}. For every instant from "
+        f"For every configuration with {format_intervals(names, document['joint_box'])}, the least relative "
+        f"manipulability of the "
     )
-    text += f"knot {first / SEGMENT!r} to knot {last / SEGMENT!r} at which one of {', '.join(locked)} locks "
-    text += f"where it is, one continuous motion within the limits ({spans(names, document['limits'])}) begins there with that "
+    text += f"{document['task']} after a lock of one of {', '.join(names[lock] for lock in document['locks'])} is at "
+    return f"{text}{'most' if document['kind'] == 'ceiling' else 'least'} {parse_hex(document['threshold'])!r}; angles in rad,"
+
+
+def _path_claim(document: dict[str, Any], names: list[str]) -> str:
+    knots, (first, last), locked = document["knots"], document["during"], [names[lock["joint"]] for lock in document["locks"]]
+    metres, radians = map(parse_hex, document["tube"])
+    knots_digest = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
+    text = (
+        f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {knots_digest}. For "
+        f"every instant from "
+    )
+    text += f"knot {first / SEGMENT_INSTANTS!r} to knot {last / SEGMENT_INSTANTS!r} at which one of {', '.join(locked)} locks "
+    text += (
+        f"where it is, one continuous motion within the limits ({format_intervals(names, document['limits'])}) begins "
+        f"there with that "
+    )
     text += f"joint at rest and takes the tool along the rest of the {document['task']} path"
     if metres or radians:
-        off = f" and {radians!r} rad" if "pose" in document["task"] else ""
-        text += f", or along any continuous path that is within {metres!r} m{off} of it and begins on it"
+        angle_note = f" and {radians!r} rad" if "pose" in document["task"] else ""
+        text += f", or along any continuous path that is within {metres!r} m{angle_note} of it and begins on it"
     return f"{text}; angles in rad,"
 
 
-def _target(document: dict[str, Any], names: list[str]) -> str:
-    target, kind, turned = document["target"], document["kind"], ""
+def _target_claim(document: dict[str, Any], names: list[str]) -> str:
+    target, kind, orientation_note = document["target"], document["kind"], ""
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in target["axes"]]
-    given = [real(x) for x in target["orientation"] or ()]
-    if given:
-        turned = (
-            f" and the tool's z axis along {given[2::3]}" if document["task"] == "pointing" else f" and the rotation {given}"
+    orientation = [parse_hex(number) for number in target["orientation"] or ()]
+    if orientation:
+        orientation_note = (
+            f" and the tool's z axis along {orientation[2::3]}"
+            if document["task"] == "pointing"
+            else f" and the rotation {orientation}"
         )
-    turned += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
-    text = f"For every {document['task']} target with {spans(axes, target['box'])}{turned}"
-    kept = f"configuration within the limits ({spans(names, document['limits'])})"
+    orientation_note += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
+    text = f"For every {document['task']} target with {format_intervals(axes, target['box'])}{orientation_note}"
+    configuration = f"configuration within the limits ({format_intervals(names, document['limits'])})"
     if kind == "bundle":
-        ranges, locked = spans(names, document["working_ranges"]), [names[i] for i in document["locks"]]
+        ranges, locked = format_intervals(names, document["working_ranges"]), [names[lock] for lock in document["locks"]]
         text += f", a configuration within the working ranges ({ranges}) reaches it, and after a lock of any one of "
         text += f"{', '.join(locked)} at any value of its range"
     elif document["locked"] >= 0:
-        text += f", and every value {spans(['from'], [document['angle']])} at which {names[document['locked']]} may be locked"
-    kept += " with that value" * (kind == "bundle" or document["locked"] >= 0)
-    text += f" and every {kept}: the tool is elsewhere" if kind == "refutation" else f", a {kept} reaches it"
+        text += (
+            f", and every value {format_intervals(['from'], [document['angle']])} at which "
+            f"{names[document['locked']]} may be locked"
+        )
+    configuration += " with that value" * (kind == "bundle" or document["locked"] >= 0)
+    text += f" and every {configuration}: the tool is elsewhere" if kind == "refutation" else f", a {configuration} reaches it"
     return f"{text}; lengths in m, angles in rad, base frame,"
 
 
@@ -75,12 +96,14 @@ def qualify_claim(claim: str, proved: Fraction, *, refuted: bool = False, sample
     """Return a claim as it may be printed: with the proved fraction in front, unless every cell of all of it is verified."""
     if refuted or sampled:
         return f"{'False' if refuted else 'Sampled, not verified'}: {claim}"
-    only = f"Proved for only {per_cent(proved)} of this claim: " if proved else "Not proved: "
+    only = f"Proved for only {format_percent(proved)} of this claim: " if proved else "Not proved: "
     return claim if proved == 1 else only + claim
 
 
-def per_cent(part: Fraction, up: bool = False) -> str:
-    """A share in per cent, rounded down, or up: what is proved is never said to be more, what is undecided never less."""
+def format_percent(part: Fraction, up: bool = False) -> str:
+    """Format a fraction in per cent, rounded down or up, so that proved fractions are never overstated and undecided ones never
+    understated.
+    """
     if part in (0, 1):
         return f"{100 * int(part)} %"
     if part < Fraction(1, 10_000):
@@ -92,5 +115,5 @@ def per_cent(part: Fraction, up: bool = False) -> str:
 
 
 def _two_digits(x: Fraction, up: bool) -> Decimal:
-    """The decimal of two digits above or below."""
+    """Return the decimal of two digits below or above a fraction."""
     return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))

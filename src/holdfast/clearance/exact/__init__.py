@@ -1,1 +1,1 @@
-"""Exact answers about collisions, of bodies rather than of the spheres that cover them."""
+"""Exact collision answers for the bodies themselves instead of the spheres that cover them."""

@@ -1,4 +1,4 @@
-"""Rigid bodies as they are: what exact questions are asked about, on the links of an arm and in its cell."""
+"""Rigid bodies on the links of an arm and in its cell, as the exact collision queries use them."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from holdfast.caching import cached_property
 from holdfast.cell import solids
 from holdfast.cell.meshes import Mesh, Points
 from holdfast.clearance.capsules import Capsule
-from holdfast.clearance.shape import corners, hull_of
-from holdfast.kernels.recall import recalled_data
+from holdfast.clearance.shape import corner_points, make_hull
+from holdfast.kernels.recall import cached_json
 from holdfast.shapes.pieces import Piece
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "convex", "mesh"]
 
-_CONVEX = 1e-9  # of its hull's volume: what a closed mesh may lack of it and still be its hull
-_GRID = 14  # points along the longest edge of a hull, among which centres of spheres within it are looked for
-_WITHIN = 4  # spheres within a hull, at most
-_IN_OBJECTS = 2  # of those, of an object
-_THINNEST = 1e-9  # m: a box has edges
+_CONVEX_TOLERANCE = 1e-9  # of its hull's volume: what a closed mesh may lack of it and still be its hull
+_GRID_POINTS = 14  # points along the longest edge of a hull, among which centres of spheres within it are looked for
+_MAX_INNER_SPHERES = 4  # spheres within a hull, at most
+_MAX_OBJECT_SPHERES = 2  # of those, of an object
+_MIN_EDGE_M = 1e-9  # m: a box has edges
 
 
-def _nothing() -> Array:
+def _empty_points() -> Array:
     return np.zeros((0, 3))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Body:
+class CollisionBody:
     """A rigid body.
 
     Attributes:
@@ -50,12 +50,12 @@ class Body:
     kind: Kind
     size: tuple[float, ...] = ()
     pose: Array = field(default_factory=lambda: np.eye(4))
-    vertices: Array = field(default_factory=_nothing)
+    vertices: Array = field(default_factory=_empty_points)
     faces: Triangles = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
-    filled: Body | None = None
+    filled: CollisionBody | None = None
 
-    def support(self, direction: Array) -> float:
-        """How far it reaches along a direction (3,), m; both in its own frame, as everything below."""
+    def support_distance(self, direction: Array) -> float:
+        """Return the extent of the body along a direction (3,), m; both in the body's own frame, as in all other methods."""
         if self.kind in ("convex", "mesh"):
             return float((self.vertices @ direction).max())
         if self.kind == "box":
@@ -63,12 +63,12 @@ class Body:
         if self.kind == "ellipsoid":
             return float(np.linalg.norm(direction * np.array(self.size)))
         radius, length = (*self.size, 0.0)[:2]
-        wide = np.hypot(direction[0], direction[1]) if self.kind == "cylinder" else np.linalg.norm(direction)
-        return float(radius * wide + abs(direction[2]) * length / 2)
+        radial_scale = np.hypot(direction[0], direction[1]) if self.kind == "cylinder" else np.linalg.norm(direction)
+        return float(radius * radial_scale + abs(direction[2]) * length / 2)
 
     @property
-    def formula(self) -> solids.Primitive | None:
-        """What has the same signed distance, if there is a formula."""
+    def exact_primitive(self) -> solids.PrimitiveSolid | None:
+        """Primitive with the same signed distance, if there is a formula."""
         if self.kind == "box":
             return solids.Box("", np.array(self.size))
         if self.kind == "sphere":
@@ -77,184 +77,193 @@ class Body:
         return kinds[self.kind]("", *self.size) if self.kind in kinds else None
 
     @cached_property
-    def planes(self) -> tuple[Array, Array]:
+    def face_planes(self) -> tuple[Array, Array]:
         """Outward unit normals (F, 3) and offsets (F,), m, of the faces of a box or hull."""
         if self.kind == "box":
-            half = np.array(self.size) / 2
-            return np.concatenate([np.eye(3), -np.eye(3)]), np.concatenate([half, half])
-        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
-        normal = np.cross(b - a, c - a)
+            half_size = np.array(self.size) / 2
+            return np.concatenate([np.eye(3), -np.eye(3)]), np.concatenate([half_size, half_size])
+        first, second, third = (self.vertices[self.faces[:, corner]] for corner in range(3))
+        normal = np.cross(second - first, third - first)
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
         return normal, np.asarray((normal @ self.vertices.T).max(axis=1))
 
     @cached_property
-    def inside(self) -> tuple[Array, Array]:
-        """Centres (S, 3) and radii (S,), m, of spheres that lie within it; none of a mesh."""
+    def inner_spheres(self) -> tuple[Array, Array]:
+        """Centers (S, 3) and radii (S,), m, of spheres inside the body; none of a mesh."""
         if self.kind == "mesh":
-            return _nothing(), np.zeros(0)
+            return _empty_points(), np.zeros(0)
         if self.kind in ("box", "convex"):
-            balls = np.array(_spheres_within(*self.planes, self._corners())).reshape(-1, 4)
-            return (balls[:, :3], balls[:, 3]) if self.filled is None else self.filled.spheres_within(balls)
+            spheres = np.array(_fit_inner_spheres(*self.face_planes, self._corner_points())).reshape(-1, 4)
+            return (spheres[:, :3], spheres[:, 3]) if self.filled is None else self.filled.shrink_spheres(spheres)
         if self.kind == "ellipsoid":
             return np.zeros((1, 3)), np.array([min(self.size)])
         radius, length = (*self.size, 0.0)[:2]
         if self.kind == "cylinder":
             radius = min(radius, length / 2)
             length -= 2 * radius
-        heights = np.linspace(-length / 2, length / 2, min(int(np.ceil(length / radius)) + 1, _WITHIN))
+        heights = np.linspace(-length / 2, length / 2, min(int(np.ceil(length / radius)) + 1, _MAX_INNER_SPHERES))
         return np.column_stack([np.zeros((len(heights), 2)), heights]), np.full(len(heights), radius)
 
-    def spheres_within(self, balls: Array) -> tuple[Array, Array]:
-        """Centres (S, 3) and radii (S,), m, of balls (N, 4) that are inside a mesh, each shrunk until it lies within."""
-        enclosed = balls[[self.encloses(ball[:3]) for ball in balls]]
-        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
-        room = np.array([_distance_to_triangles(ball[:3], a, b, c) for ball in enclosed])
-        return enclosed[:, :3], np.minimum(enclosed[:, 3], room)
+    def shrink_spheres(self, spheres: Array) -> tuple[Array, Array]:
+        """Return centers (S, 3) and radii (S,), m, of balls (N, 4) centered in a mesh, each shrunk until it lies inside."""
+        enclosed = spheres[[self.contains_point(sphere[:3]) for sphere in spheres]]
+        first, second, third = (self.vertices[self.faces[:, corner]] for corner in range(3))
+        distances = np.array([_distance_to_triangles(sphere[:3], first, second, third) for sphere in enclosed])
+        return enclosed[:, :3], np.minimum(enclosed[:, 3], distances)
 
-    def _corners(self) -> Array:
+    def _corner_points(self) -> Array:
         if self.kind == "box":
             return np.array(list(product((-0.5, 0.5), repeat=3))) * self.size
         return self.vertices
 
     @cached_property
-    def ball(self) -> tuple[Array, float]:
-        """Centre (3,) and radius, m, of a ball that contains it."""
+    def bounding_sphere(self) -> tuple[Array, float]:
+        """Center (3,) and radius, m, of a ball that contains the body."""
         if self.kind in ("convex", "mesh"):
-            centre = (self.vertices.max(axis=0) + self.vertices.min(axis=0)) / 2
-            return centre, float(np.linalg.norm(self.vertices - centre, axis=1).max())
-        return np.zeros(3), float(np.linalg.norm([self.support(axis) for axis in np.eye(3)]))
+            center = (self.vertices.max(axis=0) + self.vertices.min(axis=0)) / 2
+            return center, float(np.linalg.norm(self.vertices - center, axis=1).max())
+        return np.zeros(3), float(np.linalg.norm([self.support_distance(axis) for axis in np.eye(3)]))
 
     @property
-    def point(self) -> Array:
-        """(3,) any point of it."""
+    def any_point(self) -> Array:
+        """Any point (3,) of the body."""
         return np.asarray(self.vertices[0]) if self.kind in ("convex", "mesh") else np.zeros(3)
 
-    def encloses(self, point: Array) -> bool:
-        """Whether a point (3,) lies within a mesh.
+    def contains_point(self, point: Array) -> bool:
+        """Return True if a point (3,) lies inside a mesh.
 
         The solid angle of all its triangles is 4 pi from within and 0 from outside (van Oosterom & Strackee 1983).
         """
         if (point < self.vertices.min(axis=0)).any() or (point > self.vertices.max(axis=0)).any():
             return False
-        a, b, c = (self.vertices[self.faces[:, k]] - point for k in range(3))
-        la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
-        above, below = np.einsum("ij,ij->i", a, np.cross(b, c)), la * lb * lc
-        for x, y, far in ((a, b, lc), (b, c, la), (c, a, lb)):
-            below += np.einsum("ij,ij->i", x, y) * far
-        return bool(2 * np.arctan2(above, below).sum() > 2 * np.pi)
+        first, second, third = (self.vertices[self.faces[:, corner]] - point for corner in range(3))
+        first_length, second_length, third_length = (np.linalg.norm(left_edge, axis=1) for left_edge in (first, second, third))
+        numerator, denominator = (
+            np.einsum("ij,ij->i", first, np.cross(second, third)),
+            first_length * second_length * third_length,
+        )
+        for left_edge, right_edge, opposite_length in (
+            (first, second, third_length),
+            (second, third, first_length),
+            (third, first, second_length),
+        ):
+            denominator += np.einsum("ij,ij->i", left_edge, right_edge) * opposite_length
+        return bool(2 * np.arctan2(numerator, denominator).sum() > 2 * np.pi)
 
 
-def of_capsule(part: Capsule) -> Body:
-    """A capsule of a link; a sphere where it has no length."""
+def body_from_capsule(part: Capsule) -> CollisionBody:
+    """Make the body of a capsule of a link; a sphere where it has no length."""
     start, span = np.array(part.start), np.subtract(part.end, part.start)
     pose = np.eye(4)
     pose[:3, 3] = start + span / 2
     if part.length == 0:
-        return Body(kind="sphere", size=(part.radius,), pose=pose)
-    z = span / part.length
-    x = np.cross(z, np.eye(3)[np.argmin(np.abs(z))])
-    x /= np.linalg.norm(x)
-    pose[:3, :3] = np.column_stack([x, np.cross(z, x), z])
-    return Body(kind="capsule", size=(part.radius, part.length), pose=pose)
+        return CollisionBody(kind="sphere", size=(part.radius,), pose=pose)
+    axis = span / part.length
+    across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+    across /= np.linalg.norm(across)
+    pose[:3, :3] = np.column_stack([across, np.cross(axis, across), axis])
+    return CollisionBody(kind="capsule", size=(part.radius, part.length), pose=pose)
 
 
-def of_solid(solid: solids.Solid) -> Body:
-    """A bounded object of a cell."""
+def body_from_solid(solid: solids.Solid) -> CollisionBody:
+    """Make the body of a bounded object of a cell."""
     if isinstance(solid, solids.Box):
-        return Body(kind="box", size=tuple(solid.size.tolist()), pose=solid.pose)
+        return CollisionBody(kind="box", size=tuple(solid.size.tolist()), pose=solid.pose)
     if isinstance(solid, solids.Cylinder):
-        return Body(kind="cylinder", size=(solid.radius, solid.length), pose=solid.pose)
+        return CollisionBody(kind="cylinder", size=(solid.radius, solid.length), pose=solid.pose)
     if isinstance(solid, solids.Capsule):
-        return Body(kind="capsule", size=(solid.radius, solid.length), pose=solid.pose)
+        return CollisionBody(kind="capsule", size=(solid.radius, solid.length), pose=solid.pose)
     if isinstance(solid, solids.Sphere):
-        return Body(kind="sphere", size=(solid.radius,), pose=solid.pose)
+        return CollisionBody(kind="sphere", size=(solid.radius,), pose=solid.pose)
     assert isinstance(solid, Mesh)
     vertices, faces = solid.surface.vertices, solid.surface.faces
-    convex = solid.solid == "hull" or abs(solid.surface.volume / ConvexHull(vertices).volume - 1) <= _CONVEX
-    return Body(kind="convex" if convex else "mesh", pose=solid.pose, vertices=vertices, faces=faces)
+    convex = solid.solid == "hull" or abs(solid.surface.volume / ConvexHull(vertices).volume - 1) <= _CONVEX_TOLERANCE
+    return CollisionBody(kind="convex" if convex else "mesh", pose=solid.pose, vertices=vertices, faces=faces)
 
 
-def box_about(solid: solids.Solid) -> solids.Primitive:
-    """An object that contains a given one and has a formula: itself if it has one, else a box in its own frame."""
-    if isinstance(solid, solids.Primitive):
+def bounding_primitive(solid: solids.Solid) -> solids.PrimitiveSolid:
+    """Return an object with a formula that contains a given one: the object itself if it has a formula, else a box in its
+    frame.
+    """
+    if isinstance(solid, solids.PrimitiveSolid):
         return solid
     assert isinstance(solid, Mesh | Points)
     corners = solid.surface.vertices if isinstance(solid, Mesh) else solid.centres
-    more = 0.0 if isinstance(solid, Mesh) else solid.radius
-    low, high = corners.min(axis=0) - more, corners.max(axis=0) + more
+    point_radius = 0.0 if isinstance(solid, Mesh) else solid.radius
+    lower, upper = corners.min(axis=0) - point_radius, corners.max(axis=0) + point_radius
     pose = solid.pose.copy()
-    pose[:3, 3] += pose[:3, :3] @ ((low + high) / 2)
-    return solids.Box(solid.name, np.maximum(high - low, _THINNEST), pose=pose)
+    pose[:3, 3] += pose[:3, :3] @ ((lower + upper) / 2)
+    return solids.Box(solid.name, np.maximum(upper - lower, _MIN_EDGE_M), pose=pose)
 
 
-def solids_within(solid: solids.Solid) -> list[solids.Primitive]:
-    """Solids with a formula that lie within an object: itself if it has one, spheres within a hull, nothing else."""
-    if isinstance(solid, solids.Primitive):
+def inner_primitives(solid: solids.Solid) -> list[solids.PrimitiveSolid]:
+    """Return solids with a formula inside an object: the object itself if it has a formula, spheres in a hull, else nothing."""
+    if isinstance(solid, solids.PrimitiveSolid):
         return [solid]
-    body = of_solid(solid) if isinstance(solid, Mesh) else None
+    body = body_from_solid(solid) if isinstance(solid, Mesh) else None
     if body is None or body.kind != "convex":
         return []
-    centres, radii = (x[:_IN_OBJECTS] for x in body.inside)
+    centers, radii = (values[:_MAX_OBJECT_SPHERES] for values in body.inner_spheres)
     pose = np.tile(body.pose, (len(radii), 1, 1))
-    pose[:, :3, 3] += centres @ body.pose[:3, :3].T
-    return [solids.Sphere("", radius, pose=at) for radius, at in zip(radii.tolist(), pose, strict=True)]
+    pose[:, :3, 3] += centers @ body.pose[:3, :3].T
+    return [solids.Sphere("", radius, pose=sphere_pose) for radius, sphere_pose in zip(radii.tolist(), pose, strict=True)]
 
 
-def of_piece(piece: Piece) -> Body:
-    """A piece of a link.
+def body_from_piece(piece: Piece) -> CollisionBody:
+    """Make the body of a piece of a link.
 
     Raises:
         ArmError: A mesh is flat.
     """
     assert piece.kind != "half space"  # no link of an arm is one
     if piece.kind != "mesh":
-        return Body(kind=piece.kind, size=piece.size, pose=piece.pose)
-    hull = hull_of(piece)
-    if hull.convex:
-        mesh = Body(kind="mesh", vertices=corners(piece), faces=piece.faces)
-        filled = None if hull.fills <= _CONVEX else mesh
-        return Body(kind="convex", vertices=hull.vertices, faces=hull.faces, filled=filled)
-    return Body(kind="mesh", pose=piece.pose, vertices=piece.vertices, faces=piece.faces)
+        return CollisionBody(kind=piece.kind, size=piece.size, pose=piece.pose)
+    hull = make_hull(piece)
+    if hull.is_convex:
+        mesh = CollisionBody(kind="mesh", vertices=corner_points(piece), faces=piece.faces)
+        filled_mesh = None if hull.volume_error <= _CONVEX_TOLERANCE else mesh
+        return CollisionBody(kind="convex", vertices=hull.vertices, faces=hull.faces, filled=filled_mesh)
+    return CollisionBody(kind="mesh", pose=piece.pose, vertices=piece.vertices, faces=piece.faces)
 
 
 def _distance_to_triangles(point: Array, a: Array, b: Array, c: Array) -> float:
-    """The distance, m, of a point (3,) from the nearest of triangles with corners (F, 3)."""
+    """Return the distance, m, of a point (3,) from the nearest of triangles with corners (F, 3)."""
     nearest = np.inf
     normal = np.cross(b - a, c - a)
     inside = np.ones(len(a), dtype=np.bool_)
     for start, end in ((a, b), (b, c), (c, a)):
-        edge, away = end - start, point - start
-        along = np.einsum("ij,ij->i", edge, away) / np.maximum(np.einsum("ij,ij->i", edge, edge), 1e-300)
-        gap = away - np.clip(along, 0.0, 1.0)[:, None] * edge
+        edge, offset = end - start, point - start
+        fraction = np.einsum("ij,ij->i", edge, offset) / np.maximum(np.einsum("ij,ij->i", edge, edge), 1e-300)
+        gap = offset - np.clip(fraction, 0.0, 1.0)[:, None] * edge
         nearest = min(nearest, float(np.linalg.norm(gap, axis=1).min()))
-        inside &= np.einsum("ij,ij->i", np.cross(edge, away), normal) >= 0
-    size = np.linalg.norm(normal, axis=1)
-    inside &= size > 0
-    heights = np.abs(np.einsum("ij,ij->i", point - a, normal)[inside]) / size[inside]
+        inside &= np.einsum("ij,ij->i", np.cross(edge, offset), normal) >= 0
+    normal_length = np.linalg.norm(normal, axis=1)
+    inside &= normal_length > 0
+    heights = np.abs(np.einsum("ij,ij->i", point - a, normal)[inside]) / normal_length[inside]
     return min(nearest, float(heights.min(initial=np.inf)))
 
 
-@recalled_data
-def _spheres_within(normals: Array, offsets: Array, corners: Array) -> list[list[float]]:
-    """Centres and radii, m, of spheres within a hull: each the one that covers most of what the others leave.
+@cached_json
+def _fit_inner_spheres(normals: Array, offsets: Array, corners: Array) -> list[list[float]]:
+    """Fit spheres inside a hull, centers and radii in m; each one covers most of the volume that the others leave.
 
     They take 0.1 s a hull, and are remembered.
     """
-    low, size = corners.min(axis=0), np.ptp(corners, axis=0)
-    counts = np.maximum(np.ceil(_GRID * size / size.max()).astype(int), 3)
-    axes = [low[k] + size[k] * (np.arange(counts[k]) + 0.5) / counts[k] for k in range(3)]
+    lower, size = corners.min(axis=0), np.ptp(corners, axis=0)
+    counts = np.maximum(np.ceil(_GRID_POINTS * size / size.max()).astype(int), 3)
+    axes = [lower[axis] + size[axis] * (np.arange(counts[axis]) + 0.5) / counts[axis] for axis in range(3)]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    room = (offsets - points @ normals.T).min(axis=1)
-    points, room = points[room > 0], room[room > 0]
+    radii = (offsets - points @ normals.T).min(axis=1)
+    points, radii = points[radii > 0], radii[radii > 0]
     if not len(points):
         return []
-    covers = ((points[:, None] - points) ** 2).sum(axis=2) <= room[:, None] ** 2
-    left, chosen = np.ones(len(points), dtype=np.bool_), list[int]()
-    while len(chosen) < _WITHIN:
-        best = int(np.argmax((covers & left).sum(axis=1) + 1e-3 * room / room.max()))
-        if not (covers[best] & left).any():
+    covers = ((points[:, None] - points) ** 2).sum(axis=2) <= radii[:, None] ** 2
+    uncovered, chosen = np.ones(len(points), dtype=np.bool_), list[int]()
+    while len(chosen) < _MAX_INNER_SPHERES:
+        best_point = int(np.argmax((covers & uncovered).sum(axis=1) + 1e-3 * radii / radii.max()))
+        if not (covers[best_point] & uncovered).any():
             break
-        chosen.append(best)
-        left &= ~covers[best]
-    found: list[list[float]] = np.column_stack([points[chosen], room[chosen]]).tolist()
-    return found
+        chosen.append(best_point)
+        uncovered &= ~covers[best_point]
+    spheres: list[list[float]] = np.column_stack([points[chosen], radii[chosen]]).tolist()
+    return spheres

@@ -1,4 +1,4 @@
-"""Contacts that are certain, and which shape is not known where others are not.
+"""Certain contacts, and the parts of the shape that prevent certainty.
 
 A contact is certain if it is between bodies that lie within the arm: meshes and primitives that were read, and capsules that
 were given as its shape. Capsules that cover a shape, or whose radius is assumed, may overlap where the arm does not.
@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 
 from holdfast.clearance.capsules import link_name
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.engines import installed
+from holdfast.clearance.exact.engines import is_library_installed
 
 Array = NDArray[np.float64]
 
-_ROUNDING = 1e-9  # m
+_ROUNDING_M = 1e-9  # m
 
 
-def certain_contacts(clearance: Clearance, q: Array, margin: float = 0.0) -> list[str]:
-    """Name, for each configuration (N, n), two things that are certainly closer than they may be; empty where none is known.
+def find_certain_contacts(clearance: Clearance, q: Array, margin: float = 0.0) -> list[str]:
+    """Name for each configuration (N, n) two bodies that are certainly closer than allowed; empty where none is known.
 
     Args:
         clearance: What may not touch, and the margins of its objects.
@@ -27,38 +27,38 @@ def certain_contacts(clearance: Clearance, q: Array, margin: float = 0.0) -> lis
         margin: m, kept between all of them, beyond the margins of objects.
     """
     names, exactness, arm = [""] * len(q), clearance.exactness, clearance.arm
-    own = len(clearance.capsules) - clearance.capsules.held
-    if clearance.capsules.shape is None and exactness.parts_known:
-        gaps = clearance.alone.by_pair(q)
-        for k, pair in enumerate(clearance.pairs):
-            for touching in np.flatnonzero(gaps[:, k] < margin - _ROUNDING) if max(pair) < own else ():
-                names[touching] = clearance.pair_names[k]
-    inner, solids = exactness.inner
-    if solids and len(inner.balls.link) and clearance.cell is not None:
+    own_count = len(clearance.capsules) - clearance.capsules.held
+    if clearance.capsules.shape is None and exactness.are_parts_known:
+        distances = clearance.alone.by_pair(q)
+        for index, pair in enumerate(clearance.pairs):
+            for touching in np.flatnonzero(distances[:, index] < margin - _ROUNDING_M) if max(pair) < own_count else ():
+                names[touching] = clearance.pair_names[index]
+    inner_objects, solids = exactness.inner_objects
+    if solids and len(inner_objects.spheres.link) and clearance.cell is not None:
         allowed = margin + np.array([clearance.cell.margin_of(solid) for solid in solids])
-        links = np.unique(inner.balls.link)
-        for row, link, k in np.argwhere(inner.distances(q) < allowed - _ROUNDING).tolist():
-            names[row] = f"{link_name(arm, int(links[link]))} & {solids[k].name}"
-    left = np.array([row for row, name in enumerate(names) if not name], dtype=np.int64)
-    if left.size and installed():
-        for row, name in zip(left.tolist(), exactness.known_contacts(q[left], margin), strict=True):
+        links = np.unique(inner_objects.spheres.link)
+        for row, link, index in np.argwhere(inner_objects.link_distances(q) < allowed - _ROUNDING_M).tolist():
+            names[row] = f"{link_name(arm, int(links[link]))} & {solids[index].name}"
+    unnamed = np.array([row for row, name in enumerate(names) if not name], dtype=np.int64)
+    if unnamed.size and is_library_installed():
+        for row, name in zip(unnamed.tolist(), exactness.find_known_contacts(q[unnamed], margin), strict=True):
             names[row] = name
     return names
 
 
-def unknown_shape(clearance: Clearance | None) -> str:
-    """Say which shape is not known exactly, a clause that names it; empty if every contact can be decided."""
+def describe_unknown_shape(clearance: Clearance | None) -> str:
+    """Name the shape that is not known exactly in a clause; empty if every contact can be decided."""
     if clearance is None or not clearance.pair_names:
         return ""
     capsules, arm = clearance.capsules, clearance.arm
-    shape, about = capsules.shape, capsules.own.describe(arm)
+    shape, source_phrase = capsules.shape, capsules.own.describe(arm)
     if shape is None and capsules.assumed(arm):
-        return f"the shape of the arm was not read: {about}"
+        return f"the shape of the arm was not read: {source_phrase}"
     if shape is None and capsules.covers:
-        return f"the shapes that the capsules contain were not read: {about}"
+        return f"the shapes that the capsules contain were not read: {source_phrase}"
     if shape is not None and shape.missing:
         links = ", ".join(link_name(arm, link) for link in sorted({item.link for item in shape.missing}))
         return f"the shape of {links} was not read ({shape.missing[0].what})"
-    if (shape is not None or clearance.cell is not None) and not installed():
+    if (shape is not None or clearance.cell is not None) and not is_library_installed():
         return "exact distances need python-fcl, which is not installed (pip install 'holdfast[cell]')"
     return ""

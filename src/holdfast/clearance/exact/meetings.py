@@ -1,4 +1,4 @@
-"""Exact answers about collisions: the bound first, and a library only for the pairs that it leaves open, the nearest first."""
+"""Exact collision answers: bounds first, then library queries for the pairs that stay open, the nearest first."""
 
 from __future__ import annotations
 
@@ -9,23 +9,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.cell.solids import Primitive, Solid
-from holdfast.clearance.capsules import BASE, Capsules
-from holdfast.clearance.chains import Balls
-from holdfast.clearance.exact.bodies import Body, box_about, of_capsule, of_piece, of_solid
-from holdfast.clearance.exact.engines import CONTACT, Engine
-from holdfast.clearance.exact.opponents import Another, Opponent, Placed, of_object
+from holdfast.cell.solids import PrimitiveSolid, Solid
+from holdfast.clearance.capsules import BASE_LINK, Capsules
+from holdfast.clearance.chains import SphereCover
+from holdfast.clearance.exact.bodies import (
+    CollisionBody,
+    body_from_capsule,
+    body_from_piece,
+    body_from_solid,
+    bounding_primitive,
+)
+from holdfast.clearance.exact.engines import CONTACT_DISTANCE_M, CollisionLibrary
+from holdfast.clearance.exact.opponents import BodyGeometry, CollisionGeometry, PlacedBody, geometry_of_object
 from holdfast.clearance.obstacles import Obstacles
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Truths = NDArray[np.bool_]
 
-NEAR = 0.05  # m: beyond the least bound, what is nearest is hardly found
+SEARCH_DISTANCE_M = 0.05  # m: beyond the least bound, what is nearest is hardly found
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class ArmBody:
     """A body of a link.
 
     Attributes:
@@ -37,58 +43,58 @@ class Part:
     """
 
     link: int
-    body: Body
+    body: CollisionBody
     owner: str = ""
     held: bool = False
     known: bool = True
 
 
 @dataclass(frozen=True, eq=False)
-class Meeting:
-    """A body of a link and what it may touch.
+class CandidatePair:
+    """A body of a link and an object or body that it may touch.
 
     Attributes:
         pair: Position in the bounds of the pair that it belongs to.
         part: Position of the body.
-        opponent: What it may touch.
+        geometry: What it may touch.
         other: Position of the body that has to be placed for that; the body itself for an object.
         box: Contains the object; None for a body of another link.
     """
 
     pair: int
     part: int
-    opponent: Opponent
+    geometry: CollisionGeometry
     other: int
-    box: Primitive | None
+    box: PrimitiveSolid | None
 
 
-def parts_of(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list[Part]:
-    """The bodies of an arm: what its capsules cover, or the capsules themselves where they cover nothing that is known.
+def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list[ArmBody]:
+    """Return the bodies of an arm: the shapes that its capsules cover, or the capsules themselves where no shape is known.
 
     Args:
         arm: The arm.
         capsules: Its capsules.
         held: What moves with the tool, with poses in its frame.
     """
-    shape, own = capsules.shape, capsules.own
+    shape, own_capsules = capsules.shape, capsules.own
     if shape is None:
-        given = not (own.covers or own.assumed(arm))
-        parts = [Part(part.link, of_capsule(part), known=given) for part in own]
+        is_given = not (own_capsules.covers or own_capsules.assumed(arm))
+        parts = [ArmBody(part.link, body_from_capsule(part), known=is_given) for part in own_capsules]
     else:
         lacking = {item.link for item in shape.missing}
-        parts = [Part(piece.link, of_piece(piece), piece.owner) for piece in shape.pieces]
-        parts += [Part(part.link, of_capsule(part), known=False) for part in own if part.link in lacking]
-    bodies = [of_solid(solid) for solid in held]
-    return parts + [Part(arm.n - 1, replace(body, pose=arm.tool @ body.pose), held=True) for body in bodies]
+        parts = [ArmBody(piece.link, body_from_piece(piece), piece.owner) for piece in shape.pieces]
+        parts += [ArmBody(part.link, body_from_capsule(part), known=False) for part in own_capsules if part.link in lacking]
+    bodies = [body_from_solid(solid) for solid in held]
+    return parts + [ArmBody(arm.n - 1, replace(body, pose=arm.tool @ body.pose), held=True) for body in bodies]
 
 
-class Meetings:
-    """The bodies of an arm and what they can touch.
+class NarrowPhase:
+    """Exact queries between the bodies of an arm and the bodies they can touch.
 
     Args:
         arm: The arm.
         parts: Its bodies.
-        between: Of each pair of links that is checked, the positions in ``parts`` of the bodies that are.
+        body_pairs: Of each pair of links that is checked, the positions in ``parts`` of the bodies that are.
         obstacles: The objects of its cell, or None.
         engine: The library.
     """
@@ -96,127 +102,144 @@ class Meetings:
     def __init__(
         self,
         arm: Arm,
-        parts: Sequence[Part],
-        between: Sequence[Sequence[tuple[int, int]]],
+        parts: Sequence[ArmBody],
+        body_pairs: Sequence[Sequence[tuple[int, int]]],
         obstacles: Obstacles | None,
-        engine: Engine,
+        engine: CollisionLibrary,
     ) -> None:
         self.arm, self.engine, self._parts = arm, engine, tuple(parts)
-        self._placed = [Placed(part.body, engine.make(part.body), np.eye(3), np.zeros(3)) for part in parts]
-        others = [Another(engine, placed) for placed in self._placed]
-        self._meetings = [Meeting(pair, b, others[a], a, None) for pair, some in enumerate(between) for a, b in some]
+        self._placed = [PlacedBody(part.body, engine.make_body(part.body), np.eye(3), np.zeros(3)) for part in parts]
+        geometries = [BodyGeometry(engine, placed) for placed in self._placed]
+        self._candidates = [
+            CandidatePair(pair, second, geometries[first], first, None)
+            for pair, index_pairs in enumerate(body_pairs)
+            for first, second in index_pairs
+        ]
         if obstacles is not None:
-            objects = [(of_object(engine, solid), box_about(solid)) for solid in obstacles.cell]
-            by_link = {link: [k for k, part in enumerate(parts) if part.link == link] for link in range(arm.n)}
-            for pair, (link, thing) in enumerate(obstacles.pairs.tolist(), start=len(between)):
-                self._meetings += [Meeting(pair, k, objects[thing][0], k, objects[thing][1]) for k in by_link[link]]
-        self._pair_of = np.array([meeting.pair for meeting in self._meetings], dtype=np.int64)
+            objects = [(geometry_of_object(engine, solid), bounding_primitive(solid)) for solid in obstacles.cell]
+            by_link = {
+                link: [part_index for part_index, part in enumerate(parts) if part.link == link] for link in range(arm.n)
+            }
+            for pair, (link, object_index) in enumerate(obstacles.pairs.tolist(), start=len(body_pairs)):
+                self._candidates += [
+                    CandidatePair(pair, part_index, objects[object_index][0], part_index, objects[object_index][1])
+                    for part_index in by_link[link]
+                ]
+        self._pair_of = np.array([meeting.pair for meeting in self._candidates], dtype=np.int64)
 
-    def any(self, q: Array, bounds: Array) -> Truths:
-        """(N,) whether anything touches.
+    def check_contacts(self, q: Array, bounds: Array) -> Truths:
+        """Return (N,) True where anything touches.
 
         Args:
             q: (N, n) finite.
             bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
         """
-        return np.asarray(self.closer(q, bounds, np.zeros(bounds.shape[1])) >= 0)
+        return np.asarray(self.find_closer_pair(q, bounds, np.zeros(bounds.shape[1])) >= 0)
 
-    def closer(self, q: Array, bounds: Array, allowed: Array) -> Indices:
-        """(N,) a pair that is closer than allowed, by position in the bounds; -1 where none is.
+    def find_closer_pair(self, q: Array, bounds: Array, allowed: Array) -> Indices:
+        """Find a pair (N,) that is closer than allowed, by position in the bounds; -1 where there is none.
 
         Args:
             q: (N, n) finite.
-            bounds: As for :meth:`any`.
+            bounds: As for :meth:`check_contacts`.
             allowed: (P,) m, of each pair; at 0 the pair may not touch, and below 0 it is not looked at.
         """
-        found, frames = np.full(len(q), -1), self._frames(q)
+        pairs, frames = np.full(len(q), -1), self._body_frames(q)
         allowed = allowed[self._pair_of]
-        limit = np.where(allowed < 0, -np.inf, np.maximum(allowed, CONTACT))
-        closer = self._closer(frames, bounds, np.full(len(q), limit.max(initial=CONTACT)))
-        rows, which = np.nonzero(closer < limit)
-        order = np.lexsort((closer[rows, which], rows))
-        now, there = -1, set[int]()
-        for row, k in zip(rows[order].tolist(), which[order].tolist(), strict=True):
-            if found[row] >= 0:
+        limit = np.where(allowed < 0, -np.inf, np.maximum(allowed, CONTACT_DISTANCE_M))
+        bounds_by_candidate = self._lower_bounds(frames, bounds, np.full(len(q), limit.max(initial=CONTACT_DISTANCE_M)))
+        rows, columns = np.nonzero(bounds_by_candidate < limit)
+        order = np.lexsort((bounds_by_candidate[rows, columns], rows))
+        current_row, placed_parts = -1, set[int]()
+        for row, candidate_index in zip(rows[order].tolist(), columns[order].tolist(), strict=True):
+            if pairs[row] >= 0:
                 continue
-            if row != now:
-                now, there = row, set()
-            meeting = self._meetings[k]
-            self._place(meeting, row, frames, there)
-            part = self._placed[meeting.part]
-            near = meeting.opponent.distance(part) < allowed[k] if allowed[k] > 0 else meeting.opponent.hits(part)
-            found[row] = meeting.pair if near else -1
-        return found
+            if row != current_row:
+                current_row, placed_parts = row, set()
+            candidate = self._candidates[candidate_index]
+            self._place_candidate(candidate, row, frames, placed_parts)
+            part = self._placed[candidate.part]
+            is_closer = (
+                candidate.opponent.distance(part) < allowed[candidate_index]
+                if allowed[candidate_index] > 0
+                else candidate.opponent.hits(part)
+            )
+            pairs[row] = candidate.pair if is_closer else -1
+        return pairs
 
-    def distances(self, q: Array, bounds: Array) -> Array:
-        """(N,) the smallest distance, m; 0 where anything touches, infinite if there is nothing to touch.
+    def smallest_distances(self, q: Array, bounds: Array) -> Array:
+        """Return the smallest distance (N,), m; 0 where anything touches, infinite if there is nothing to touch.
 
         Args:
             q: (N, n) finite.
-            bounds: As for :meth:`any`.
+            bounds: As for :meth:`check_contacts`.
         """
-        out, frames = np.full(len(q), np.inf), self._frames(q)
-        closer = self._closer(frames, bounds, bounds.min(axis=1, initial=np.inf) + NEAR)
-        for row, order in enumerate(np.argsort(closer, axis=1).tolist()):
-            best, there = np.inf, set[int]()
-            for k in order:
-                if closer[row, k] >= best or best == 0:
+        distances, frames = np.full(len(q), np.inf), self._body_frames(q)
+        bounds_by_candidate = self._lower_bounds(frames, bounds, bounds.min(axis=1, initial=np.inf) + SEARCH_DISTANCE_M)
+        for row, order in enumerate(np.argsort(bounds_by_candidate, axis=1).tolist()):
+            smallest, placed_parts = np.inf, set[int]()
+            for candidate_index in order:
+                if bounds_by_candidate[row, candidate_index] >= smallest or smallest == 0:
                     break
-                meeting = self._meetings[k]
-                self._place(meeting, row, frames, there)
-                best = min(best, meeting.opponent.distance(self._placed[meeting.part]))
-            out[row] = best
-        return out
+                candidate = self._candidates[candidate_index]
+                self._place_candidate(candidate, row, frames, placed_parts)
+                smallest = min(smallest, candidate.opponent.distance(self._placed[candidate.part]))
+            distances[row] = smallest
+        return distances
 
-    def _closer(self, frames: list[tuple[Array, Array]], bounds: Array, limit: Array) -> Array:
-        """(N, M) lower bounds of the distances of all meetings, m; below a limit (N,) also of balls about the bodies."""
-        out = bounds[:, self._pair_of]
-        for k, meeting in enumerate(self._meetings):
-            (rows,) = np.nonzero(out[:, k] < limit)
+    def _lower_bounds(self, frames: list[tuple[Array, Array]], bounds: Array, limit: Array) -> Array:
+        """Return lower bounds (N, M) of the distances of all candidates, m; below a limit (N,) also from balls around the
+        bodies.
+        """
+        lower_bounds = bounds[:, self._pair_of]
+        for index, candidate in enumerate(self._candidates):
+            (rows,) = np.nonzero(lower_bounds[:, index] < limit)
             if not rows.size:
                 continue
-            centre, radius = self._ball(meeting.part, frames, rows)
-            if meeting.box is not None:
-                apart = meeting.box.signed_distance(centre) - radius
+            center, radius = self._bounding_spheres(candidate.part, frames, rows)
+            if candidate.box is not None:
+                distance = candidate.box.signed_distance(center) - radius
             else:
-                other, more = self._ball(meeting.other, frames, rows)
-                apart = np.linalg.norm(centre - other, axis=1) - radius - more
-            out[rows, k] = np.maximum(out[rows, k], apart)
-        return out
+                other_center, other_radius = self._bounding_spheres(candidate.other, frames, rows)
+                distance = np.linalg.norm(center - other_center, axis=1) - radius - other_radius
+            lower_bounds[rows, index] = np.maximum(lower_bounds[rows, index], distance)
+        return lower_bounds
 
-    def _ball(self, part: int, frames: list[tuple[Array, Array]], rows: Indices) -> tuple[Array, float]:
-        """Centres (R, 3) in the world and radius, m, of the ball about a body in some rows."""
-        centre, radius = self._parts[part].body.ball
+    def _bounding_spheres(self, part: int, frames: list[tuple[Array, Array]], rows: Indices) -> tuple[Array, float]:
+        """Return centers (R, 3) in the world and radius, m, of the ball around a body in some rows."""
+        center, radius = self._parts[part].body.bounding_sphere
         rotation, position = frames[part]
-        return position[rows] + rotation[rows] @ centre, radius
+        return position[rows] + rotation[rows] @ center, radius
 
-    def _place(self, meeting: Meeting, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> None:
-        for k in (meeting.part, meeting.other):
-            if k not in there:
-                there.add(k)
-                placed, (rotations, positions) = self._placed[k], frames[k]
+    def _place_candidate(
+        self, candidate: CandidatePair, row: int, frames: list[tuple[Array, Array]], placed_parts: set[int]
+    ) -> None:
+        for part_index in (candidate.part, candidate.other):
+            if part_index not in placed_parts:
+                placed_parts.add(part_index)
+                placed, (rotations, positions) = self._placed[part_index], frames[part_index]
                 placed.rotation, placed.position = rotations[row], positions[row]
-                self.engine.place(placed.made, placed.rotation, placed.position)
+                self.engine.place_body(placed.library_body, placed.rotation, placed.position)
 
-    def _frames(self, q: Array) -> list[tuple[Array, Array]]:
-        """Rotations (N, 3, 3) and positions (N, 3), m, of each part in the world."""
-        moving = self.arm.frames(q)
-        out = []
+    def _body_frames(self, q: Array) -> list[tuple[Array, Array]]:
+        """Return rotations (N, 3, 3) and positions (N, 3), m, of each part in the world."""
+        link_frames = self.arm.frames(q)
+        body_frames = []
         for part in self._parts:
-            frame = moving[:, part.link + 1] @ part.body.pose
-            out.append((np.ascontiguousarray(frame[:, :3, :3]), np.ascontiguousarray(frame[:, :3, 3])))
-        return out
+            frame = link_frames[:, part.link + 1] @ part.body.pose
+            body_frames.append((np.ascontiguousarray(frame[:, :3, :3]), np.ascontiguousarray(frame[:, :3, 3])))
+        return body_frames
 
 
-def spheres_within(parts: Sequence[Part]) -> Balls:
-    """Spheres that lie within the known bodies of moving links: what they hit, the arm hits."""
+def make_inner_spheres(parts: Sequence[ArmBody]) -> SphereCover:
+    """Make spheres inside the known bodies of moving links; an object that touches a sphere touches the arm."""
     rows = []
     for number, part in sorted(enumerate(parts), key=lambda item: item[1].link):
-        if part.link > BASE and part.known:
-            centres, radii = part.body.inside
-            centres = centres @ part.body.pose[:3, :3].T + part.body.pose[:3, 3]
-            rows += [(part.link, centre, radius, number) for centre, radius in zip(centres, radii, strict=True)]
-    return Balls(
+        if part.link > BASE_LINK and part.known:
+            centers, radii = part.body.inner_spheres
+            centers = centers @ part.body.pose[:3, :3].T + part.body.pose[:3, 3]
+            rows += [(part.link, center, radius, number) for center, radius in zip(centers, radii, strict=True)]
+    return SphereCover(
         np.array([row[0] for row in rows], dtype=np.int64),
         np.array([row[1] for row in rows]).reshape(-1, 3),
         np.array([row[2] for row in rows]),

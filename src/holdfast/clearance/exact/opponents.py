@@ -1,4 +1,4 @@
-"""What a part of an arm can touch, asked exactly: bodies and surfaces by a library, planes and clouds of points by formulas."""
+"""Collision geometry that a part of an arm can touch: bodies and surfaces by a library, planes and point clouds by formulas."""
 
 from __future__ import annotations
 
@@ -11,49 +11,49 @@ from scipy.spatial import cKDTree
 
 from holdfast.cell.meshes import Points
 from holdfast.cell.solids import HalfSpace, Solid
-from holdfast.clearance.exact.bodies import Body, of_solid
-from holdfast.clearance.exact.engines import CONTACT, Engine
+from holdfast.clearance.exact.bodies import CollisionBody, body_from_solid
+from holdfast.clearance.exact.engines import CONTACT_DISTANCE_M, CollisionLibrary
 
 Array = NDArray[np.float64]
 
 
 @dataclass(eq=False)
-class Placed:
-    """A body where it is.
+class PlacedBody:
+    """A body at a pose.
 
     Attributes:
         body: What it is.
-        made: The library's own.
+        library_body: The library's own.
         rotation: (3, 3) of its frame in the world.
         position: (3,) m.
     """
 
-    body: Body
-    made: Any
+    body: CollisionBody
+    library_body: Any
     rotation: Array
     position: Array
 
-    def own(self, points: Array) -> Array:
-        """Points (..., 3) of the world in its frame."""
+    def to_body_frame(self, points: Array) -> Array:
+        """Return points (..., 3) of the world in the frame of the body."""
         return np.asarray((points - self.position) @ self.rotation)
 
     @property
-    def point(self) -> Array:
-        """(3,) any point of it, in the world."""
-        return np.asarray(self.position + self.rotation @ self.body.point)
+    def any_point(self) -> Array:
+        """Any point (3,) of the body, in the world."""
+        return np.asarray(self.position + self.rotation @ self.body.any_point)
 
 
-class Opponent(Protocol):
-    """What does not move with the part that is asked about."""
+class CollisionGeometry(Protocol):
+    """Geometry that does not move with the queried part."""
 
-    def hits(self, part: Placed) -> bool:
-        """Whether the part touches it."""
+    def bodies_touch(self, part: PlacedBody) -> bool:
+        """Return True if the part touches the geometry."""
 
-    def distance(self, part: Placed) -> float:
-        """How far the part is away, m; 0 where it touches."""
+    def body_distance(self, part: PlacedBody) -> float:
+        """Return the distance of the part, m; 0 where it touches."""
 
 
-class Another:
+class BodyGeometry:
     """A body, on another link or in the cell.
 
     Args:
@@ -61,29 +61,32 @@ class Another:
         placed: The body.
     """
 
-    def __init__(self, engine: Engine, placed: Placed) -> None:
+    def __init__(self, engine: CollisionLibrary, placed: PlacedBody) -> None:
         self._engine, self.placed = engine, placed
 
-    def hits(self, part: Placed) -> bool:
-        """See :class:`Opponent`."""
-        return self._engine.hits(part.made, self.placed.made) or self._within(part)
+    def bodies_touch(self, part: PlacedBody) -> bool:
+        """See :class:`CollisionGeometry`."""
+        return self._engine.bodies_touch(part.library_body, self.placed.library_body) or self._contains_other(part)
 
-    def distance(self, part: Placed) -> float:
-        """See :class:`Opponent`."""
+    def body_distance(self, part: PlacedBody) -> float:
+        """See :class:`CollisionGeometry`."""
         # Within a mesh and far from its surface a library sees no contact.
-        found = self._engine.distance(part.made, self.placed.made)
-        return 0.0 if found < CONTACT or self._within(part) else found
+        distance = self._engine.body_distance(part.library_body, self.placed.library_body)
+        return 0.0 if distance < CONTACT_DISTANCE_M or self._contains_other(part) else distance
 
-    def _within(self, part: Placed) -> bool:
-        """Whether one of the two is a mesh that has the other within, so that their surfaces need not meet."""
+    def _contains_other(self, part: PlacedBody) -> bool:
+        """Return True if one of the two is a mesh that contains the other, so that their surfaces need not meet."""
         if part.body.kind != "mesh" != self.placed.body.kind:
             return False
-        both = (self.placed, part), (part, self.placed)
-        return any(a.body.kind == "mesh" and a.body.encloses(a.own(b.point)) for a, b in both)
+        body_pairs = (self.placed, part), (part, self.placed)
+        return any(
+            outer.body.kind == "mesh" and outer.body.contains_point(outer.to_body_frame(inner.any_point))
+            for outer, inner in body_pairs
+        )
 
 
-class Plane:
-    """Everything below a plane.
+class HalfSpaceGeometry:
+    """The half space below a plane.
 
     Args:
         solid: The half space.
@@ -92,89 +95,93 @@ class Plane:
     def __init__(self, solid: HalfSpace) -> None:
         self._normal, self._origin = solid.pose[:3, 2], solid.pose[:3, 3]
 
-    def hits(self, part: Placed) -> bool:
-        """See :class:`Opponent`."""
-        return self.distance(part) == 0
+    def bodies_touch(self, part: PlacedBody) -> bool:
+        """See :class:`CollisionGeometry`."""
+        return self.body_distance(part) == 0
 
-    def distance(self, part: Placed) -> float:
-        """See :class:`Opponent`."""
-        gap = float(self._normal @ (part.position - self._origin)) - part.body.support(-self._normal @ part.rotation)
-        return gap if gap >= CONTACT else 0.0
+    def body_distance(self, part: PlacedBody) -> float:
+        """See :class:`CollisionGeometry`."""
+        gap = float(self._normal @ (part.position - self._origin)) - part.body.support_distance(-self._normal @ part.rotation)
+        return gap if gap >= CONTACT_DISTANCE_M else 0.0
 
 
-class Cloud:
-    """Balls of one radius about many points.
+class PointCloudGeometry:
+    """Balls of one radius around many points.
 
     Args:
         engine: The library, for the distance of points from hulls and meshes.
         solid: The points.
     """
 
-    def __init__(self, engine: Engine, solid: Points) -> None:
+    def __init__(self, engine: CollisionLibrary, solid: Points) -> None:
         self._engine, self._radius = engine, solid.radius
         self._points = solid.centres @ solid.pose[:3, :3].T + solid.pose[:3, 3]
         self._tree = cKDTree(self._points)
-        self._ball = engine.make(Body(kind="sphere", size=(solid.radius,)))
+        self._ball = engine.make_body(CollisionBody(kind="sphere", size=(solid.radius,)))
 
-    def hits(self, part: Placed) -> bool:
-        """See :class:`Opponent`."""
-        return self._nearest(part, CONTACT, signs=True) < CONTACT
+    def bodies_touch(self, part: PlacedBody) -> bool:
+        """See :class:`CollisionGeometry`."""
+        return self._nearest_distance(part, CONTACT_DISTANCE_M, sign_only=True) < CONTACT_DISTANCE_M
 
-    def distance(self, part: Placed) -> float:
-        """See :class:`Opponent`."""
+    def body_distance(self, part: PlacedBody) -> float:
+        """See :class:`CollisionGeometry`."""
         # No ball is nearer than the one about the point that is nearest to the middle, and that one is no farther than this.
-        middle, size = part.body.ball
-        away = float(self._tree.query(part.position + part.rotation @ middle)[0])
-        found = self._nearest(part, away + size)
-        return found if found >= CONTACT else 0.0
+        middle, part_radius = part.body.bounding_sphere
+        center_distance = float(self._tree.query(part.position + part.rotation @ middle)[0])
+        distance = self._nearest_distance(part, center_distance + part_radius)
+        return distance if distance >= CONTACT_DISTANCE_M else 0.0
 
-    def _nearest(self, part: Placed, within: float, *, signs: bool = False) -> float:
-        """Distance of the nearest ball, m, if that is less than ``within``; with ``signs`` only whether it is 0 or more."""
-        middle, size = part.body.ball
-        near = self._tree.query_ball_point(part.position + part.rotation @ middle, size + self._radius + within)
-        points = self._points[near]
-        bound = self._bounds(part, points)
-        if part.body.formula is not None:
-            return float(bound.min(initial=np.inf))
-        best = within
-        for k in np.argsort(bound):
-            if bound[k] >= best:
+    def _nearest_distance(self, part: PlacedBody, max_distance: float, *, sign_only: bool = False) -> float:
+        """Return the distance of the nearest ball, m, if it is less than ``max_distance``; with ``sign_only`` only whether it
+        is 0 or more.
+        """
+        middle, part_radius = part.body.bounding_sphere
+        candidates = self._tree.query_ball_point(
+            part.position + part.rotation @ middle, part_radius + self._radius + max_distance
+        )
+        points = self._points[candidates]
+        lower_bounds = self._lower_bounds(part, points)
+        if part.body.exact_primitive is not None:
+            return float(lower_bounds.min(initial=np.inf))
+        smallest = max_distance
+        for index in np.argsort(lower_bounds):
+            if lower_bounds[index] >= smallest:
                 break
-            if part.body.kind == "mesh" and part.body.encloses(part.own(points[k])):
+            if part.body.kind == "mesh" and part.body.contains_point(part.to_body_frame(points[index])):
                 return 0.0
-            self._engine.place(self._ball, np.eye(3), points[k])
-            if signs:
-                if self._engine.hits(part.made, self._ball):
+            self._engine.place_body(self._ball, np.eye(3), points[index])
+            if sign_only:
+                if self._engine.bodies_touch(part.library_body, self._ball):
                     return 0.0
             else:
-                best = min(best, self._engine.distance(part.made, self._ball))
-                if best < CONTACT:
+                smallest = min(smallest, self._engine.body_distance(part.library_body, self._ball))
+                if smallest < CONTACT_DISTANCE_M:
                     return 0.0
-        return best
+        return smallest
 
-    def _bounds(self, part: Placed, points: Array) -> Array:
-        """(N,) lower bounds of the distances of balls about points (N, 3), m; exact where there is a formula."""
-        own = part.own(points)
-        if part.body.formula is not None:
-            return np.asarray(part.body.formula.signed_distance(own) - self._radius)
+    def _lower_bounds(self, part: PlacedBody, points: Array) -> Array:
+        """Return lower bounds (N,) of the distances of balls around points (N, 3), m; exact where there is a formula."""
+        local_points = part.to_body_frame(points)
+        if part.body.exact_primitive is not None:
+            return np.asarray(part.body.exact_primitive.signed_distance(local_points) - self._radius)
         if part.body.kind == "convex":
-            normals, offsets = part.body.planes
-            return np.asarray((own @ normals.T - offsets).max(axis=1) - self._radius)
-        middle, size = part.body.ball
-        return np.asarray(np.linalg.norm(own - middle, axis=1) - size - self._radius)
+            normals, offsets = part.body.face_planes
+            return np.asarray((local_points @ normals.T - offsets).max(axis=1) - self._radius)
+        middle, part_radius = part.body.bounding_sphere
+        return np.asarray(np.linalg.norm(local_points - middle, axis=1) - part_radius - self._radius)
 
 
-def of_object(engine: Engine, solid: Solid) -> Opponent:
-    """An object of a cell as an opponent."""
+def geometry_of_object(engine: CollisionLibrary, solid: Solid) -> CollisionGeometry:
+    """Return the collision geometry of an object of a cell."""
     if isinstance(solid, HalfSpace):
-        return Plane(solid)
+        return HalfSpaceGeometry(solid)
     if isinstance(solid, Points):
-        return Cloud(engine, solid)
-    return Another(engine, stood(engine, of_solid(solid)))
+        return PointCloudGeometry(engine, solid)
+    return BodyGeometry(engine, place_fixed_body(engine, body_from_solid(solid)))
 
 
-def stood(engine: Engine, body: Body) -> Placed:
-    """A body of the world, placed once and for all."""
-    placed = Placed(body, engine.make(body), body.pose[:3, :3], body.pose[:3, 3])
-    engine.place(placed.made, placed.rotation, placed.position)
+def place_fixed_body(engine: CollisionLibrary, body: CollisionBody) -> PlacedBody:
+    """Place a body of the world permanently."""
+    placed = PlacedBody(body, engine.make_body(body), body.pose[:3, :3], body.pose[:3, 3])
+    engine.place_body(placed.library_body, placed.rotation, placed.position)
     return placed

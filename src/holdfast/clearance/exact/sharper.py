@@ -1,4 +1,4 @@
-"""A clearance that asks for exact distances where its bound does not do: what the bound calls blocked may be clear."""
+"""A clearance with exact distances where its bound is not sufficient, so that falsely blocked configurations become free."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from holdfast.arm.configurations import as_configurations
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.engines import installed
+from holdfast.clearance.exact.engines import is_library_installed
 
 if TYPE_CHECKING:
-    from holdfast.clearance.exact.exactness import Exactness
+    from holdfast.clearance.exact.exactness import ExactQueries
 
 Array = NDArray[np.float64]
 
-_NEAR = 0.02  # m of room: nearer than this the distance is asked for; about what the bound lacks
+_EXACT_BELOW_M = 0.02  # m of room: nearer than this the distance is asked for; about what the bound lacks
 
 
-def sharpened(clearance: Clearance | None, margin: float = 0.0) -> Sharper | None:
-    """The same clearance with exact distances; None without a library, and where the distances are exact already.
+def with_exact_distances(clearance: Clearance | None, margin: float = 0.0) -> ExactClearance | None:
+    """Return the clearance with exact distances; None without a library, and where the distances are exact already.
 
     Without a cell those of capsules that cover no known shape are.
 
@@ -30,13 +30,17 @@ def sharpened(clearance: Clearance | None, margin: float = 0.0) -> Sharper | Non
         clearance: Whose bound is asked first.
         margin: m, the room that will be asked for.
     """
-    if clearance is None or isinstance(clearance, Sharper) or (clearance.cell is None and clearance.capsules.shape is None):
+    if (
+        clearance is None
+        or isinstance(clearance, ExactClearance)
+        or (clearance.cell is None and clearance.capsules.shape is None)
+    ):
         return None
-    return Sharper(clearance, margin) if installed() else None
+    return ExactClearance(clearance, margin) if is_library_installed() else None
 
 
-class Sharper(Clearance):
-    """A clearance whose bound is raised to the exact distance, less what the library may err, wherever little room is left.
+class ExactClearance(Clearance):
+    """A clearance whose bound is raised to the exact distance, less the library's error, wherever the margin is small.
 
     What is nearest has that distance, so that everything else has at least as much: it bounds every pair, of bodies instead of
     the capsules and spheres that cover them, and proofs about whole motions hold as they do for the bound.
@@ -47,8 +51,10 @@ class Sharper(Clearance):
     """
 
     def __init__(self, bound: Clearance, margin: float) -> None:
-        vars(self).update({name: value for name, value in vars(bound).items() if name not in ("alone", "exactness")})
-        self._bound, self._near = bound, margin + _NEAR
+        vars(self).update(
+            {attribute: value for attribute, value in vars(bound).items() if attribute not in ("alone", "exactness")}
+        )
+        self._bound, self._near = bound, margin + _EXACT_BELOW_M
 
     @property
     def alone(self) -> Clearance:
@@ -56,43 +62,43 @@ class Sharper(Clearance):
         return self._bound.alone
 
     @property
-    def exactness(self) -> Exactness:
-        """What is asked exactly, by a library."""
+    def exactness(self) -> ExactQueries:
+        """Exact collision queries, answered by a library."""
         return self._bound.exactness
 
     @cached_property
-    def _within(self) -> float:
-        return self.exactness.within
+    def _accuracy(self) -> float:
+        return self.exactness.accuracy
 
     def with_cell(self, cell: Cell | None) -> Clearance:
         """See :meth:`holdfast.Clearance.with_cell`."""
-        other = self._bound.with_cell(cell)
-        return sharpened(other, self._near - _NEAR) or other
+        other_bound = self._bound.with_cell(cell)
+        return with_exact_distances(other_bound, self._near - _EXACT_BELOW_M) or other_bound
 
     def __call__(self, q: ArrayLike) -> Array:
         """See :meth:`holdfast.Clearance.__call__`."""
-        return self._least_of(q, np.zeros(len(self.margins)), self._bound(q))
+        return self._raise_bound(q, np.zeros(len(self.margins)), self._bound(q))
 
-    def room(self, q: ArrayLike) -> Array:
-        """See :meth:`holdfast.Clearance.room`."""
-        return self._least_of(q, self.margins, self._bound.room(q))
+    def margin_left(self, q: ArrayLike) -> Array:
+        """See :meth:`holdfast.Clearance.margin_left`."""
+        return self._raise_bound(q, self.margins, self._bound.margin_left(q))
 
-    def _least_of(self, q: ArrayLike, margins: Array, bound: Array) -> Array:
+    def _raise_bound(self, q: ArrayLike, margins: Array, bound: Array) -> Array:
         rows, single = as_configurations(self.arm, q)
-        least = np.atleast_1d(bound).copy()
-        near = least < self._near
-        if near.any():
-            least[near] = (self.by_pair(rows[near]) - margins).min(axis=1)
-        return least[0] if single else least
+        raised = np.atleast_1d(bound).copy()
+        is_near = raised < self._near
+        if is_near.any():
+            raised[is_near] = (self.by_pair(rows[is_near]) - margins).min(axis=1)
+        return raised[0] if single else raised
 
     def by_pair(self, q: ArrayLike) -> Array:
         """See :meth:`holdfast.Clearance.by_pair`."""
         rows, single = as_configurations(self.arm, q)
         values = self._bound.by_pair(rows)
-        near = (values - self.margins).min(axis=1, initial=np.inf) < self._near
-        if near.any():
-            exact = self._bound.exact(rows[near]) - self._within
-            values[near] = np.maximum(values[near], exact[:, None])
+        is_near = (values - self.margins).min(axis=1, initial=np.inf) < self._near
+        if is_near.any():
+            exact_distance = self._bound.exact(rows[is_near]) - self._accuracy
+            values[is_near] = np.maximum(values[is_near], exact_distance[:, None])
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:

@@ -1,1 +1,1 @@
-"""What an arm meets in a cell, by how its distance is told."""
+"""Objects of a cell against an arm, by the form of their distance."""

@@ -1,4 +1,4 @@
-"""Distances between the spheres that cover an arm and objects whose distance is a grid of numbers: meshes and clouds of points.
+"""Distances between the spheres that cover an arm and objects with a distance grid: meshes and point clouds.
 
 The positions of the spheres are compiled for the arm; what they read in the grids is NumPy's.
 """
@@ -13,161 +13,173 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
-from holdfast.arm.machine import Machine
+from holdfast.arm.machine import ArmData
 from holdfast.caching import cached_property
-from holdfast.cell.interpolation import Tables, bounds
-from holdfast.cell.meshes import Gridded
-from holdfast.clearance.capsules import BASE
-from holdfast.clearance.chains import Balls
-from holdfast.clearance.object_kernels import slopes_of, sphere_centres
+from holdfast.cell.interpolation import FieldTables, interpolate_bounds
+from holdfast.cell.meshes import GriddedSolid
+from holdfast.clearance.capsules import BASE_LINK
+from holdfast.clearance.chains import SphereCover
+from holdfast.clearance.object_kernels import directional_jacobian, sphere_centers
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-_AT_ONCE = 1 << 9  # configurations
-_FEW = 8  # configurations: of fewer everything is looked at
-_ROUNDING = 1e-6  # m: more than the distance of middles may be wrong by
+_BATCH_CONFIGURATIONS = 1 << 9  # configurations
+_FULL_CHECK_BELOW = 8  # configurations: of fewer everything is looked at
+_ROUNDING_M = 1e-6  # m: more than the distance of middles may be wrong by
 
 
-@recalled
-def centre_kernel(arm: Machine, balls: Balls) -> Kernel:
-    """Where each moving sphere is in the world, (3 S,), m, of q (n,)."""
-    q, where = sphere_centres(arm, balls)
-    return Kernel("spheres of an arm", [q], [ca.vertcat(*(x for centre in where for x in centre))])
+@cached_kernel
+def center_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
+    """Compile the position of each moving sphere in the world, (3 S,), m, of q (n,)."""
+    q, centers = sphere_centers(arm, spheres)
+    return Kernel("spheres of an arm", [q], [ca.vertcat(*(coordinate for center in centers for coordinate in center))])
 
 
-@recalled
-def slope_kernel(arm: Machine) -> Kernel:
-    """How fast a point on a link goes along a direction, (n,) per unit of each joint's speed.
+@cached_kernel
+def gradient_kernel(arm: ArmData) -> Kernel:
+    """Compile the speed of a point on a link along a direction, (n,) per unit of each joint's speed.
 
     Inputs: q (n,), and in one vector (7,) the point and the direction in the world and the joint that moves the link.
     """
-    q, told = kinematics.joint_symbols(arm), ca.SX.sym("told", 7)
-    slopes = slopes_of(arm, q, told[6], ca.vertsplit(told[:3]), ca.vertsplit(told[3:6]))
-    return Kernel("speed of a point along a direction", [q, told], [ca.vertcat(*slopes)])
+    q, point_data = kinematics.joint_symbols(arm), ca.SX.sym("told", 7)
+    gradient = directional_jacobian(arm, q, point_data[6], ca.vertsplit(point_data[:3]), ca.vertsplit(point_data[3:6]))
+    return Kernel("speed of a point along a direction", [q, point_data], [ca.vertcat(*gradient)])
 
 
 class GriddedObjects:
-    """Objects with a grid, as an arm meets them.
+    """Objects with a distance grid, against the spheres of an arm.
 
     Args:
         arm: The arm.
-        balls: The spheres that cover it.
+        spheres: The spheres that cover it.
         objects: G of them.
-        added: (L, G) added to the distance of each moving link from each, m.
+        offsets: (L, G) added to the distance of each moving link from each, m.
     """
 
-    def __init__(self, arm: Machine, balls: Balls, objects: Sequence[Gridded], added: Array) -> None:
-        self.arm, self.balls, self.objects = arm, balls, list(objects)
-        moving = balls.link > BASE
-        self._links, radius = balls.link[moving], balls.radius[moving]
-        _, self._first, self._at = np.unique(self._links, return_index=True, return_inverse=True)
-        self._own_beside: Array = added[self._at] - radius[:, None]
+    def __init__(self, arm: ArmData, spheres: SphereCover, objects: Sequence[GriddedSolid], offsets: Array) -> None:
+        self.arm, self.spheres, self.objects = arm, spheres, list(objects)
+        moving = spheres.link > BASE_LINK
+        self._links, radius = spheres.link[moving], spheres.radius[moving]
+        _, self._first_spheres, self._link_positions = np.unique(self._links, return_index=True, return_inverse=True)
+        self._own_offsets: Array = offsets[self._link_positions] - radius[:, None]
 
     @cached_property
-    def _centre_kernel(self) -> Kernel:
-        return centre_kernel(self.arm, self.balls)
+    def _center_kernel(self) -> Kernel:
+        return center_kernel(self.arm, self.spheres)
 
     @cached_property
-    def _slope_kernel(self) -> Kernel:
-        return slope_kernel(self.arm)
+    def _gradient_kernel(self) -> Kernel:
+        return gradient_kernel(self.arm)
 
     @cached_property
-    def _beside(self) -> Array:
-        """(S, G) what is added to that which is read at the centre of a sphere, m."""
-        return self._own_beside - [solid.field.less for solid in self.objects]
+    def _distance_offsets(self) -> Array:
+        """Offsets (S, G) from the grid value at the center of a sphere to the distance, m."""
+        return self._own_offsets - [solid.field.offset for solid in self.objects]
 
     @cached_property
-    def _tables(self) -> list[Tables]:
+    def _distance_tables(self) -> list[FieldTables]:
         return [solid.field.tables for solid in self.objects]
 
     @cached_property
-    def _around(self) -> tuple[Array, Array]:
-        """Middles (3, G) in the world and radii (G,), m, of balls that have all of each object."""
-        middles = [solid.pose[:3, :3] @ solid.field.middle + solid.pose[:3, 3] for solid in self.objects]
-        return np.stack(middles, axis=1), np.array([solid.field.reach for solid in self.objects])
+    def _bounding_spheres(self) -> tuple[Array, Array]:
+        """Centers (3, G) in the world and radii (G,), m, of balls that contain each object."""
+        centers = [solid.pose[:3, :3] @ solid.field.center + solid.pose[:3, 3] for solid in self.objects]
+        return np.stack(centers, axis=1), np.array([solid.field.enclosing_radius for solid in self.objects])
 
-    def _parts(self, q: Array) -> Iterator[tuple[slice, Array]]:
-        """Rows, some at a time, and the centres (N, S, 3) of the spheres there."""
-        for start in range(0, len(q), _AT_ONCE):
-            part = slice(start, start + _AT_ONCE)
-            yield part, self._centre_kernel.rows(q[part]).reshape(len(q[part]), -1, 3)
+    def _iterate_batches(self, q: Array) -> Iterator[tuple[slice, Array]]:
+        """Yield batches of rows, and the centers (N, S, 3) of the spheres there."""
+        for start in range(0, len(q), _BATCH_CONFIGURATIONS):
+            batch = slice(start, start + _BATCH_CONFIGURATIONS)
+            yield batch, self._center_kernel.rows(q[batch]).reshape(len(q[batch]), -1, 3)
 
-    def _beyond(self, centres: Array, beside: Array, starts: Sequence[int], together: bool) -> Array:
-        """(N, S, G) distances; infinite where it is known, from the balls around objects, that another one is not larger.
+    def _sphere_distances(self, centers: Array, offsets: Array, starts: Sequence[int], together: bool) -> Array:
+        """Return distances (N, S, G); infinite where the balls around objects show that another distance is not larger.
 
         Args:
-            centres: (N, S, 3) of spheres, m.
-            beside: (S, G) added to what is read at them, m.
+            centers: (N, S, 3) of spheres, m.
+            offsets: (S, G) added to what is read at them, m.
             starts: First spheres of the groups in which the least distance is sought.
             together: Whether it is sought among all objects, not of each.
         """
-        found = np.full((len(centres), *beside.shape), np.inf)
-        if len(centres) < _FEW:
-            self._read(centres, beside, np.ones(found.shape, dtype=np.bool_), found)
-            return found
-        middle, radius = self._around
-        square = (centres * centres).sum(axis=2)[:, :, None] + (middle * middle).sum(axis=0) - 2 * (centres @ middle)
-        least = np.sqrt(np.maximum(square, 0.0)) - radius + (beside - _ROUNDING)
-        looked = np.zeros(least.shape, dtype=np.bool_)
-        for start, stop in pairwise([*starts, centres.shape[1]]):  # first at the sphere that may be the nearest
-            np.put_along_axis(looked, start + least[:, start:stop].argmin(axis=1, keepdims=True), True, axis=1)
-        self._read(centres, beside, looked, found)
-        enough = np.minimum.reduceat(found, starts, axis=1)
+        distances = np.full((len(centers), *offsets.shape), np.inf)
+        if len(centers) < _FULL_CHECK_BELOW:
+            self._read_distances(centers, offsets, np.ones(distances.shape, dtype=np.bool_), distances)
+            return distances
+        object_centers, radius = self._bounding_spheres
+        square = (
+            (centers * centers).sum(axis=2)[:, :, None]
+            + (object_centers * object_centers).sum(axis=0)
+            - 2 * (centers @ object_centers)
+        )
+        lower_bounds = np.sqrt(np.maximum(square, 0.0)) - radius + (offsets - _ROUNDING_M)
+        evaluated = np.zeros(lower_bounds.shape, dtype=np.bool_)
+        for start, stop in pairwise([*starts, centers.shape[1]]):  # first at the sphere that may be the nearest
+            np.put_along_axis(evaluated, start + lower_bounds[:, start:stop].argmin(axis=1, keepdims=True), True, axis=1)
+        self._read_distances(centers, offsets, evaluated, distances)
+        known_distances = np.minimum.reduceat(distances, starts, axis=1)
         if together:
-            enough = enough.min(axis=2, keepdims=True)
-        group = np.repeat(np.arange(len(starts)), np.diff([*starts, centres.shape[1]]))
-        self._read(centres, beside, (least < enough[:, group]) & ~looked, found)
-        return found
+            known_distances = known_distances.min(axis=2, keepdims=True)
+        group = np.repeat(np.arange(len(starts)), np.diff([*starts, centers.shape[1]]))
+        self._read_distances(centers, offsets, (lower_bounds < known_distances[:, group]) & ~evaluated, distances)
+        return distances
 
-    def _read(self, centres: Array, beside: Array, which: Flags, found: Array) -> None:
-        places = [np.nonzero(which[:, :, k]) for k in range(len(self.objects))]
-        own = [solid.own(centres[place]) for solid, place in zip(self.objects, places, strict=True)]
-        counts = [len(rows) for rows in own]
-        value = bounds(np.concatenate(own), self._tables, counts)[:, 0]
+    def _read_distances(self, centers: Array, offsets: Array, selected: Flags, distances: Array) -> None:
+        places = [np.nonzero(selected[:, :, index]) for index in range(len(self.objects))]
+        local_points = [
+            solid.to_object_frame(centers[object_place]) for solid, object_place in zip(self.objects, places, strict=True)
+        ]
+        counts = [len(rows) for rows in local_points]
+        value = interpolate_bounds(np.concatenate(local_points), self._distance_tables, counts)[:, 0]
         ends = np.cumsum(counts)
-        for k, (row, sphere) in enumerate(places):
-            found[row, sphere, k] = value[ends[k] - counts[k] : ends[k]] + beside[sphere, k]
+        for index, (row, sphere) in enumerate(places):
+            distances[row, sphere, index] = value[ends[index] - counts[index] : ends[index]] + offsets[sphere, index]
 
-    def distances(self, q: Array) -> Array:
-        """(N, L, G) lower bound of the distance of every link from every object, m.
+    def link_distances(self, q: Array) -> Array:
+        """Return a lower bound (N, L, G) of the distance of every link from every object, m.
 
         Args:
             q: (N, n) rad and m; a row that is not finite gets NaN.
         """
-        out = np.empty((len(q), len(self._first), len(self.objects)))
-        for part, centres in self._parts(q):
-            beyond = self._beyond(centres, self._beside, self._first.tolist(), together=False)
-            out[part] = np.minimum.reduceat(beyond, self._first, axis=1)
-        return out
+        distances = np.empty((len(q), len(self._first_spheres), len(self.objects)))
+        for batch, centers in self._iterate_batches(q):
+            sphere_values = self._sphere_distances(
+                centers, self._distance_offsets, self._first_spheres.tolist(), together=False
+            )
+            distances[batch] = np.minimum.reduceat(sphere_values, self._first_spheres, axis=1)
+        return distances
 
-    def least(self, q: Array, margins: Array) -> Array:
-        """(N,) least distance beyond the margins (G,), m."""
-        out = np.empty(len(q))
-        for part, centres in self._parts(q):
-            out[part] = self._beyond(centres, self._beside - margins, [0], together=True).min(axis=(1, 2))
-        return out
+    def smallest_margin(self, q: Array, margins: Array) -> Array:
+        """Return the least distance above the margins (G,), (N,) m."""
+        margins_left = np.empty(len(q))
+        for batch, centers in self._iterate_batches(q):
+            margins_left[batch] = self._sphere_distances(centers, self._distance_offsets - margins, [0], together=True).min(
+                axis=(1, 2)
+            )
+        return margins_left
 
-    def nearest(self, q: Array, margins: Array) -> tuple[Array, Indices, Indices, Array]:
-        """Least distance beyond the margins (G,), m; position of its link, its object, and the gradient (N, n).
+    def find_nearest(self, q: Array, margins: Array) -> tuple[Array, Indices, Indices, Array]:
+        """Return the least distance above the margins (G,), m, the position of its link, its object, and the gradient (N, n).
 
         Args:
             q: (N, n) rad and m; a row that is not finite gets NaN.
             margins: (G,) m.
         """
-        rooms, told = np.empty(len(q)), np.empty((len(q), 7))
-        sphere, thing = np.empty(len(q), np.int64), np.empty(len(q), np.int64)
-        for part, centres in self._parts(q):
-            flat = self._beyond(centres, self._beside - margins, [0], together=True).reshape(len(centres), -1)
-            best, rows = flat.argmin(axis=1), np.arange(len(flat))
-            rooms[part] = flat[rows, best]
-            sphere[part], thing[part] = np.divmod(best, len(self.objects))
-            told[part, :3] = centres[rows, sphere[part]]
-        told[:, 6] = self._links[sphere]
+        margins_left, point_data = np.empty(len(q)), np.empty((len(q), 7))
+        sphere, object_index = np.empty(len(q), np.int64), np.empty(len(q), np.int64)
+        for batch, centers in self._iterate_batches(q):
+            flat_distances = self._sphere_distances(centers, self._distance_offsets - margins, [0], together=True).reshape(
+                len(centers), -1
+            )
+            best_index, rows = flat_distances.argmin(axis=1), np.arange(len(flat_distances))
+            margins_left[batch] = flat_distances[rows, best_index]
+            sphere[batch], object_index[batch] = np.divmod(best_index, len(self.objects))
+            point_data[batch, :3] = centers[rows, sphere[batch]]
+        point_data[:, 6] = self._links[sphere]
         for number, solid in enumerate(self.objects):
-            mine = thing == number
-            told[mine, 3:6] = solid.distance_and_gradient(told[mine, :3])[1]
-        return rooms, self._at[sphere], thing, self._slope_kernel.rows(q, told)
+            is_nearest = object_index == number
+            point_data[is_nearest, 3:6] = solid.distance_and_gradient(point_data[is_nearest, :3])[1]
+        return margins_left, self._link_positions[sphere], object_index, self._gradient_kernel.rows(q, point_data)

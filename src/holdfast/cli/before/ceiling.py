@@ -10,11 +10,11 @@ import typer
 
 import holdfast as hf
 from holdfast.cli.options import JsonOption, SeedOption
-from holdfast.cli.progress import working
+from holdfast.cli.progress import show_status
 from holdfast.errors import InputError
-from holdfast.grammar import TASKS, is_count
-from holdfast.present.printing import console, print_written
-from holdfast.present.results import printed, printed_each
+from holdfast.grammar import TASK_SIZES, is_count
+from holdfast.present.printing import make_console, print_written_files
+from holdfast.present.results import print_result, print_results
 
 if TYPE_CHECKING:
     from holdfast.result import Result
@@ -47,47 +47,49 @@ def command(
     Example: holdfast ceiling 9 6 2
     """
     if table:
-        printed(hf.ceilings.table(None if task is None else _rows(task)), json_)
+        print_result(hf.ceilings.bound_table(None if task is None else _read_row_count(task)), json_)
         return
     if joints is None or rows is None:
         raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
     if singular_value is not None:
-        mixed = rows in set(TASKS) - {"position", "planar"}  # lengths and angles
-        m = _rows(rows)
-        printed(hf.ceilings.singular_value(n=joints, m=m, k=failures, lever=singular_value, angular=mixed), json_)
+        mixed = rows in set(TASK_SIZES) - {"position", "planar"}  # lengths and angles
+        m = _read_row_count(rows)
+        print_result(hf.ceilings.bound_singular_value(n=joints, m=m, k=failures, lever=singular_value, angular=mixed), json_)
         return
-    found = hf.ceilings.look_up(n=joints, m=_rows(rows), k=failures)
+    upper_bound = hf.ceilings.upper_bound(n=joints, m=_read_row_count(rows), k=failures)
     if arm is None and search is None:
-        printed(found.verify(proof=True) if verify else found, json_)
+        print_result(upper_bound.verify(proof=True) if verify else upper_bound, json_)
         return
     results: list[Result] = []
-    files, null = list[Path](), None
+    files, null_space = list[Path](), None
     if search is not None:
-        size = {"n": found.n, "m": found.m, "k": found.k}
-        with working("searching") as now:
-            better = hf.ceilings.search(
-                **size, seed=seed, seconds=search, progress=lambda value: now(f"best so far {value:.8f}")
+        problem_size = {"n": upper_bound.n, "m": upper_bound.m, "k": upper_bound.k}
+        with show_status("searching") as update_status:
+            better = hf.ceilings.search_null_space(
+                **problem_size, seed=seed, seconds=search, progress=lambda value: update_status(f"best so far {value:.8f}")
             )
         results.append(better)
-        null = better.null_space
+        null_space = better.null_space
     if arm is not None:
-        called = _task(rows, found.m)
-        made = hf.designs.synthesise(None if search else found, null_space=null, task=called, failures=found.k, seed=seed)
-        results.append(made)
-        files = [hf.designs.written(made.arms[int(np.argmin(made.losses))], arm)]
-    printed_each(results, json_)
+        task_name = _choose_task_name(rows, upper_bound.m)
+        synthesis = hf.designs.synthesise(
+            None if search else upper_bound, null_space=null_space, task=task_name, failures=upper_bound.k, seed=seed
+        )
+        results.append(synthesis)
+        files = [hf.designs.write_dh_table(synthesis.arms[int(np.argmin(synthesis.losses))], arm)]
+    print_results(results, json_)
     if not json_:
-        print_written(console(), files)
+        print_written_files(make_console(), files)
 
 
-def _task(text: str, rows: int) -> str:
-    """The task that arms are made for, by its name or its rows."""
-    return text if text in TASKS else {2: "planar", 3: "position", 6: "pose"}.get(rows, text)
+def _choose_task_name(text: str, row_count: int) -> str:
+    """Return the name of the task for which arms are constructed, from its name or its number of rows."""
+    return text if text in TASK_SIZES else {2: "planar", 3: "position", 6: "pose"}.get(row_count, text)
 
 
-def _rows(text: str) -> int:
-    if text in TASKS:
-        return TASKS[text]
+def _read_row_count(text: str) -> int:
+    if text in TASK_SIZES:
+        return TASK_SIZES[text]
     if not is_count(text):
-        raise InputError(f"'{text}' is neither a number of rows nor a task; tasks are {', '.join(TASKS)}")
+        raise InputError(f"'{text}' is neither a number of rows nor a task; tasks are {', '.join(TASK_SIZES)}")
     return int(text)

@@ -9,11 +9,11 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import REJECTED
-from holdfast.cli.groups import Chain
+from holdfast.cli.certify_options import REJECTED_EXIT_CODE
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import JsonOption
 from holdfast.errors import InputError
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate, or the folder that holds it.")]
 
@@ -30,7 +30,7 @@ def check(
     sample: Annotated[int | None, "Only so many cells, drawn at random."] = None,
     workers: Annotated[int, "Processes."] = 1,
     arm: Annotated[str | None, "The arm that it must be about, as ARM elsewhere."] = None,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Verify a certificate with the independent checker (ball arithmetic).
@@ -39,18 +39,18 @@ def check(
 
     Example: holdfast certificate check reach.certificate
     """
-    meant = None if arm is None else chain.arm(arm)
-    found = hf.check_certificate(file, arm=meant, sample=sample, workers=workers)
-    printed(found, json_)
-    if found.rejected:
-        raise typer.Exit(REJECTED)
+    expected_arm = None if arm is None else chain.resolve_arm(arm)
+    verdict = hf.check_certificate(file, arm=expected_arm, sample=sample, workers=workers)
+    print_result(verdict, json_)
+    if verdict.rejected:
+        raise typer.Exit(REJECTED_EXIT_CODE)
 
 
-def _share(text: str) -> Fraction:
-    """``a/b`` or ``a/2^b``."""
-    above, below = text.split("/")
-    base, _, power = below.partition("^")
-    return Fraction(int(above), int(base) ** int(power or 1))
+def _parse_fraction(text: str) -> Fraction:
+    """Parse ``a/b`` or ``a/2^b``."""
+    numerator, denominator = text.split("/")
+    base, _, power = denominator.partition("^")
+    return Fraction(int(numerator), int(base) ** int(power or 1))
 
 
 @command.command()
@@ -63,15 +63,19 @@ def show(file: FileArgument) -> None:
     from holdfast.certificates.checks import find_in_folder
 
     try:
-        document = verifier.load(find_in_folder(file))
-    except verifier.Refused as error:
+        document = verifier.load_certificate(find_in_folder(file))
+    except verifier.CertificateRejected as error:
         raise InputError(str(error)) from error
-    volumes, arm = {key: _share(part) for key, part in document["volumes"].items()}, document["source"]["name"]
-    of = "this claim in its worst part" if document["kind"] in ("bundle", "path") else "this claim"
-    only = f", proved for only {verifier.per_cent(volumes['proved'])} of {of}" if 0 < volumes["proved"] < 1 else ""
-    typer.echo(f"Not verified{only}: {document['claim']}")
+    volumes, arm = {state: _parse_fraction(volume) for state, volume in document["volumes"].items()}, document["source"]["name"]
+    scope = "this claim in its worst part" if document["kind"] in ("bundle", "path") else "this claim"
+    proved_part = (
+        f", proved for only {verifier.format_percent(volumes['proved'])} of {scope}" if 0 < volumes["proved"] < 1 else ""
+    )
+    typer.echo(f"Not verified{proved_part}: {document['claim']}")
     typer.echo(
         f"A {document['kind']} of {arm}, whose file has {len(document['arm']['joints'])} joints; digest {document['digest']}."
     )
-    shares = [f"{key} {verifier.per_cent(part, up=key == 'undecided')}" for key, part in volumes.items() if part]
-    typer.echo(f"Claimed, not checked: {', '.join(shares)}; {document['made_by']}.")
+    claimed_parts = [
+        f"{state} {verifier.format_percent(volume, up=state == 'undecided')}" for state, volume in volumes.items() if volume
+    ]
+    typer.echo(f"Claimed, not checked: {', '.join(claimed_parts)}; {document['made_by']}.")

@@ -13,24 +13,24 @@ from holdfast.cli.before.certify_path import path
 from holdfast.cli.certify_options import (
     AnglesOption,
     CertificateOption,
+    CertificateOutput,
     CheckOption,
-    Configurations,
+    ConfigurationBoxOptions,
     HalvingsOption,
     JointHalvingsOption,
     LimitOption,
     LockOption,
     RowsOption,
-    Search,
-    Targets,
-    Written,
-    intervals,
+    SearchOptions,
+    TargetBoxOptions,
+    read_intervals,
 )
-from holdfast.cli.certify_search import prove_with_found_ranges, proved
-from holdfast.cli.groups import Chain
-from holdfast.cli.options import NOT_MET, ArmArgument, FailuresOption, JsonOption, SeedOption
+from holdfast.cli.certify_search import prove_claim, prove_with_found_ranges
+from holdfast.cli.groups import ArmSourceOptions
+from holdfast.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption, SeedOption
 from holdfast.errors import InputError
 from holdfast.failures.sets import read_failures
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
 command = typer.Typer(
     name="certify",
@@ -40,22 +40,22 @@ command = typer.Typer(
 
 
 @dataclass(frozen=True)
-class _Folder(Written):
+class _CertificateFolder(CertificateOutput):
     out: Annotated[Path, "Folder for the certificate and those of its parts; or FILE.zip."]
 
 
 @command.command()
 def reach(
     arm: ArmArgument,
-    targets: Targets,
+    targets: TargetBoxOptions,
     lock: LockOption = None,
     limit: LimitOption = None,
     degrees: AnglesOption = False,
     halvings: HalvingsOption = 8,
-    search: Search = Search(),
-    chain: Chain = Chain(),
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     seed: SeedOption = 0,
-    written: Written = Written(Path("reach.certificate")),
+    written: CertificateOutput = CertificateOutput(Path("reach.certificate")),
 ) -> None:
     """Prove that every target in a box is reachable, with or without a locked joint.
 
@@ -64,28 +64,28 @@ def reach(
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     claim = hf.certificates.reach_claim(
         model,
-        **targets.read(),
-        locked=None if lock is None else intervals(model, "--lock", [lock], degrees),
-        limits=intervals(model, "--limit", limit, degrees),
+        **targets.claim_arguments(),
+        locked=None if lock is None else read_intervals(model, "--lock", [lock], degrees),
+        limits=read_intervals(model, "--limit", limit, degrees),
     )
-    proved(claim, search, written, halvings=halvings, seed=seed)
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
 
 
 @command.command("out-of-reach")
 def out_of_reach(
     arm: ArmArgument,
-    targets: Targets,
+    targets: TargetBoxOptions,
     lock: LockOption = None,
     limit: LimitOption = None,
     degrees: AnglesOption = False,
     halvings: Annotated[int, "Of each joint and axis of the box, at most."] = 16,
-    search: Search = Search(),
-    chain: Chain = Chain(),
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     seed: SeedOption = 0,
-    written: Written = Written(Path("out-of-reach.certificate")),
+    written: CertificateOutput = CertificateOutput(Path("out-of-reach.certificate")),
 ) -> None:
     """Prove that no target in a box is reachable, with or without a locked joint.
 
@@ -94,20 +94,20 @@ def out_of_reach(
 
     Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     claim = hf.certificates.out_of_reach_claim(
         model,
-        **targets.read(),
-        locked=None if lock is None else intervals(model, "--lock", [lock], degrees),
-        limits=intervals(model, "--limit", limit, degrees),
+        **targets.claim_arguments(),
+        locked=None if lock is None else read_intervals(model, "--lock", [lock], degrees),
+        limits=read_intervals(model, "--limit", limit, degrees),
     )
-    proved(claim, search, written, halvings=halvings, seed=seed)
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
 
 
 @command.command()
 def tolerant(
     arm: ArmArgument,
-    targets: Targets,
+    targets: TargetBoxOptions,
     ranges: Annotated[Path | None, "Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m."] = None,
     range_: Annotated[
         list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits."
@@ -118,10 +118,10 @@ def tolerant(
     ] = False,
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
-    search: Search = Search(),
-    chain: Chain = Chain(),
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     seed: SeedOption = 0,
-    written: _Folder = _Folder(Path("certificates")),
+    written: _CertificateFolder = _CertificateFolder(Path("certificates")),
 ) -> None:
     """Prove that every target in a box stays reachable after any single lock.
 
@@ -130,31 +130,31 @@ def tolerant(
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
-    model = chain.arm(arm)
-    texts = [*(_ranges_of(ranges) if ranges is not None else []), *(range_ or [])]
-    asked = targets.read() | {
-        "working_ranges": intervals(model, "--range", texts, degrees),
+    model = chain.resolve_arm(arm)
+    texts = [*(_read_range_options(ranges) if ranges is not None else []), *(range_ or [])]
+    claim_arguments = targets.claim_arguments() | {
+        "working_ranges": read_intervals(model, "--range", texts, degrees),
         "failures": read_failures(model, failures),
     }
     if find_ranges:
-        prove_with_found_ranges(model, asked, search, written, halvings=halvings, seed=seed)
+        prove_with_found_ranges(model, claim_arguments, search, written, halvings=halvings, seed=seed)
     else:
-        proved(hf.certificates.tolerant_claim(model, **asked), search, written, halvings=halvings, seed=seed)
+        prove_claim(hf.certificates.tolerant_claim(model, **claim_arguments), search, written, halvings=halvings, seed=seed)
 
 
 @command.command()
 def ceiling(
     arm: ArmArgument,
     below: Annotated[float, "Threshold, between 0 and 1."],
-    configurations: Configurations = Configurations(),
+    configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
     task: RowsOption = "pose",
     degrees: AnglesOption = False,
     failures: FailuresOption = "single",
     halvings: JointHalvingsOption = 16,
-    search: Search = Search(),
-    chain: Chain = Chain(),
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     seed: SeedOption = 0,
-    written: Written = Written(Path("ceiling.certificate")),
+    written: CertificateOutput = CertificateOutput(Path("ceiling.certificate")),
 ) -> None:
     """Prove an upper bound on relative manipulability over a box of configurations.
 
@@ -164,26 +164,26 @@ def ceiling(
 
     Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     claim = hf.certificates.ceiling_claim(
-        model, configurations.read(model, degrees), below, failures=read_failures(model, failures), task=task
+        model, configurations.read_ranges(model, degrees), below, failures=read_failures(model, failures), task=task
     )
-    proved(claim, search, written, halvings=halvings, seed=seed)
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
 
 
 @command.command()
 def floor(
     arm: ArmArgument,
     above: Annotated[float, "Threshold, between 0 and 1."],
-    configurations: Configurations = Configurations(),
+    configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
     task: RowsOption = "pose",
     degrees: AnglesOption = False,
     failures: FailuresOption = "single",
     halvings: JointHalvingsOption = 16,
-    search: Search = Search(),
-    chain: Chain = Chain(),
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     seed: SeedOption = 0,
-    written: Written = Written(Path("floor.certificate")),
+    written: CertificateOutput = CertificateOutput(Path("floor.certificate")),
 ) -> None:
     """Prove a lower bound on relative manipulability over a box of configurations.
 
@@ -193,11 +193,11 @@ def floor(
 
     Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     claim = hf.certificates.floor_claim(
-        model, configurations.read(model, degrees), above, failures=read_failures(model, failures), task=task
+        model, configurations.read_ranges(model, degrees), above, failures=read_failures(model, failures), task=task
     )
-    proved(claim, search, written, halvings=halvings, seed=seed)
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
 
 
 command.command()(path)
@@ -208,7 +208,7 @@ def structural_zero(
     arm: ArmArgument,
     joint: Annotated[str, typer.Argument(metavar="JOINT", help="Between a shoulder and a wrist.")],
     check: CheckOption = True,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     out: CertificateOption = Path("structural-zero.certificate"),
     json_: JsonOption = False,
 ) -> None:
@@ -219,28 +219,28 @@ def structural_zero(
 
     Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
     """
-    from holdfast.certificates.checks import need_flint
+    from holdfast.certificates.checks import require_flint
 
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     if check:
-        need_flint()
+        require_flint()
     proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
     if not proof.ok:
-        printed(proof, json_)
-        raise typer.Exit(NOT_MET)
+        print_result(proof, json_)
+        raise typer.Exit(NOT_MET_EXIT_CODE)
     file = proof.write(out)
-    printed(hf.check_certificate(file) if check else proof, json_, [file])
+    print_result(hf.check_certificate(file) if check else proof, json_, [file])
 
 
-def _ranges_of(file: Path) -> list[str]:
-    """A file of working ranges, as options give them."""
-    from holdfast.files.yaml import content
+def _read_range_options(file: Path) -> list[str]:
+    """Read a file of working ranges; return them in the form of ``--range``."""
+    from holdfast.files.yaml import read_mapping
 
     try:
-        found = content(file, "holdfast certify tolerant --help", "a joint with its range, such as joint1: [-0.5, 0.5]")
+        ranges = read_mapping(file, "holdfast certify tolerant --help", "a joint with its range, such as joint1: [-0.5, 0.5]")
     except InputError as error:
         raise InputError(f"ranges file '{file}': {error}") from error
-    for joint, pair in found.items():
+    for joint, pair in ranges.items():
         if not isinstance(pair, list) or len(pair) != 2:
             raise InputError(f"ranges file '{file}': {joint} has {str(pair)[:40]!r}; give [LOW, HIGH]")
-    return [f"{joint}={low}..{high}" for joint, (low, high) in found.items()]
+    return [f"{joint}={lower}..{upper}" for joint, (lower, upper) in ranges.items()]

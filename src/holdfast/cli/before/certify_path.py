@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.certify_options import Search, Written
-from holdfast.cli.certify_search import proved
-from holdfast.cli.groups import Chain
+from holdfast.cli.certify_options import CertificateOutput, SearchOptions
+from holdfast.cli.certify_search import prove_claim
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import ArmArgument, FailuresOption
 from holdfast.cli.values import read_numbers
 from holdfast.errors import InputError
@@ -26,9 +26,9 @@ def path(
     task: Annotated[str, "What follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
     segments: Annotated[int | None, "Use so many of the motion. Default: all."] = None,
     halvings: Annotated[int, "Of intervals of lock instants, at most."] = 6,
-    search: Search = Search(),
-    chain: Chain = Chain(),
-    written: Written = Written(Path("path.certificate")),
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    written: CertificateOutput = CertificateOutput(Path("path.certificate")),
 ) -> None:
     """Prove that a tool path can be completed after any single lock at any time.
 
@@ -40,16 +40,16 @@ def path(
     """
     from holdfast.paths.joint_table import joint_columns, read_joint_table
 
-    model, when = chain.arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
-    if len(when) != 2:
+    model, failure_times = chain.resolve_arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
+    if len(failure_times) != 2:
         raise InputError("--during takes two parts of the motion, for example --during '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
-        read_joint_table(model, motion, "motion", "time_s").numbers(joint_columns(model)),
+        read_joint_table(model, motion, "motion", "time_s").read_columns(joint_columns(model)),
         failures=read_failures(model, failures),
-        during=tuple(when),
+        during=tuple(failure_times),
         tube=read_numbers("--tube", tube, "one number or two, m and rad,"),
         task=task,
         segments=segments,
     )
-    proved(claim, search, written, halvings=halvings)
+    prove_claim(claim, search, written, halvings=halvings)

@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Apart, Chain, Output
-from holdfast.cli.measure_options import OBJECTIVES
+from holdfast.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
+from holdfast.cli.measure_options import OBJECTIVES_HELP
 from holdfast.cli.options import (
     ArmArgument,
     DurationOption,
@@ -21,7 +21,7 @@ from holdfast.cli.options import (
     SeedOption,
     StartDegreesOption,
 )
-from holdfast.cli.values import check_unit_of_path, read_configuration, read_objective, read_task
+from holdfast.cli.values import check_path_units, read_configuration, read_objective, read_task
 
 
 def command(
@@ -37,15 +37,15 @@ def command(
     duration: DurationOption = None,
     compare: Annotated[
         list[str] | None,
-        f"Another motion beside it: least-norm, or what gradient projection serves: {OBJECTIVES}. May be given again.",
+        f"Another motion beside it: least-norm, or what gradient projection serves: {OBJECTIVES_HELP}. May be given again.",
     ] = None,
-    inject: Annotated[int, typer.Option("--inject", min=0, help="Try so many locks at random times.")] = 0,
+    test_locks: Annotated[int, typer.Option("--inject", min=0, help="Try so many locks at random times.")] = 0,
     keep: KeepOption = None,
-    apart: Apart = Apart(),
+    apart: ClearanceOptions = ClearanceOptions(),
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
-    output: Output = Output(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Plan the motion along a path that tolerates the most single-joint locks.
 
@@ -54,12 +54,12 @@ def command(
     from holdfast.arm.task import task_of_path
     from holdfast.endurance.given import LEAST_NORM
 
-    apart.check()
-    model = chain.arm(arm)
+    apart.check_consistency()
+    model = chain.resolve_arm(arm)
     timed = hf.paths.TimedPath.load(path, duration)
-    check_unit_of_path(model, timed.path, f"path '{path}'")
+    check_path_units(model, timed.path, f"path '{path}'")
     rows = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
-    result = hf.endure(
+    result = hf.plan_motion(
         model,
         timed,
         rates=None if rates is None else hf.FailureRates.load(model, rates),
@@ -69,11 +69,11 @@ def command(
         spacing=spacing,
         start=None if start is None else read_configuration(model, start, degrees),
         seed=seed,
-        clearance=apart.read_if_asked(model),
+        clearance=apart.build_if_requested(model),
         margin=apart.margin or 0.0,
         keep=keep,
-        compare=[other if other == LEAST_NORM else read_objective(model, "--compare", other, rows) for other in compare or []],
+        compare=[label if label == LEAST_NORM else read_objective(model, "--compare", label, rows) for label in compare or []],
     )
-    if inject:
-        result = replace(result, injected=result.inject(inject, seed=seed))
-    output.printed(result, [] if csv is None else [result.to_csv(csv)])
+    if test_locks:
+        result = replace(result, injected=result.test_locks(test_locks, seed=seed))
+    output.print_result(result, [] if csv is None else [result.to_csv(csv)])

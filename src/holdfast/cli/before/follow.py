@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Apart, Chain, Placement
-from holdfast.cli.measure_options import OBJECTIVES
+from holdfast.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
+from holdfast.cli.measure_options import OBJECTIVES_HELP
 from holdfast.cli.options import (
     ArmArgument,
     DegreesOption,
@@ -19,16 +19,16 @@ from holdfast.cli.options import (
     PathArgument,
     PathTaskOption,
 )
-from holdfast.cli.values import check_unit_of_path, read_configuration, read_objective, read_task
+from holdfast.cli.values import check_path_units, read_configuration, read_objective, read_task
 from holdfast.errors import InputError
-from holdfast.present.results import printed, said
+from holdfast.present.results import current_command, print_result
 
 
 def command(
     arm: ArmArgument,
     path: PathArgument,
     minimise: Annotated[
-        str | None, f"What the self-motion makes small: {OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'."
+        str | None, f"What the self-motion makes small: {OBJECTIVES_HELP}; or a sum: '0.5*torque:effort + 0.1*acceleration'."
     ] = None,
     maximise: Annotated[str | None, "What it makes large: the same choices."] = None,
     method: Annotated[
@@ -46,11 +46,11 @@ def command(
     torque_bound: Annotated[
         float | None, "N m. How slow must the motion be for torques to stay this close to those of gravity?"
     ] = None,
-    apart: Apart = Apart(),
+    apart: ClearanceOptions = ClearanceOptions(),
     no_limits: Annotated[bool, "Ignore joint limits while moving."] = False,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
-    placement: Placement = Placement(),
-    chain: Chain = Chain(),
+    placement: MountingOptions = MountingOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     out: Annotated[Path | None, "Folder for trajectory.csv and report.html."] = None,
     csv: MotionCsvOption = None,
     parquet: Annotated[Path | None, "The same as Parquet (needs holdfast[parquet])."] = None,
@@ -64,35 +64,35 @@ def command(
 
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
-    apart.check()
-    model = placement.of(chain.arm(arm))
+    apart.check_consistency()
+    model = placement.mount_arm(chain.resolve_arm(arm))
     timed = hf.paths.TimedPath.load(path, duration)
-    check_unit_of_path(model, timed.path, f"path '{path}'")
-    chosen = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
-    wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
-    objective = read_objective(model, *wish, chosen)  # the other way round already, if that is meant
-    aim: dict[str, Any] = {"minimise" if objective.better == "smaller" else "maximise": objective}
+    check_path_units(model, timed.path, f"path '{path}'")
+    path_task = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
+    option_and_text = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
+    objective = read_objective(model, *option_and_text, path_task)  # the other way round already, if that is meant
+    optimisation: dict[str, Any] = {"minimise" if objective.better == "smaller" else "maximise": objective}
     result = hf.follow(
         model,
         timed,
-        **aim,
+        **optimisation,
         method=method,  # type: ignore[arg-type]
         q=None if q is None else read_configuration(model, q, degrees),
         gain=gain,
         wanted=wanted,
         rate_cap=rate_cap,
-        task=chosen,
+        task=path_task,
         samples=samples,
         limits=not no_limits,
         seed=seed,
         best=best,
         torque_bound=torque_bound,
-        clearance=apart.read_if_asked(model),
+        clearance=apart.build_if_requested(model),
         margin=apart.margin or 0.0,
     )
     files = [] if csv is None else [result.to_csv(csv)]
     if parquet is not None:
         files.append(result.to_parquet(parquet))
     if out is not None:
-        files += result.save(out, command=said())
-    printed(result, json_, files)
+        files += result.save(out, command=current_command())
+    print_result(result, json_, files)

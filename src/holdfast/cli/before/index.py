@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import ArmArgument, DegreesOption, FailuresOption, JsonOption, LengthOption, QOption, TaskOption
 from holdfast.cli.values import read_configuration, read_failures, read_task
-from holdfast.present.printing import print_each
+from holdfast.present.printing import print_evaluations
 
 
 def command(
@@ -17,7 +17,7 @@ def command(
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     degrees: DegreesOption = False,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Compute a fault-tolerance index and its gradient at one configuration.
@@ -27,7 +27,7 @@ def command(
     from holdfast.indices.index import by_name
     from holdfast.present.indices.console import index_values, show_index
 
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     configurations = [read_configuration(model, text, degrees) for text in q]
     measure = by_name(index, model, read_task(task, arm, model), failures=read_failures(model, failures), length=length)
-    print_each(measure, configurations, json_, index_values, show_index)
+    print_evaluations(measure, configurations, json_, index_values, show_index)

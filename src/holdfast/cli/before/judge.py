@@ -9,11 +9,11 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chains
+from holdfast.cli.groups import ArmSourcesOptions
 from holdfast.cli.options import FailuresOption, JsonOption, OutOption, SeedOption, TaskOption
 from holdfast.cli.start.candidates import read_candidates
 from holdfast.cli.values import read_failures, read_task
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import print_result, write_outputs
 
 
 def command(
@@ -35,7 +35,7 @@ def command(
     points: Annotated[int, "Points of a workspace, where it is sampled."] = 300,
     best_limits: Annotated[bool, "Look for the artificial limits of the largest tolerant workspace."] = False,
     seed: SeedOption = 0,
-    chains: Chains = Chains(),
+    chains: ArmSourcesOptions = ArmSourcesOptions(),
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -45,10 +45,10 @@ def command(
 
     Example: holdfast judge panda xarm7 --measures fraction-above
     """
-    several = read_candidates(chains.arms(arm), [], [] if task is None else [task])
-    first = several[0]
-    found = hf.designs.judge(
-        [replace(each.arm, name=each.name) for each in several],
+    candidates = read_candidates(chains.resolve_arms(arm), [], [] if task is None else [task])
+    first = candidates[0]
+    comparison = hf.designs.compare_arms(
+        [replace(candidate.arm, name=candidate.name) for candidate in candidates],
         None if region is None else hf.Region.load(region),
         task=read_task(first.task, first.spec, first.arm),
         failures=read_failures(first.arm, failures),
@@ -61,4 +61,4 @@ def command(
         best_limits=best_limits,
         seed=seed,
     )
-    printed(found, json_, drawn(found, None, out))
+    print_result(comparison, json_, write_outputs(comparison, None, out))

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.groups import Apart, Chain, Placement
-from holdfast.cli.measure_options import OBJECTIVES
+from holdfast.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
+from holdfast.cli.measure_options import OBJECTIVES_HELP
 from holdfast.cli.options import ArmArgument, FailuresOption, JsonOption, OutOption, TaskOption
-from holdfast.cli.values import check_unit_of_places, read_configuration, read_failures, read_objective, read_pose, read_task
+from holdfast.cli.values import check_position_units, read_configuration, read_failures, read_objective, read_pose, read_task
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed
+from holdfast.present.results import print_result, write_outputs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    minimise: Annotated[str | None, f"{OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'."] = None,
+    minimise: Annotated[str | None, f"{OBJECTIVES_HELP}; or a sum: '0.5*torque:effort + 0.1*acceleration'."] = None,
     maximise: Annotated[
         str | None, "The same choices. Maximising a torque, or minimising an index, gives the worst configuration."
     ] = None,
@@ -41,7 +41,7 @@ def command(
         list[str] | None,
         "The pose of this configuration: joint values, rad and m, separated by commas or spaces. May be given again.",
     ] = None,
-    anywhere: Annotated[bool, "Whatever the pose: the best configuration of all within the limits."] = False,
+    any_pose: Annotated[bool, "Whatever the pose: the best configuration of all within the limits."] = False,
     degrees: Annotated[bool, "--at is in degrees (prismatic joints stay in m)."] = False,
     task: TaskOption = None,
     failures: FailuresOption = "single",
@@ -49,9 +49,9 @@ def command(
     starts: Annotated[
         int | None, "Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere."
     ] = None,
-    apart: Apart = Apart(),
-    placement: Placement = Placement(),
-    chain: Chain = Chain(),
+    apart: ClearanceOptions = ClearanceOptions(),
+    placement: MountingOptions = MountingOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     out: OutOption = None,
     csv: Annotated[Path | None, "Write the configurations to this file."] = None,
     json_: JsonOption = False,
@@ -63,53 +63,55 @@ def command(
     from holdfast.arm.task import as_task
     from holdfast.solvers.optima import optimise
 
-    apart.check()
-    model = placement.of(chain.arm(arm))
-    chosen = as_task(model, read_task(task, arm, model))
+    apart.check_consistency()
+    model = placement.mount_arm(chain.resolve_arm(arm))
+    pose_task = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
-    wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
-    objective = read_objective(model, *wish, chosen, read_failures(model, failures))
-    if [pose is not None, poses is not None, at is not None, anywhere].count(True) != 1:
+    option_and_text = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
+    objective = read_objective(model, *option_and_text, pose_task, read_failures(model, failures))
+    if [pose is not None, poses is not None, at is not None, any_pose].count(True) != 1:
         raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv, --at "joint values" and --anywhere')
-    given = None if at is None else np.array([read_configuration(model, x, degrees, "--at") for x in at])
+    initial = None if at is None else np.array([read_configuration(model, numbers, degrees, "--at") for numbers in at])
     targets = None
-    if not anywhere:
-        targets = _targets(model, chosen, pose or [], poses) if given is None else model.forward_kinematics(given)
-    found = optimise(
+    if not any_pose:
+        targets = (
+            _read_target_poses(model, pose_task, pose or [], poses) if initial is None else model.forward_kinematics(initial)
+        )
+    optima = optimise(
         model,
         targets,
         objective,
         seed=seed,
         starts=starts,
-        task=chosen,
-        clearance=apart.read(model),
+        task=pose_task,
+        clearance=apart.build_clearance(model),
         margin=apart.margin or 0.0,
-        initial=given,
+        initial=initial,
     ).require_any()
-    files = drawn(found, None, out) + ([] if csv is None else [found.to_csv(csv)])
-    printed(found, json_, files, asked=" ".join(wish).removeprefix("--"))
+    files = write_outputs(optima, None, out) + ([] if csv is None else [optima.to_csv(csv)])
+    print_result(optima, json_, files, asked=" ".join(option_and_text).removeprefix("--"))
 
 
-def _targets(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> Array:
+def _read_target_poses(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> Array:
     if file is None:
-        option, given = "--pose", [read_pose(arm, "--pose", text) for text in texts]
+        option, given_poses = "--pose", [read_pose(arm, "--pose", text) for text in texts]
     else:
-        from holdfast.paths.path_file import pose_table
+        from holdfast.paths.path_file import read_pose_table
 
-        option, given = "--poses", pose_table(file, "--poses")
-    if not given:
+        option, given_poses = "--poses", read_pose_table(file, "--poses")
+    if not given_poses:
         raise InputError(f"{option}: '{file}' holds no poses; give at least one row of them")
-    check_unit_of_places(arm, np.array([x[:3, 3] if x.shape == (4, 4) else x for x in given]), option)
-    targets = np.tile(np.eye(4), (len(given), 1, 1))
-    for target, found in zip(targets, given, strict=True):
-        if found.shape == (4, 4):
-            target[:] = found
+    check_position_units(arm, np.array([pose[:3, 3] if pose.shape == (4, 4) else pose for pose in given_poses]), option)
+    targets = np.tile(np.eye(4), (len(given_poses), 1, 1))
+    for target, given_pose in zip(targets, given_poses, strict=True):
+        if given_pose.shape == (4, 4):
+            target[:] = given_pose
         elif task.angular:
             raise InputError(
                 f"{option}: a pose is given as x,y,z without orientation, but task '{task.name}' asks for one; give all of it, "
                 "or --task position"
             )
         else:
-            target[:3, 3] = found
+            target[:3, 3] = given_pose
     return targets

@@ -8,11 +8,11 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
-from holdfast.cli.options import NOT_MET, ArmArgument, JsonOption
+from holdfast.cli.groups import ArmSourceOptions
+from holdfast.cli.options import NOT_MET_EXIT_CODE, ArmArgument, JsonOption
 from holdfast.cli.values import read_configuration
 from holdfast.errors import InputError
-from holdfast.present.results import printed, printed_each
+from holdfast.present.results import print_result, print_results
 
 command = typer.Typer(
     name="records",
@@ -32,8 +32,8 @@ def list_(
 
     Example: holdfast records list
     """
-    book = hf.designs.records()
-    printed(book, json_, [] if out is None else book.save(out)[-1:])
+    record_book = hf.designs.record_designs()
+    print_result(record_book, json_, [] if out is None else record_book.save(out)[-1:])
 
 
 @command.command()
@@ -45,8 +45,8 @@ def show(
 
     Example: holdfast records show pose-9R-k2-001
     """
-    found = hf.designs.record(record)
-    typer.echo(found.urdf() if urdf else found.text, nl=False)
+    best_known = hf.designs.record_design(record)
+    typer.echo(best_known.urdf() if urdf else best_known.text, nl=False)
 
 
 @command.command()
@@ -63,7 +63,7 @@ def new(
 
     Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
     """
-    model = Chain().arm(arm)
+    model = ArmSourceOptions().resolve_arm(arm)
     q = None if at is None else read_configuration(model, at, False, "--at")
     typer.echo(hf.designs.new_record(model, task, failures, q=q, name=name, by=by, how=how).text, nl=False)
 
@@ -82,7 +82,9 @@ def check(
     """
     if (record is None) != all_:
         raise InputError("give a record or --all, one of them")
-    found = [r.check() for r in (hf.designs.records().values() if all_ else [hf.designs.record(str(record))])]
-    printed_each(found, json_)
-    if not all(r.ok for r in found):
-        raise typer.Exit(NOT_MET)
+    checks = [
+        entry.check() for entry in (hf.designs.record_designs().values() if all_ else [hf.designs.record_design(str(record))])
+    ]
+    print_results(checks, json_)
+    if not all(entry.ok for entry in checks):
+        raise typer.Exit(NOT_MET_EXIT_CODE)

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from holdfast.cli.groups import Chain, Placement
+from holdfast.cli.groups import ArmSourceOptions, MountingOptions
 from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption, QOption
 from holdfast.cli.values import read_configuration, read_weights
-from holdfast.present.printing import print_each
-from holdfast.registry import SUSCEPTIBILITIES
+from holdfast.present.printing import print_evaluations
+from holdfast.registry import SUSCEPTIBILITY_REGISTRY
 
 
 def command(
     arm: ArmArgument,
     q: QOption,
-    measure: Annotated[str, f"{SUSCEPTIBILITIES.usage}."] = "torque",
+    measure: Annotated[str, f"{SUSCEPTIBILITY_REGISTRY.usage}."] = "torque",
     weights: Annotated[
         str | None,
         "effort, worst-case, one number per joint as 1,2,3, or a CSV file of them or of a square matrix. "
         "Default: all joints alike.",
     ] = None,
-    placement: Placement = Placement(),
+    placement: MountingOptions = MountingOptions(),
     degrees: DegreesOption = False,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Compute how strongly each joint would react to losing its torque.
@@ -32,7 +32,7 @@ def command(
     from holdfast.indices.susceptibility.measure import by_name
     from holdfast.present.indices.console import show_susceptibility, susceptibility_values
 
-    model = placement.of(chain.arm(arm))
+    model = placement.mount_arm(chain.resolve_arm(arm))
     configurations = [read_configuration(model, text, degrees) for text in q]
     chosen = by_name(measure, model, None if weights is None else read_weights("--weights", weights))
-    print_each(chosen, configurations, json_, susceptibility_values, show_susceptibility)
+    print_evaluations(chosen, configurations, json_, susceptibility_values, show_susceptibility)

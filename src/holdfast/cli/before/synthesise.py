@@ -11,12 +11,12 @@ import holdfast as hf
 from holdfast.cli.options import JsonOption, SeedOption
 from holdfast.errors import InputError
 from holdfast.files import output
-from holdfast.files.matrices import matrix
-from holdfast.present.results import printed, printed_each
+from holdfast.files.matrices import read_matrix
+from holdfast.present.results import print_result, print_results
 
 
 def command(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Numbers, a row of the matrix a line (CSV).")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Numbers, a row of the read_matrix a line (CSV).")],
     task: Annotated[str, "planar, position or pose."] = "pose",
     null_space: Annotated[bool, "The file is a null space, a row for each joint, not a Jacobian."] = False,
     failures: Annotated[int, "Joints that lock at once."] = 1,
@@ -32,10 +32,10 @@ def command(
 
     Example: holdfast synthesise jacobian.csv --task position --out arms
     """
-    given = matrix(file)
-    made = hf.designs.synthesise(
-        jacobian=None if null_space else given,
-        null_space=given if null_space else None,
+    input_matrix = read_matrix(file)
+    synthesis = hf.designs.synthesise(
+        jacobian=None if null_space else input_matrix,
+        null_space=input_matrix if null_space else None,
         task=task,
         failures=failures,
         starts=starts,
@@ -43,12 +43,16 @@ def command(
     )
     if judge and task != "pose":
         raise InputError("orders are judged for poses; leave --judge out")
-    folder = Path() if out is None else output.made(out)
-    files = [] if out is None else [hf.designs.written(arm, folder / f"arm-{k}.yaml") for k, arm in enumerate(made.arms, 1)]
-    judged = [hf.designs.judge_orders(made.jacobians[0], failures=failures, seed=seed)] if judge else []
+    folder = Path() if out is None else output.make_folder(out)
+    files = (
+        []
+        if out is None
+        else [hf.designs.write_dh_table(arm, folder / f"arm-{number}.yaml") for number, arm in enumerate(synthesis.arms, 1)]
+    )
+    evaluated_orders = [hf.designs.compare_joint_orders(synthesis.jacobians[0], failures=failures, seed=seed)] if judge else []
     if json_ and judge:
-        printed_each([made, *judged], json_)
+        print_results([synthesis, *evaluated_orders], json_)
         return
-    printed(made, json_, files)
-    for found in judged:
-        printed(found, json_)
+    print_result(synthesis, json_, files)
+    for order in evaluated_orders:
+        print_result(order, json_)

@@ -1,1 +1,1 @@
-"""Commands for a failure that one knows of."""
+"""Commands for a known failure."""

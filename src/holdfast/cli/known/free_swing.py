@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output, Touched
+from holdfast.cli.groups import ArmSourceOptions, ContactOptions, OutputOptions
 from holdfast.cli.options import ArmArgument, DegreesOption, MotionCsvOption
 from holdfast.cli.values import read_configuration, read_joint
 
@@ -21,11 +21,11 @@ def command(
     brake: Annotated[list[float] | None, "Brakes engage after so many ms. May be given again.", "50, 100 and 200"] = None,
     limits: Annotated[bool, "The joint's limits stop it (those of prismatic joints always do)."] = False,
     duration: Annotated[float | None, "Longest time, s. Default: until it is at rest."] = None,
-    touched: Touched = Touched(),
+    touched: ContactOptions = ContactOptions(),
     degrees: DegreesOption = False,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
-    output: Output = Output(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Simulate a joint that swings freely under gravity (needs the extra 'physics').
 
@@ -34,17 +34,17 @@ def command(
 
     Example: holdfast free-swing panda --q "0 -45 0 -135 0 90 45" --degrees --joint 4 --brake 50 --brake 100
     """
-    from holdfast.physics.swing import BRAKES
+    from holdfast.physics.swing import DEFAULT_BRAKE_TIMES_MS
 
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     swing = hf.free_swing(
         model,
         read_configuration(model, q, degrees),
         read_joint(model, joint),
         damping=damping,
         duration=duration,
-        brake_after=tuple(brake) if brake else BRAKES,
+        brake_after=tuple(brake) if brake else DEFAULT_BRAKE_TIMES_MS,
         limits=limits,
-        clearance=touched.read(model),
+        clearance=touched.build_contact_clearance(model),
     )
-    output.printed(swing, [] if csv is None else [swing.to_csv(csv)])
+    output.print_result(swing, [] if csv is None else [swing.to_csv(csv)])

@@ -8,11 +8,11 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output
-from holdfast.cli.options import NOT_MET, ArmArgument, SeedOption, TaskOption
+from holdfast.cli.groups import ArmSourceOptions, OutputOptions
+from holdfast.cli.options import NOT_MET_EXIT_CODE, ArmArgument, SeedOption, TaskOption
 from holdfast.cli.values import read_configuration, read_joint, read_task
 from holdfast.errors import InputError
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
 
 def command(
@@ -25,9 +25,9 @@ def command(
     duration: Annotated[float, "Of each leg, at most, s."] = 5.0,
     speed: Annotated[float, "Norm of the joint rates, rad/s and m/s."] = 0.25,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     csv: Annotated[Path | None, "Write the motion to this file."] = None,
-    output: Output = Output(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Plan a self-motion that identifies a locked joint, or evaluate its log.
 
@@ -36,23 +36,23 @@ def command(
 
     Example: holdfast probe panda --at "0 -0.4 0.3 -2 0.2 1.8 0.5" --csv probe.csv
     """
-    model = chain.arm(arm)
-    chosen = None if suspects is None else [read_joint(model, text) for text in suspects.split(",")]
+    model = chain.resolve_arm(arm)
+    candidate_joints = None if suspects is None else [read_joint(model, text) for text in suspects.split(",")]
     if (at is None) == (record is None):
         raise InputError("give --at to plan, or --record to decide, one of them")
     if record is not None:
-        finding = hf.diagnosis.decide(model, hf.faults.Log.load(record), suspects=chosen)
-        printed(finding, output.json_)
+        finding = hf.diagnosis.identify(model, hf.faults.Log.load(record), suspects=candidate_joints)
+        print_result(finding, output.json_)
         if finding.remaining != ("none",):
-            raise typer.Exit(NOT_MET)
+            raise typer.Exit(NOT_MET_EXIT_CODE)
         return
-    found = hf.diagnosis.plan_probe(
+    probe_motion = hf.diagnosis.plan_identification(
         model,
         read_configuration(model, str(at), degrees, "--at"),
-        suspects=chosen,
+        suspects=candidate_joints,
         task=read_task(task, arm, model),
         duration=duration,
         speed=speed,
         seed=seed,
     )
-    output.printed(found, [] if csv is None else [found.to_csv(csv)])
+    output.print_result(probe_motion, [] if csv is None else [probe_motion.to_csv(csv)])

@@ -9,10 +9,10 @@ import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Apart, Chain
-from holdfast.cli.options import NOT_MET, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
+from holdfast.cli.groups import ArmSourceOptions, ClearanceOptions
+from holdfast.cli.options import NOT_MET_EXIT_CODE, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
 from holdfast.cli.values import (
-    check_unit_of_path,
+    check_path_units,
     read_by_joint,
     read_configuration,
     read_locks,
@@ -21,9 +21,9 @@ from holdfast.cli.values import (
     read_task,
 )
 from holdfast.errors import InputError
-from holdfast.grammar import is_number, measures
-from holdfast.present.printing import console
-from holdfast.present.results import printed, said
+from holdfast.grammar import is_number, read_measures
+from holdfast.present.printing import make_console
+from holdfast.present.results import current_command, print_result
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -66,14 +66,14 @@ def command(
     ] = None,
     period: Annotated[float, "s between the rows of a motion timed so."] = 0.01,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
-    apart: Apart = Apart(),
+    apart: ClearanceOptions = ClearanceOptions(),
     check: Annotated[Path | None, "Plan nothing; check these waypoints (CSV) by a replay."] = None,
     out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and pictures."] = None,
     certificate: Annotated[
         Path | None, "Write the proof that the goal has no configuration to this file, for holdfast certificate check."
     ] = None,
     csv: Annotated[Path | None, "Write the waypoints to this file."] = None,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Plan a motion that finishes the task after a known failure, or prove that none exists.
@@ -82,44 +82,44 @@ def command(
 
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
-    apart.check()
-    model = chain.arm(arm)
-    shape = apart.read(model)
-    most = None if accelerations is None else _accelerations(model, accelerations)
+    apart.check_consistency()
+    model = chain.resolve_arm(arm)
+    clearance = apart.build_clearance(model)
+    max_accelerations = None if accelerations is None else _read_accelerations(model, accelerations)
     if check is not None:
-        locked = read_locks(model, lock, degrees, alone=True, failure=failure) if lock or failure else ()
+        locked = read_locks(model, lock, degrees, optional_value=True, failure=failure) if lock or failure else ()
         replay = hf.recovery.check_waypoints(
             model,
             hf.recovery.read_waypoints(model, check),
             locked,
-            clearance=shape,
+            clearance=clearance,
             margin=apart.margin or 0.0,
             keep=keep,
             time=hf.recovery.read_times(model, check),
-            accelerations=most,
+            accelerations=max_accelerations,
         )
-        printed(replay, json_)
+        print_result(replay, json_)
         if not replay.ok:
-            raise typer.Exit(NOT_MET)
+            raise typer.Exit(NOT_MET_EXIT_CODE)
         return
     if at is None:
         raise InputError("give --at, the current joint values, for example --at " + ",".join("0" * model.n))
-    aim, positions = _goal(model, goal or ("home" if path is None else ""), degrees)
+    target_goal, positions = _read_goal(model, goal or ("home" if path is None else ""), degrees)
     if positions and within is not None:
         raise InputError("--within is about the goal's z axis, and --goal has no orientation; give x,y,z,roll,pitch,yaw")
-    chosen = None if task is None else read_task(task, arm, model)
-    rest = None if path is None else hf.paths.Path.load(path)
-    if rest is not None:
-        check_unit_of_path(model, rest, "--path")
+    known_task = None if task is None else read_task(task, arm, model)
+    tool_path = None if path is None else hf.paths.Path.load(path)
+    if tool_path is not None:
+        check_path_units(model, tool_path, "--path")
     result = hf.recover(
         model,
-        read_locks(model, lock, degrees, alone=True, failure=failure),
+        read_locks(model, lock, degrees, optional_value=True, failure=failure),
         read_configuration(model, at, degrees, "--at"),
-        goal=aim,
-        task=_position_task(model, chosen) if positions else chosen,
-        within=None if within is None else _angle(within),
-        path=rest,
-        clearance=shape or False,
+        goal=target_goal,
+        task=_position_task(model, known_task) if positions else known_task,
+        within=None if within is None else _read_angle(within),
+        path=tool_path,
+        clearance=clearance or False,
         margin=apart.margin or 0.0,
         keep=keep,
         metric=metric,  # type: ignore[arg-type]
@@ -128,8 +128,8 @@ def command(
         starts=starts,
         tries=tries,
         time_limit=time_limit,
-        tolerance=None if tolerance is None else tuple(measures("--tolerance", tolerance)),  # type: ignore[arg-type]
-        accelerations=most,
+        tolerance=None if tolerance is None else tuple(read_measures("--tolerance", tolerance)),  # type: ignore[arg-type]
+        accelerations=max_accelerations,
         period=period,
         seed=seed,
     )
@@ -137,66 +137,68 @@ def command(
     if certificate is not None and not result.ok:
         files.append(result.certificate().write(certificate))
     if out is not None:
-        files += result.save(out, command=said())
-    printed(result, json_, files)
+        files += result.save(out, command=current_command())
+    print_result(result, json_, files)
     if csv is not None and not len(result.q) and not json_:
-        console(stderr=True).print(f"holdfast: no motion was found, so '{csv}' is not written", markup=False, soft_wrap=True)
+        make_console(stderr=True).print(
+            f"holdfast: no motion was found, so '{csv}' is not written", markup=False, soft_wrap=True
+        )
     if not result.ok:
-        raise typer.Exit(NOT_MET)
+        raise typer.Exit(NOT_MET_EXIT_CODE)
 
 
-def _accelerations(arm: Arm, text: str) -> Any:
-    """--accelerations as the library takes it."""
+def _read_accelerations(arm: Arm, text: str) -> Any:
+    """Read ``--accelerations`` as an argument of the library."""
     if "=" in text:
         return read_by_joint(arm, text.replace(",", " ").split(), "--accelerations")
     numbers = read_numbers("--accelerations", text, "a number, one per joint, or JOINT=NUMBER")
     return numbers if len(numbers) > 1 else float(numbers[0])
 
 
-def _angle(text: str) -> float:
-    """--within in rad."""
+def _read_angle(text: str) -> float:
+    """Read ``--within`` in rad."""
     if not text.strip().endswith(("deg", "rad")):
         raise InputError(f"--within '{text}' has no unit; write it as 30deg or 0.5rad")
-    angles = measures("--within", text)
+    angles = read_measures("--within", text)
     if len(angles) != 1:
         raise InputError(f"--within '{text}' has {len(angles)} numbers; give one angle, for example 30deg")
     return angles[0]
 
 
-def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
-    """--goal as the library takes it, and whether it is a position alone."""
+def _read_goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
+    """Read ``--goal`` as an argument of the library; return it and whether it is a position without orientation."""
     if text in ("", "home") or text in arm.states:
         return text or None, False
-    kind, colon, rest = text.partition(":")
+    kind, colon, numbers = text.partition(":")
     words = text.replace(",", " ").split()
     if not colon and words and is_number(words[0]):
         count = len(words)
         if arm.n in (3, 6) and count in (3, 6):
             raise InputError(f"--goal '{text}' could be joint values or a pose; write 'q:{text}' or 'pose:{text}'")
-        kind, rest = ("q" if count == arm.n else "pose"), text
+        kind, numbers = ("q" if count == arm.n else "pose"), text
     if kind == "q":
-        return read_configuration(arm, rest, degrees, "--goal"), False
+        return read_configuration(arm, numbers, degrees, "--goal"), False
     if kind != "pose":
         raise InputError(
             f"--goal '{text}' is not known; write {', '.join({'home': 0, **arm.states})}, "
             f"'q:...' with {arm.n} joint values, or 'pose:...'"
         )
-    poses = [read_pose(arm, "--goal", part) for part in rest.split(";")]
-    whole = np.repeat(np.eye(4)[None], len(poses), axis=0)
-    for one, pose in zip(whole, poses, strict=True):
-        one[: len(pose), 3 if pose.ndim == 1 else slice(None)] = pose
-    return whole, any(pose.ndim == 1 for pose in poses)
+    poses = [read_pose(arm, "--goal", pose_text) for pose_text in numbers.split(";")]
+    goal_poses = np.repeat(np.eye(4)[None], len(poses), axis=0)
+    for goal_pose, pose in zip(goal_poses, poses, strict=True):
+        goal_pose[: len(pose), 3 if pose.ndim == 1 else slice(None)] = pose
+    return goal_poses, any(pose.ndim == 1 for pose in poses)
 
 
 def _position_task(arm: Arm, task: Any) -> Any:
-    """The task of a goal without orientation."""
+    """Return the task of a goal without orientation."""
     from holdfast.arm.task import as_task, plane_normal
 
     if task is None:
         return "planar" if plane_normal(arm) is not None else "position"
-    made = as_task(arm, task)
-    if made.angular:
+    position_task = as_task(arm, task)
+    if position_task.angular:
         raise InputError(
-            f"--goal has no orientation and task '{made.name}' needs one; give x,y,z,roll,pitch,yaw or --task position"
+            f"--goal has no orientation and task '{position_task.name}' needs one; give x,y,z,roll,pitch,yaw or --task position"
         )
-    return made
+    return position_task

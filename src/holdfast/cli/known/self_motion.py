@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.cli.groups import Apart, Chain, Output
+from holdfast.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
 from holdfast.cli.options import TARGET_HELP, ArmArgument, SeedOption, TaskOption
 from holdfast.cli.values import read_pose, read_target, read_task
 from holdfast.errors import InputError
@@ -32,10 +32,10 @@ def command(
     degrees: Annotated[bool, "--csv in degrees (prismatic joints stay in m)."] = False,
     spacing: Annotated[float, "Spacing of the points, rad."] = 0.05,
     seed: SeedOption = 0,
-    apart: Apart = Apart(),
-    chain: Chain = Chain(),
+    apart: ClearanceOptions = ClearanceOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     csv: Annotated[Path | None, "Write all points to this file."] = None,
-    output: Output = Output(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Trace all configurations of a tool pose and the joint values at which a lock is harmless.
 
@@ -46,28 +46,30 @@ def command(
     """
     from holdfast.arm.task import as_task
 
-    apart.check()
-    model = chain.arm(arm)
+    apart.check_consistency()
+    model = chain.resolve_arm(arm)
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
-    wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
-    asked = apart.margin is not None or apart.cell is not None
-    kept = apart.read(model, chooses=asked)
-    motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed, clearance=kept, margin=apart.margin or 0.0)
-    if kept is not None and (bounds or motion.redundancy == 1):
+    target_value = read_target(model, rows, target) if target is not None else _read_task_pose(model, rows, str(pose))
+    chooses = apart.margin is not None or apart.cell is not None
+    clearance = apart.build_clearance(model, chooses_configurations=chooses)
+    motion = hf.self_motion(
+        model, target_value, rows, spacing=spacing, seed=seed, clearance=clearance, margin=apart.margin or 0.0
+    )
+    if clearance is not None and (bounds or motion.redundancy == 1):
         motion = replace(motion, bounds=motion.arcs())
-    elif kept is None and (bounds or output.plot is not None or output.out is not None):
-        motion = replace(motion, bounds=hf.joint_bounds(model, wanted, rows, seed=seed))
-    output.printed(motion, [] if csv is None else [motion.to_csv(csv, degrees)])
+    elif clearance is None and (bounds or output.plot is not None or output.out is not None):
+        motion = replace(motion, bounds=hf.joint_bounds(model, target_value, rows, seed=seed))
+    output.print_result(motion, [] if csv is None else [motion.to_csv(csv, degrees)])
 
 
-def _pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
+def _read_task_pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
     values = read_pose(arm, "--pose", text)
     if values.shape == (4, 4):
         return values
     if task.angular:
         raise InputError(f"--pose has 3 numbers; task '{task.name}' needs 6, x,y,z in m and roll,pitch,yaw in degrees")
-    made = np.eye(4)
-    made[:3, 3] = values
-    return made
+    position_pose = np.eye(4)
+    position_pose[:3, 3] = values
+    return position_pose

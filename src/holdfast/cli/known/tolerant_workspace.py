@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output
+from holdfast.cli.groups import ArmSourceOptions, OutputOptions
 from holdfast.cli.options import ArmArgument, SeedOption
 from holdfast.cli.values import read_joint, read_numbers, read_task
 from holdfast.errors import InputError
@@ -27,8 +27,8 @@ def command(
     points: Annotated[int, "Points in the sample (not for planar arms of three joints)."] = 1000,
     angles: Annotated[int, "Locked values tried per joint."] = 24,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
-    output: Output = Output(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Compute the points that stay reachable after any single lock.
 
@@ -37,22 +37,22 @@ def command(
     from holdfast.arm.task import plane_normal
     from holdfast.arm.urdf import rpy_rotation
 
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     rows = read_task(task, arm, model) if task else "planar" if plane_normal(model) is not None else "position"
-    limits = {read_joint(model, text.partition("=")[0]): _limit(model, text) for text in limit or []}
-    turn = None
+    limits = {read_joint(model, text.partition("=")[0]): _read_limit(model, text) for text in limit or []}
+    tool_rotation = None
     if rotation is not None:
         values = read_numbers("--rotation", rotation, "roll,pitch,yaw (degrees)")
         if values.size != 3 or not np.isfinite(values).all():
             raise InputError(f"--rotation has {values.size} numbers; give roll,pitch,yaw in degrees")
-        turn = rpy_rotation(np.deg2rad(values).tolist())
+        tool_rotation = rpy_rotation(np.deg2rad(values).tolist())
     region = hf.tolerant_workspace(
-        model, rows, limits or None, optimise=optimise, rotation=turn, points=points, angles=angles, seed=seed
+        model, rows, limits or None, optimise=optimise, rotation=tool_rotation, points=points, angles=angles, seed=seed
     )
-    output.printed(region)
+    output.print_result(region)
 
 
-def _limit(arm: Arm, text: str) -> tuple[float, float]:
+def _read_limit(arm: Arm, text: str) -> tuple[float, float]:
     joint, _, values = text.partition("=")
     numbers = read_numbers(f"--limit '{text}'", values, "JOINT=LOW,HIGH")
     if numbers.size != 2:

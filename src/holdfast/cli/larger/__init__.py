@@ -1,1 +1,1 @@
-"""Commands for larger work."""
+"""Commands for studies, experiments, benchmarks, and export."""

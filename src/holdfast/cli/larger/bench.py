@@ -1,4 +1,4 @@
-"""``holdfast bench``: suites of cases that anyone can run again, ours and others' planners on the same ones."""
+"""``holdfast bench``: reproducible suites of cases for motion planners, those of holdfast and external ones."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import CellOption, Chain
-from holdfast.cli.larger.study import chunks_progress, stopping
+from holdfast.cli.groups import ArmSourceOptions, CellOption
+from holdfast.cli.larger.study import show_chunk_progress, stop_on_signal
 from holdfast.cli.options import ArmArgument, JsonOption
-from holdfast.present.results import printed, said
+from holdfast.present.results import current_command, print_result
 
 command = typer.Typer(name="bench", help="Run benchmarks for motion planners.", no_args_is_help=True)
 
 
 @command.callback()
-def _root() -> None:
+def _describe_group() -> None:
     """Run benchmarks for motion planners."""
 
 
@@ -37,7 +37,7 @@ def fail_active(
     cell: CellOption = None,
     seconds: Annotated[float, "Time limit of a case, on one thread."] = 10.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same cases.")] = 1,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Benchmark planners on random failures and tasks.
@@ -46,9 +46,9 @@ def fail_active(
 
     Example: holdfast bench fail-active panda --cases 100 --task reach-pose --task line --out fail-active
     """
-    model = chain.arm(arm)
-    with stopping() as stop, chunks_progress(json_) as progress:
-        found = hf.bench.fail_active(
+    model = chain.resolve_arm(arm)
+    with stop_on_signal() as stop, show_chunk_progress(json_) as progress:
+        benchmark = hf.bench.fail_active(
             model,
             out,
             cell=cell,
@@ -60,7 +60,7 @@ def fail_active(
             progress=progress,
             stop=stop,
         )
-    files = found.save(out, command=said())
-    printed(found, json_, files)
+    files = benchmark.save(out, command=current_command())
+    print_result(benchmark, json_, files)
     if stop():
         raise KeyboardInterrupt

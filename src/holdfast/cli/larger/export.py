@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Annotated
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
-from holdfast.cli.laws import LawOption, law_of
+from holdfast.cli.groups import ArmSourceOptions
+from holdfast.cli.laws import LawOption, read_law_for_arm
 from holdfast.cli.options import ArmArgument, JsonOption, TaskOption
 from holdfast.errors import InputError
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
-LANGUAGES = ("c",)
+EXPORT_LANGUAGES = ("c",)
 
 
 def command(
@@ -24,24 +24,24 @@ def command(
     task: TaskOption = None,
     monitor: Annotated[Path | None, "Bounds of calibrate: also a monitor of joint faults, NAME_monitor."] = None,
     controller: Annotated[bool, "With --monitor: also a controller in C++17 that reacts to it, NAME_controller."] = False,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Export a control law, monitor or controller as C or C++ code.
 
     Example: holdfast export panda --law failure-tolerant --language c --out controller
     """
-    if language not in LANGUAGES:
-        raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
+    if language not in EXPORT_LANGUAGES:
+        raise InputError(f"--language '{language}' is not known; use {', '.join(EXPORT_LANGUAGES)}")
     if controller and monitor is None:
         raise InputError("--controller needs --monitor BOUNDS, which 'holdfast calibrate' makes")
-    chosen = law_of(law, arm, task, chain)
-    files = chosen.export_c(out, name)
-    watching: list[Path] = []
+    control_law = read_law_for_arm(law, arm, task, chain)
+    files = control_law.export_c(out, name)
+    monitor_files: list[Path] = []
     if monitor is not None:
         bounds, stem = hf.diagnosis.load(monitor), files.source.stem
         if controller:
-            watching += hf.reaction.export_controller(chosen, bounds, out, name=f"{stem}_controller")
+            monitor_files += hf.reaction.export_controller(control_law, bounds, out, name=f"{stem}_controller")
         else:
-            watching += hf.diagnosis.export_c(chosen.arm, bounds, out, name=f"{stem}_monitor")
-    printed(files, json_, watching, listed=monitor is not None)
+            monitor_files += hf.diagnosis.export_c(control_law.arm, bounds, out, name=f"{stem}_monitor")
+    print_result(files, json_, monitor_files, listed=monitor is not None)

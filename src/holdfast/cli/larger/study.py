@@ -10,14 +10,14 @@ from typing import Annotated, Any
 
 import typer
 
-from holdfast.cli.groups import Chains
+from holdfast.cli.groups import ArmSourcesOptions
 from holdfast.cli.options import JsonOption
-from holdfast.cli.progress import progress_bar
+from holdfast.cli.progress import ProgressBar
 from holdfast.errors import InputError
 from holdfast.grammar import is_count
-from holdfast.notice import working
-from holdfast.present.printing import console, print_json
-from holdfast.present.results import printed, printed_each
+from holdfast.notice import report_work
+from holdfast.present.printing import make_console, print_json
+from holdfast.present.results import print_result, print_results
 
 command = typer.Typer(
     name="study",
@@ -39,7 +39,7 @@ def new(
     index: Annotated[list[str] | None, "May be given again.", "relative-manipulability"] = None,
     law: Annotated[list[str] | None, "Also maps of convergence under this control law; may be given again."] = None,
     optimise: Annotated[bool, "Also the best configuration of each pose."] = False,
-    chains: Chains = Chains(),
+    chains: ArmSourcesOptions = ArmSourcesOptions(),
 ) -> None:
     """Write a commented study file.
 
@@ -47,9 +47,9 @@ def new(
     """
     from holdfast.studies.template import write
 
-    usual = ["relative-manipulability"]
-    indices = usual if index is None else index
-    files = chains.arms(arm)
+    default_indices = ["relative-manipulability"]
+    indices = default_indices if index is None else index
+    files = chains.resolve_arms(arm)
     written = write(file, files, poses, chunk, seed, indices, law or [], optimise)
     typer.echo(f"written: {written}")
 
@@ -81,36 +81,38 @@ def run(
     """
     from holdfast.engine.study import Study
     from holdfast.kernels.threads import set_threads
-    from holdfast.studies.estimate import estimates
+    from holdfast.studies.estimate import estimate_cells
     from holdfast.studies.study_file import read
 
-    share = _share(part)
+    study_part = _read_part(part)
     if threads is not None:
         set_threads(threads)
-    asked = read(file)
+    study_file = read(file)
     if dry_run:
-        found = []
-        with progress_bar(json_, "cells") as progress, working("trying rows of each cell", progress) as advance:
-            for each in estimates(asked.cells, asked.seed):
-                found.append(each)
-                advance(len(found), len(asked.cells))
+        cell_estimates = []
+        with ProgressBar(json_, "cells") as progress, report_work("trying rows of each cell", progress) as advance:
+            for estimate in estimate_cells(study_file.cells, study_file.seed):
+                cell_estimates.append(estimate)
+                advance(len(cell_estimates), len(study_file.cells))
         from holdfast.present.studies import console as said
 
         if json_:
-            print_json(said.estimated(found))
+            print_json(said.summarize_estimates(cell_estimates))
         else:
-            said.show_estimates(found, console())
+            said.show_estimates(cell_estimates, make_console())
         return
     if out is None:
         raise InputError("--out is missing; give a folder for the results, or --dry-run")
-    with _runner(scheduler) as runner, stopping() as stop, chunks_progress(json_) as progress:
-        study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
-        problems = study.run(asked.cells, runner, progress, stop=stop, part=share)
-    printed(study, json_)
+    with _open_runner(scheduler) as runner, stop_on_signal() as stop, show_chunk_progress(json_) as progress:
+        study = Study.create(out, study_file.name, study_file.seed, cells=study_file.cells, source=study_file.text)
+        problems = study.run(study_file.cells, runner, progress, stop=stop, part=study_part)
+    print_result(study, json_)
     if problems:
         name, problem = next(iter(problems.items()))
-        more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
-        raise InputError(f"{len(problems)} of {len(asked.cells)} cells were not computed: '{name}': {problem}{more}")
+        others_note = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
+        raise InputError(
+            f"{len(problems)} of {len(study_file.cells)} cells were not computed: '{name}': {problem}{others_note}"
+        )
     if stop():
         raise KeyboardInterrupt
 
@@ -123,7 +125,7 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
     """
     from holdfast.engine.study import Study
 
-    printed_each([Study.open(folder) for folder in folders], json_)
+    print_results([Study.open(folder) for folder in folders], json_)
 
 
 @command.command()
@@ -134,12 +136,12 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
 
     Example: holdfast study verify tools
     """
-    from holdfast.engine.verification import verify as verified
+    from holdfast.engine.verification import verify_studies as verified
 
-    with chunks_progress(json_) as progress:
-        found = verified(folders, progress)
-    printed(found, json_)
-    found.require_ok()
+    with show_chunk_progress(json_) as progress:
+        verification = verified(folders, progress)
+    print_result(verification, json_)
+    verification.require_ok()
 
 
 @command.command()
@@ -154,14 +156,14 @@ def merge(
 
     Example: holdfast study merge whole machine1/tools machine2/tools
     """
-    from holdfast.engine.union import merge as join
+    from holdfast.engine.union import merge_studies as join
 
-    target, others = (folders[0], folders[1:]) if out is None else (out, folders)
-    if not others:
+    target, sources = (folders[0], folders[1:]) if out is None else (out, folders)
+    if not sources:
         raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
-    with chunks_progress(json_) as progress:
-        found = join(target, others, progress)
-    printed(found, json_)
+    with show_chunk_progress(json_) as progress:
+        merge_result = join(target, sources, progress)
+    print_result(merge_result, json_)
 
 
 @command.command()
@@ -182,7 +184,7 @@ def report(
         raise InputError(f"--to names one file and there are {len(folders)} folders; leave it out")
     pages = [Study.open(folder).report(to or folder / "report.html") for folder in folders]
     if json_:
-        print_json({"reports": [str(p) for p in pages]})
+        print_json({"reports": [str(written) for written in pages]})
         return
     for page in pages:
         typer.echo(f"report: {page}")
@@ -191,50 +193,54 @@ def report(
 # ---- running ---------------------------------------------------------------------------------------------------------
 
 
-def _share(text: str) -> tuple[int, int]:
-    """--part: which part, of how many."""
-    which, _, many = text.partition("/")
-    if not (is_count(which) and is_count(many) and 1 <= int(which) <= int(many)):
+def _read_part(text: str) -> tuple[int, int]:
+    """Read ``--part``; return the number of the part and the count of parts."""
+    number, _, count = text.partition("/")
+    if not (is_count(number) and is_count(count) and 1 <= int(number) <= int(count)):
         raise InputError(f"--part '{text}' is not a part; write 1/3 for the first of three")
-    return int(which), int(many)
+    return int(number), int(count)
 
 
 @contextmanager
-def _runner(scheduler: str | None) -> Iterator[Any]:
+def _open_runner(scheduler: str | None) -> Iterator[Any]:
     from holdfast.engine.cluster import Cluster
-    from holdfast.engine.runner import Threads
-    from holdfast.kernels.threads import pool, thread_count
+    from holdfast.engine.runner import ThreadRunner
+    from holdfast.kernels.threads import shared_pool, thread_count
 
     if scheduler is None:
-        yield Threads(thread_count(), pool())
+        yield ThreadRunner(thread_count(), shared_pool())
         return
     with Cluster(scheduler) as cluster:
         yield cluster
 
 
 @contextmanager
-def stopping(said: str = "stopping after the chunks in hand; again to stop at once") -> Iterator[Callable[[], bool]]:
-    """Ctrl-C and SIGTERM (as cluster managers send it) stop the study once, and that is said; the second stops the program."""
-    asked = False
+def stop_on_signal(notice: str = "stopping after the chunks in hand; again to stop at once") -> Iterator[Callable[[], bool]]:
+    """Stop the study and print a notice at the first Ctrl-C or SIGTERM (as cluster managers send it), and the program at the
+    second.
+    """
+    is_requested = False
 
-    def stop(number: int, _: object) -> None:
-        nonlocal asked
-        if asked:
+    def request_stop(number: int, _: object) -> None:
+        nonlocal is_requested
+        if is_requested:
             raise KeyboardInterrupt
-        asked = True
-        if said:
-            typer.echo(said, err=True)
+        is_requested = True
+        if notice:
+            typer.echo(notice, err=True)
 
-    before = {s: signal.signal(s, stop) for s in (signal.SIGINT, signal.SIGTERM)}
+    previous_handlers = {
+        signal_number: signal.signal(signal_number, request_stop) for signal_number in (signal.SIGINT, signal.SIGTERM)
+    }
     try:
-        yield lambda: asked
+        yield lambda: is_requested
     finally:
-        for number, handler in before.items():
+        for number, handler in previous_handlers.items():
             signal.signal(number, handler)
 
 
 @contextmanager
-def chunks_progress(quiet: bool) -> Iterator[Any]:
-    """A bar while a person looks; it says how much time is left, as does the line on stderr where there is none."""
-    with progress_bar(quiet, "chunks") as bar:
+def show_chunk_progress(quiet: bool) -> Iterator[Any]:
+    """Show a progress bar on a terminal with the remaining time; without a terminal stderr gets a line with it."""
+    with ProgressBar(quiet, "chunks") as bar:
         yield None if bar is None else lambda done, total, _: bar(done, total)

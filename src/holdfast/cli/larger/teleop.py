@@ -8,14 +8,14 @@ from typing import Annotated
 import typer
 
 from holdfast.cli.larger import teleop_serve, teleop_tasks
-from holdfast.cli.progress import working
+from holdfast.cli.progress import show_status
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
-from holdfast.present.printing import console
-from holdfast.present.results import printed
+from holdfast.present.printing import make_console
+from holdfast.present.results import print_result
 from holdfast.present.teleop.console import show_allocation, show_experiment, show_protocol, show_subjects
 
-DIFFERS = 3  # exit code: it worked, and not every trial came out as it was recorded
+DIFFERS_EXIT_CODE = 3  # exit code: it worked, and not every trial came out as it was recorded
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.")]
 ProtocolArgument = Annotated[
@@ -50,10 +50,10 @@ def run(
     from holdfast.teleop import read_protocol, simulate_experiment
 
     with (
-        working(f"compiling the laws of {protocol}") as say,
-        simulate_experiment(out, read_protocol(protocol), operators, seed=seed, progress=say) as records,
+        show_status(f"compiling the laws of {protocol}") as update_status,
+        simulate_experiment(out, read_protocol(protocol), operators, seed=seed, progress=update_status) as records,
     ):
-        show_experiment(records, console())
+        show_experiment(records, make_console())
 
 
 @command.command()
@@ -73,11 +73,11 @@ def analyse(
     """
     from holdfast.teleop.analysis.eligibility import analyse_records
     from holdfast.teleop.records.tables import tool_paths
-    from holdfast.teleop.records.verification import readable
+    from holdfast.teleop.records.verification import open_or_name_damage
 
-    with readable(folder) as records, working("computing") as say:
+    with open_or_name_damage(folder) as records, show_status("computing") as update_status:
         result = analyse_records(records, missing, groups, difficulty)  # type: ignore[arg-type]
-        say("drawing")
+        update_status("drawing")
         report = result.save(folder, records.protocol, tool_paths(records))[0]
     for line in result.describe():
         typer.echo(line)
@@ -92,14 +92,14 @@ def replay(folder: FolderArgument) -> None:
 
     Example: holdfast teleop replay experiment
     """
-    from holdfast.teleop.records.check import replay as again
-    from holdfast.teleop.records.verification import readable
+    from holdfast.teleop.records.check import replay_trials as again
+    from holdfast.teleop.records.verification import open_or_name_damage
 
-    with readable(folder) as records, working("replaying"):
+    with open_or_name_damage(folder) as records, show_status("replaying"):
         result = again(records)
-    printed(result, False)
-    if result.differs:
-        raise typer.Exit(DIFFERS)
+    print_result(result, False)
+    if result.differing_entries:
+        raise typer.Exit(DIFFERS_EXIT_CODE)
 
 
 @command.command()
@@ -110,14 +110,14 @@ def verify(folder: FolderArgument) -> None:
 
     Example: holdfast teleop verify experiment
     """
-    from holdfast.teleop.records.verification import verify as checked
+    from holdfast.teleop.records.verification import verify_records as checked
 
-    with working("comparing"):
-        found = checked(folder)
-    for line in found.describe():
+    with show_status("comparing"):
+        verification = checked(folder)
+    for line in verification.describe():
         typer.echo(line)
-    if found.damaged:
-        raise typer.Exit(DIFFERS)
+    if verification.damages:
+        raise typer.Exit(DIFFERS_EXIT_CODE)
 
 
 @command.command()
@@ -131,11 +131,11 @@ def backup(
 
     Example: holdfast teleop backup experiment experiment-2026-11-22
     """
-    from holdfast.teleop.records.copies import backup as copy
+    from holdfast.teleop.records.copies import copy_experiment as copy
 
-    with working("copying"):
-        found = copy(folder, out)
-    typer.echo(f"written: {out}; sound: {found.trials} trials, {found.links} digests")
+    with show_status("copying"):
+        copied = copy(folder, out)
+    typer.echo(f"written: {out}; sound: {copied.trials} trials, {copied.links} digests")
 
 
 @command.command()
@@ -148,10 +148,10 @@ def export(
 
     Example: holdfast teleop export experiment
     """
-    from holdfast.teleop.records.tables import export as write
-    from holdfast.teleop.records.verification import readable
+    from holdfast.teleop.records.tables import export_tables as write
+    from holdfast.teleop.records.verification import open_or_name_damage
 
-    with readable(folder) as records, working("writing"):
+    with open_or_name_damage(folder) as records, show_status("writing"):
         files = write(records, folder / "export" if out is None else out, parquet)
     for file in files:
         typer.echo(f"written: {file}")
@@ -177,7 +177,7 @@ def allocation(
 
         typer.echo(f"written: {write_allocation(chosen, out, subjects)}")
         return
-    show_allocation(chosen, subjects, console())
+    show_allocation(chosen, subjects, make_console())
 
 
 @command.command()
@@ -190,11 +190,11 @@ def subjects(
 
     Example: holdfast teleop subjects experiment
     """
-    from holdfast.teleop.records.verification import readable
+    from holdfast.teleop.records.verification import open_or_name_damage
 
     if drop is not None and delete is not None:
         raise InputError("give --drop or --delete, not both")
-    with readable(folder) as records:
+    with open_or_name_damage(folder) as records:
         if delete is not None:
             count = len(records.entries(delete))
             records.delete_subject(delete)
@@ -202,11 +202,11 @@ def subjects(
                 f"deleted: subject {delete} and {count} recorded trials; exports and reports written before still hold them"
             )
         if drop is not None:
-            from holdfast.teleop.records.entries import State
+            from holdfast.teleop.records.entries import SubjectState
 
-            records.set_state(drop, State.DROPPED)
+            records.set_state(drop, SubjectState.DROPPED)
             typer.echo(f"dropped: subject {drop}; what was recorded stays")
-        show_subjects(records, console())
+        show_subjects(records, make_console())
 
 
 @command.command("protocol")
@@ -221,9 +221,9 @@ def protocol_(
     from holdfast.teleop.protocol.protocol import read_protocol
 
     chosen = read_protocol(protocol)
-    if write is not None and reading.exists(write):
+    if write is not None and reading.path_exists(write):
         raise StoreError(f"--write: '{write}' exists already; choose another name")
-    show_protocol(chosen, console())
+    show_protocol(chosen, make_console())
     if write is not None:
         typer.echo(f"written: {chosen.write(write)}")
 

@@ -1,4 +1,4 @@
-"""``holdfast teleop serve``: people take part, in a browser."""
+"""``holdfast teleop serve``: server for experiments with participants in a browser."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import typer
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files import reading
 
-_TLS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
-  caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
+_TLS_INSTRUCTIONS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in
+  front: caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
 (start this command with --host 127.0.0.1, --behind-proxy, and a token then; the proxy must hand on the Host
 header, as Caddy does)"""
 
@@ -51,7 +51,7 @@ def serve(
         if error.name not in ("starlette", "uvicorn", "websockets"):
             raise
         raise HoldfastError(f"the server needs {error.name}; pip install 'holdfast[teleop]'") from None
-    token = _token(token, token_file)
+    token = _read_token(token, token_file)
     if token is not None:
         check_token(token)
     loopback = is_loopback(host)
@@ -61,30 +61,30 @@ def serve(
             "letters and digits or more"
         )
     guard = Guard(token=token, loopback=loopback and token is None)
-    options = app.Options(data, guard, texts, tlx, protocol=protocol, behind_proxy=behind_proxy)
+    options = app.ServerOptions(data, guard, texts, tlx, protocol=protocol, behind_proxy=behind_proxy)
 
-    def ready(at: int) -> None:
-        name = "[::1]" if host == "::1" else host
-        base = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::') else name}:{at}"
-        typer.echo(f"station:      {base}/{'' if token is None else f'?token={token}'}")
-        typer.echo(f"experimenter: {base}/experimenter?key={guard.key}")
+    def print_addresses(bound_port: int) -> None:
+        address_host = "[::1]" if host == "::1" else host
+        base_url = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::') else address_host}:{bound_port}"
+        typer.echo(f"station:      {base_url}/{'' if token is None else f'?token={token}'}")
+        typer.echo(f"experimenter: {base_url}/experimenter?key={guard.key}")
         if not loopback:
-            typer.echo(_TLS.format(host=host, port=at))
+            typer.echo(_TLS_INSTRUCTIONS.format(host=host, port=bound_port))
         typer.echo(f"records:      {data}; Ctrl-C ends the server, and what was acknowledged is on the disk")
 
-    app.serve(options, host, port, ready)
+    app.serve_experiment(options, host, port, print_addresses)
 
 
-def _token(given: str | None, file: Path | None) -> str | None:
-    """The token, from where it is."""
+def _read_token(option_token: str | None, file: Path | None) -> str | None:
+    """Return the token from its option, environment variable, or file."""
     if file is None:
-        return given
-    if given is not None:
+        return option_token
+    if option_token is not None:
         raise InputError("there is a token in --token or HOLDFAST_TOKEN, and a --token-file; give one of them")
-    with reading.guarded(f"--token-file: '{file}'"), file.open("rb") as stream:
-        first = stream.readline(1000)
+    with reading.guard_reading(f"--token-file: '{file}'"), file.open("rb") as stream:
+        first_line = stream.readline(1000)
     try:
-        return first.decode("ascii").strip()
+        return first_line.decode("ascii").strip()
     except UnicodeDecodeError as error:
         raise InputError(f"--token-file: the first line of '{file}' is not text; write the token there") from error
 
@@ -101,8 +101,8 @@ def texts(
     from holdfast.teleop.serve import texts as of_page
 
     if write is not None:
-        typer.echo(f"written: {of_page.copy(write)}")
+        typer.echo(f"written: {of_page.copy_english_texts(write)}")
         return
-    words = of_page.read()
-    forms = ", ".join(str(form["name"]) for form in words.forms)
-    typer.echo(f"{len(words.strings)} texts in English; forms: {forms}")
+    page_texts = of_page.load_texts()
+    forms = ", ".join(str(form["name"]) for form in page_texts.forms)
+    typer.echo(f"{len(page_texts.strings)} texts in English; forms: {forms}")

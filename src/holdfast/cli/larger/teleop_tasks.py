@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import JsonOption
-from holdfast.cli.progress import working
+from holdfast.cli.progress import show_status
 from holdfast.cli.values import read_task
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -42,20 +42,20 @@ def tasks(
 
     Example: holdfast teleop tasks --seed 1 --out bank
     """
-    from holdfast.teleop import choose_tasks, task_bank
+    from holdfast.teleop import choose_tasks, make_task_bank
 
-    model = Chain().arm(arm)
-    rows = _rows(model) if task is None else read_task(task, arm, model)
-    with working("running the tasks") as say:
-        bank = task_bank(model, per_joint, None, distance=distance, task=rows, seed=seed)
-        say("choosing")
+    model = ArmSourceOptions().resolve_arm(arm)
+    rows = _choose_joystick_task(model) if task is None else read_task(task, arm, model)
+    with show_status("running the tasks") as update_status:
+        bank = make_task_bank(model, per_joint, None, distance=distance, task=rows, seed=seed)
+        update_status("choosing")
         choice = choose_tasks(bank, model, rows, count=select, special=special, seed=seed)
         files = [] if out is None else choice.save(out, arm)
-    printed(choice, json_, files)
+    print_result(choice, json_, files)
 
 
-def _rows(arm: Arm) -> str:
-    """What a stick moves if nothing is said: the plane of an arm that moves in one, else the position."""
+def _choose_joystick_task(arm: Arm) -> str:
+    """Return the default task of the joystick: the plane of an arm that moves in a plane, else the position."""
     from holdfast.arm.task import plane_normal
 
     return "planar" if plane_normal(arm) is not None else "position"

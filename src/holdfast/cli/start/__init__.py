@@ -1,1 +1,1 @@
-"""Commands to start with."""
+"""Commands for a first analysis of an arm."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import ArmArgument, DegreesOption, JsonOption
 from holdfast.cli.values import read_configuration, read_joint
 from holdfast.errors import InputError
-from holdfast.present.printing import console, plain, print_json, print_written
+from holdfast.present.printing import make_console, print_json, print_written_files, to_json_types
 
 
 def command(json_: JsonOption = False) -> None:
@@ -17,17 +17,17 @@ def command(json_: JsonOption = False) -> None:
 
     Example: holdfast arms
     """
-    from holdfast.present.arm.console import library, show_library
+    from holdfast.present.arm.console import list_library_arms, show_library
 
     if json_:
-        print_json(plain(library()))
+        print_json(to_json_types(list_library_arms()))
     else:
-        show_library(console())
+        show_library(make_console())
 
 
 def describe(
     arm: ArmArgument,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     view: Annotated[Path | None, "Write a page with the arm in 3-D, its joints on sliders."] = None,
     q: Annotated[str | None, "With --view: joint values, rad and m. Default: nothing special."] = None,
     degrees: DegreesOption = False,
@@ -40,15 +40,15 @@ def describe(
     """
     from holdfast.present.arm.console import show, to_dict
 
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     written = None
     if view is not None:
-        start = None if q is None else read_configuration(model, q, degrees)
-        written = model.show(start, locked=[read_joint(model, name) for name in lock or []]).save(view)
+        configuration = None if q is None else read_configuration(model, q, degrees)
+        written = model.show(configuration, locked=[read_joint(model, name) for name in lock or []]).save(view)
     elif q is not None or lock:
         raise InputError("--q and --lock are of the arm in the page that --view writes; give it too")
     if json_:
-        print_json(plain(to_dict(model) | ({} if written is None else {"files": [str(written)]})))
+        print_json(to_json_types(to_dict(model) | ({} if written is None else {"files": [str(written)]})))
     else:
-        show(model, console())
-        print_written(console(), [written])
+        show(model, make_console())
+        print_written_files(make_console(), [written])

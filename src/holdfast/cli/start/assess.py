@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.groups import Apart, Chains
+from holdfast.cli.groups import ArmSourcesOptions, ClearanceOptions
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption
-from holdfast.cli.progress import progress_bar
+from holdfast.cli.progress import ProgressBar
 from holdfast.cli.start.candidates import TOOL_HELP, read_candidates
 from holdfast.cli.values import read_by_joint, read_failures, read_task
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
-from holdfast.present.printing import console
-from holdfast.present.results import printed
+from holdfast.present.printing import make_console
+from holdfast.present.results import print_result
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -47,11 +47,11 @@ def command(
     after_lock: Annotated[bool, "Also find which poses can still be reached once each joint has locked."] = False,
     lock: Annotated[list[str] | None, "JOINT=VALUE, rad or m, at which it locks; may be given again."] = None,
     failure_rate: FailureRateOption = None,
-    apart: Apart = Apart(),
+    apart: ClearanceOptions = ClearanceOptions(),
     at_least: Annotated[list[float] | None, "Threshold; may be given again."] = None,
     out: Annotated[Path | None, "Folder for results and report; a stopped run resumes."] = None,
     threads: Annotated[int | None, "Threads. Default: all processors."] = None,
-    chains: Chains = Chains(),
+    chains: ArmSourcesOptions = ArmSourcesOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Estimate how likely an arm keeps its dexterity when any one joint locks.
@@ -70,15 +70,15 @@ def command(
     from holdfast.indices.index import by_name
     from holdfast.kernels.threads import set_threads
 
-    threshold = _first(at_least)
-    apart.check()
+    threshold = _read_report_threshold(at_least)
+    apart.check_consistency()
     if threads is not None:
         set_threads(threads)
-    candidates = read_candidates(chains.arms(arm), tool or [], task or [])
-    several = len(candidates) > 1
-    first = candidates[0]
-    chosen = read_region(region, first.spec, first.arm)
-    if several and failure_rate:
+    candidates = read_candidates(chains.resolve_arms(arm), tool or [], task or [])
+    is_comparison = len(candidates) > 1
+    first_candidate = candidates[0]
+    common_region = read_region(region, first_candidate.spec, first_candidate.arm)
+    if is_comparison and failure_rate:
         raise InputError(
             "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
             "leave it out: a comparison counts every joint alike"
@@ -87,11 +87,15 @@ def command(
         raise InputError(
             f"--capsules is the shape of one arm and there are {len(arm)}; assess each alone with its own, or give --radius"
         )
-    rates = _read_rates(first.arm, failure_rate, after_lock, lock)
-    asked = []
-    for c in candidates:
+    rates = _read_rates(first_candidate.arm, failure_rate, after_lock, lock)
+    planned_runs = []
+    for candidate in candidates:
         measure = by_name(
-            index, c.arm, read_task(c.task, c.spec, c.arm), failures=read_failures(c.arm, failures), length=length
+            index,
+            candidate.arm,
+            read_task(candidate.task, candidate.spec, candidate.arm),
+            failures=read_failures(candidate.arm, failures),
+            length=length,
         )
         options: dict[str, Any] = {
             "poses": poses,
@@ -100,35 +104,45 @@ def command(
             "restarts": restarts,
             "optimise": optimise,
             "after_lock": after_lock,
-            "locked": read_by_joint(c.arm, lock, "--lock"),
-            "clearance": apart.read(c.arm, chooses=optimise or apart.cell is not None) or False,
+            "locked": read_by_joint(candidate.arm, lock, "--lock"),
+            "clearance": apart.build_clearance(candidate.arm, chooses_configurations=optimise or apart.cell is not None)
+            or False,
             "margin": apart.margin or 0.0,
         }
-        if several:  # what cannot run is said before the first candidate takes its time
-            make_plan(c.arm, chosen, measure, **options)
-        asked.append((measure, options))
-    if several and out is not None and reading.exists(out / "run.json"):
+        if is_comparison:  # what cannot run is said before the first candidate takes its time
+            make_plan(candidate.arm, common_region, measure, **options)
+        planned_runs.append((measure, options))
+    if is_comparison and out is not None and reading.path_exists(out / "run.json"):
         raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
-    if several and region is None:
-        console(stderr=True).print(
-            f"no --region: every candidate is tried in the default region of '{first.name}'", markup=False, soft_wrap=True
+    if is_comparison and region is None:
+        make_console(stderr=True).print(
+            f"no --region: every candidate is tried in the default region of '{first_candidate.name}'",
+            markup=False,
+            soft_wrap=True,
         )
-    runs = []
-    for c, (measure, options) in zip(candidates, asked, strict=True):
+    assessments = []
+    for candidate, (measure, options) in zip(candidates, planned_runs, strict=True):
         if not json_:
-            found = structure(c.arm, measure.task)
-            if not found.survives or found.weak:
-                console(stderr=True).print(explain(c.arm, found, structures(c.arm)), markup=False, soft_wrap=True)
-        store = out / c.name if out is not None and several else out
-        with progress_bar(json_, c.name if several else "poses") as progress:
-            runs.append(assess(c.arm, chosen, measure, store=store, progress=progress, **options))
-    if several:
-        comparison = compare_assessments(runs, [c.name for c in candidates], threshold, tools=[c.tool for c in candidates])
+            survival = structure(candidate.arm, measure.task)
+            if not survival.survives or survival.weak:
+                make_console(stderr=True).print(
+                    explain(candidate.arm, survival, structures(candidate.arm)), markup=False, soft_wrap=True
+                )
+        store = out / candidate.name if out is not None and is_comparison else out
+        with ProgressBar(json_, candidate.name if is_comparison else "poses") as progress:
+            assessments.append(assess(candidate.arm, common_region, measure, store=store, progress=progress, **options))
+    if is_comparison:
+        comparison = compare_assessments(
+            assessments,
+            [candidate.name for candidate in candidates],
+            threshold,
+            tools=[candidate.tool for candidate in candidates],
+        )
         files = [] if out is None else comparison.save(out)
-        _printed(comparison, json_, files, thresholds=at_least)
+        _print_with_report(comparison, json_, files, thresholds=at_least)
     else:
-        files = [] if out is None else runs[0].save(out, threshold)
-        _printed(runs[0], json_, files, thresholds=at_least, rates=rates)
+        files = [] if out is None else assessments[0].save(out, threshold)
+        _print_with_report(assessments[0], json_, files, thresholds=at_least, rates=rates)
 
 
 def report(
@@ -142,32 +156,32 @@ def report(
 
     Example: holdfast report results
     """
-    from holdfast.assessment.comparison import LIST, load_comparison
+    from holdfast.assessment.comparison import COMPARISON_FILE, load_comparison
     from holdfast.assessment.run import load
 
-    threshold = _first(at_least)
+    threshold = _read_report_threshold(at_least)
     page = to or folder / "report.html"
-    if not reading.exists(folder / "run.json") and reading.exists(folder / LIST):
+    if not reading.path_exists(folder / "run.json") and reading.path_exists(folder / COMPARISON_FILE):
         if failure_rate:
             raise InputError(f"'{folder}' holds a comparison; give --failure-rate with the folder of one candidate in it")
         comparison = load_comparison(folder, threshold)
-        _printed(comparison, json_, [comparison.report(page)], thresholds=at_least)
+        _print_with_report(comparison, json_, [comparison.report(page)], thresholds=at_least)
         return
-    found = load(folder)
-    rates = read_by_joint(found.arm, failure_rate, "--failure-rate")
-    if rates and found.distribution.samples:
-        found.expected_survival(rates)  # before anything is written
-    _printed(found, json_, [found.report(page, threshold)], thresholds=at_least, rates=rates)
+    assessment = load(folder)
+    rates = read_by_joint(assessment.arm, failure_rate, "--failure-rate")
+    if rates and assessment.distribution.samples:
+        assessment.expected_survival(rates)  # before anything is written
+    _print_with_report(assessment, json_, [assessment.report(page, threshold)], thresholds=at_least, rates=rates)
 
 
-def _printed(result: Result, json_: bool, files: list[Path], **options: Any) -> None:
-    """What was found, and where its report is, the last of the files."""
+def _print_with_report(result: Result, json_: bool, files: list[Path], **options: Any) -> None:
+    """Print a result with the path of its report, the last of the files."""
     page = files[-1] if files else None
-    printed(result, json_, [page], report=page, **options)
+    print_result(result, json_, [page], report=page, **options)
 
 
 def _read_rates(arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock: list[str] | None) -> dict[str | int, float]:
-    """--failure-rate, each of a joint whose lock is asked for."""
+    """Read ``--failure-rate``, which needs a requested lock of each of its joints."""
     from holdfast.assessment.upgrade import check_rates
 
     rates = read_by_joint(arm, failure_rate, "--failure-rate")
@@ -180,15 +194,15 @@ def _read_rates(arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock
     return rates
 
 
-def _first(at_least: list[float] | None) -> float | None:
-    """The first --at-least, for which reports are written; nan is refused before any work is done."""
-    if any(math.isnan(x) for x in at_least or []):
+def _read_report_threshold(at_least: list[float] | None) -> float | None:
+    """Return the first --at-least, the threshold of the reports; nan raises before any work is done."""
+    if any(math.isnan(threshold) for threshold in at_least or []):
         raise InputError("--at-least is nan; give a number")
     return at_least[0] if at_least else None
 
 
 def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
-    """--region, or a region about the arm's home; for the paper's arm the paper's."""
+    """Read ``--region``, or return a region about the arm's home; for the arm of the paper the one of the paper."""
     from holdfast.regions.region import Region, default_region
 
     return default_region(arm, spec) if path is None else Region.load(path)

@@ -1,4 +1,4 @@
-"""What ``holdfast assess`` compares: arms, their tool attachments and tasks."""
+"""Candidates of ``holdfast assess``: arms, their tool attachments and tasks."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOOL_HELP = (
 
 @dataclass(frozen=True)
 class Candidate:
-    """An arm with a tool and a task.
+    """Arm with a tool and a task.
 
     Attributes:
         name: For reports, and of the folder.
@@ -42,8 +42,8 @@ class Candidate:
     tool: str | None
 
 
-def read_candidates(given: list[ArmSpec], tools: list[str], tasks: list[str]) -> list[Candidate]:
-    """Every arm with every tool and every task.
+def read_candidates(arm_specs: list[ArmSpec], tools: list[str], tasks: list[str]) -> list[Candidate]:
+    """Combine every arm with every tool and every task.
 
     Raises:
         InputError: A tool that is not NAME and six numbers, or two candidates of one name.
@@ -52,35 +52,35 @@ def read_candidates(given: list[ArmSpec], tools: list[str], tasks: list[str]) ->
     from holdfast.assessment.comparison import check_names
 
     attachments = [read_tool(text) for text in tools]
-    found = []
-    for one in given:
-        spec, arm = one.spec, one.load()
-        called = one.name or (arm.name if spec == arm.name else Path(spec).stem)
+    candidates = []
+    for arm_spec in arm_specs:
+        spec, arm = arm_spec.spec, arm_spec.load()
+        arm_name = arm_spec.name or (arm.name if spec == arm.name else Path(spec).stem)
         variants: list[tuple[str | None, Arm]] = [(name, arm.with_tool(pose)) for name, pose in attachments]
         for tool, model in variants or [(None, arm)]:
             for task in tasks or [default_task(spec, model)]:
-                parts = [called, tool, task if len(tasks) > 1 else None]
+                parts = [arm_name, tool, task if len(tasks) > 1 else None]
                 name = "-".join(re.sub(r"[^\w.+-]+", "_", part) for part in parts if part)
-                found.append(Candidate(name.lstrip("."), spec, model, task, tool))
-    check_names([c.name for c in found])
-    return found
+                candidates.append(Candidate(name.lstrip("."), spec, model, task, tool))
+    check_names([candidate.name for candidate in candidates])
+    return candidates
 
 
 def read_tool(text: str) -> tuple[str, NDArray[np.float64]]:
-    """``--tool``: its name and its pose (4, 4).
+    """Read ``--tool``; return its name and its pose (4, 4).
 
     Raises:
         InputError: Not a name and six finite numbers.
     """
-    from holdfast.arms.tool import attachment
+    from holdfast.arms.tool import tool_pose_from_numbers
 
-    name, sign, rest = text.partition("=")
+    name, equals, numbers_text = text.partition("=")
     name = name.strip()
-    if not sign or not re.fullmatch(r"\w[\w.+-]*", name):
+    if not equals or not re.fullmatch(r"\w[\w.+-]*", name):
         raise InputError(f"--tool '{text}' is not NAME=x,y,z,roll,pitch,yaw; write for example gripper=0,0,0.1,0,0,45 (m, deg)")
-    numbers = read_numbers(f"--tool {name}", rest, "6 numbers")
+    numbers = read_numbers(f"--tool {name}", numbers_text, "6 numbers")
     if len(numbers) != 6:
         raise InputError(f"--tool {name} has {len(numbers)} numbers; give 6: x,y,z in m and roll,pitch,yaw in degrees")
     if not np.isfinite(numbers).all():
         raise InputError(f"--tool {name} holds NaN or infinity; give 6 finite numbers")
-    return name, attachment(numbers)
+    return name, tool_pose_from_numbers(numbers)

@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
-from holdfast.cli.options import NOT_MET, JsonOption, OutOption
-from holdfast.present.results import drawn, printed
+from holdfast.cli.groups import ArmSourceOptions
+from holdfast.cli.options import NOT_MET_EXIT_CODE, JsonOption, OutOption
+from holdfast.present.results import print_result, write_outputs
 
 command = typer.Typer(
     name="cell",
@@ -23,7 +23,7 @@ command = typer.Typer(
 def check(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.")],
     arm: Annotated[str | None, "Built-in name or arm file: what it touches."] = None,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -33,7 +33,7 @@ def check(
 
     Example: holdfast cell check bench.yaml --arm panda
     """
-    found = hf.check_cell(file, None if arm is None else chain.arm(arm))
-    printed(found, json_, drawn(found, None, out))
-    if not found.ok:
-        raise typer.Exit(NOT_MET)
+    cell_check = hf.check_cell(file, None if arm is None else chain.resolve_arm(arm))
+    print_result(cell_check, json_, write_outputs(cell_check, None, out))
+    if not cell_check.ok:
+        raise typer.Exit(NOT_MET_EXIT_CODE)

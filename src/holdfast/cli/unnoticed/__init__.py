@@ -1,1 +1,1 @@
-"""Commands for a failure that nobody has noticed."""
+"""Commands for an undetected failure."""

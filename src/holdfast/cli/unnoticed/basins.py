@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output
-from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
+from holdfast.cli.groups import ArmSourceOptions, OutputOptions
+from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, read_law_for_arm
 from holdfast.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption
 from holdfast.cli.values import read_locks, read_target
 
@@ -22,14 +22,16 @@ def command(
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
-    output: Output = Output(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Find which start configurations converge to the target after a lock.
 
     Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """
-    made = law_of(law, arm, task, chain)
-    locked = read_locks(made.arm, lock, degrees, failure=failure)
-    result = hf.basins(made, read_target(made.arm, made.task, target), locked, starts=starts, grid=grid, seed=seed)
-    output.printed(result)
+    control_law = read_law_for_arm(law, arm, task, chain)
+    locked = read_locks(control_law.arm, lock, degrees, failure=failure)
+    result = hf.basins(
+        control_law, read_target(control_law.arm, control_law.task, target), locked, starts=starts, grid=grid, seed=seed
+    )
+    output.print_result(result)

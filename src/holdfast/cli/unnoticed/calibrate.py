@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import JsonOption
 from holdfast.cli.unnoticed.diagnose import ArmOption, ColumnsOption, LatencyOption
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
 
 def command(
@@ -24,14 +24,14 @@ def command(
     fit: Annotated[bool, "Fit masses and friction to the records first."] = False,
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Set the detection thresholds of the monitor from logs of a healthy arm.
 
     Example: holdfast calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     records = [hf.faults.Log.load(log, columns=columns, latency=latency) for log in logs]
     bounds = hf.diagnosis.calibrate(model, records, factor=factor, coulomb=coulomb, viscous=viscous, fit=fit)
-    printed(bounds, json_, [bounds.to_json(out)])
+    print_result(bounds, json_, [bounds.to_json(out)])

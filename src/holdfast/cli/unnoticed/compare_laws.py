@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Touched
+from holdfast.cli.groups import ArmSourceOptions, ContactOptions
 from holdfast.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
 from holdfast.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
 from holdfast.cli.values import read_configuration, read_failures, read_numbers, read_target
 from holdfast.errors import InputError
-from holdfast.present.results import printed, said
+from holdfast.present.results import current_command, print_result
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.convergence.random_motions import PointToPoint
 
-MOTIONS = 100
+DEFAULT_MOTIONS = 100
 
 
 def command(
@@ -28,7 +28,9 @@ def command(
     law: LawsOption = None,
     motions: Annotated[
         int | None,
-        typer.Option("--motions", "--tasks", help="How many random motions from point to point.", show_default=str(MOTIONS)),
+        typer.Option(
+            "--motions", "--tasks", help="How many random motions from point to point.", show_default=str(DEFAULT_MOTIONS)
+        ),
     ] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
     distance: Annotated[str | None, "Of random motions, m: least,greatest, for example 0.2,0.8."] = None,
@@ -45,9 +47,9 @@ def command(
     speed_limit: SpeedLimitOption = None,
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
-    touched: Touched = Touched(),
+    touched: ContactOptions = ContactOptions(),
     degrees: StartDegreesOption = False,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     out: Annotated[Path | None, "Folder for report.html and tables (CSV)."] = None,
     json_: JsonOption = False,
 ) -> None:
@@ -58,31 +60,41 @@ def command(
 
     Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     laws = read_laws(law, model, task, arm, gain=gain, speed_limit=speed_limit)
     if start is None and target is None:
-        drawn = _drawn(model, laws[0].task, MOTIONS if motions is None else motions, seed, distance, reachable_after)
-        q0, goal, about = drawn.q0, drawn.target, f"{drawn.describe()}; seed {seed}"
+        sampled_motions = _sample_motions(
+            model, laws[0].task, DEFAULT_MOTIONS if motions is None else motions, seed, distance, reachable_after
+        )
+        q0, targets, description = sampled_motions.q0, sampled_motions.target, f"{sampled_motions.describe()}; seed {seed}"
     elif start is None or target is None:
         raise InputError("--start and --target go together; give both, or neither for random motions")
     elif motions is not None or distance is not None or reachable_after:
         raise InputError("--motions, --distance and --reachable-after are about random motions; leave out --start and --target")
     else:
-        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
-        about = f"one motion of '{model.name}'"
-    chosen = None if failures == "none" else read_failures(model, failures)
-    shape = touched.read(model)
-    alike: dict[str, Any] = {"cycles": cycles, "time_limit": time_limit, "seed": seed, "about": about, "clearance": shape}
-    result = hf.compare_laws(laws, q0, goal, failures=chosen, **alike)
-    printed(result, json_, [] if out is None else result.save(out, command=said()))
+        q0, targets = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
+        description = f"one motion of '{model.name}'"
+    failure_spec = None if failures == "none" else read_failures(model, failures)
+    clearance = touched.build_contact_clearance(model)
+    common_options: dict[str, Any] = {
+        "cycles": cycles,
+        "time_limit": time_limit,
+        "seed": seed,
+        "about": description,
+        "clearance": clearance,
+    }
+    result = hf.compare_laws(laws, q0, targets, failures=failure_spec, **common_options)
+    print_result(result, json_, [] if out is None else result.save(out, command=current_command()))
 
 
-def _drawn(arm: Arm, task: Task, motions: int, seed: int, distance: str | None, reachable_after: str | None) -> PointToPoint:
-    span: tuple[float, float] | None = None
+def _sample_motions(
+    arm: Arm, task: Task, motions: int, seed: int, distance: str | None, reachable_after: str | None
+) -> PointToPoint:
+    distance_range: tuple[float, float] | None = None
     if distance is not None:
-        numbers = read_numbers("--distance", distance, "least,greatest")
-        if numbers.size != 2:
-            raise InputError(f"--distance has {numbers.size} numbers; give the least and the greatest distance, m")
-        span = float(numbers[0]), float(numbers[1])
+        distance_limits = read_numbers("--distance", distance, "least,greatest")
+        if distance_limits.size != 2:
+            raise InputError(f"--distance has {distance_limits.size} numbers; give the least and the greatest distance, m")
+        distance_range = float(distance_limits[0]), float(distance_limits[1])
     failures = None if reachable_after is None else read_failures(arm, reachable_after)
-    return hf.point_to_point(arm, motions, seed, distance=span, failures=failures, task=task)
+    return hf.point_to_point(arm, motions, seed, distance=distance_range, failures=failures, task=task)

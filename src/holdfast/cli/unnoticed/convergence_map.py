@@ -5,24 +5,24 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Touched
-from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
+from holdfast.cli.groups import ArmSourceOptions, ContactOptions
+from holdfast.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_positions, read_targets
 from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
-from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import Mapped, MapTimeOption
-from holdfast.present.results import printed, said
+from holdfast.cli.progress import ProgressBar
+from holdfast.cli.unnoticed.measures import MapOptions, MapTimeOption
+from holdfast.present.results import current_command, print_result
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    mapped: Mapped = Mapped(),
+    mapped: MapOptions = MapOptions(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     time_limit: MapTimeOption = None,
-    touched: Touched = Touched(),
+    touched: ContactOptions = ContactOptions(),
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Map how motions end with each joint locked from the start.
@@ -31,10 +31,12 @@ def command(
 
     Example: holdfast convergence-map planar-3r --target grid:12 --over targets --out results
     """
-    made = law_of(law, arm, task, chain)
-    targets, places = read_targets(made, target), read_places(mapped.starts)
-    shape = touched.read(made.arm)
-    with progress_bar(json_, "runs") as progress:
-        drawn: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": seed}
-        result = hf.convergence_map(made, targets, places, time_limit=time_limit, clearance=shape, progress=progress, **drawn)
-    printed(result, json_, [] if mapped.out is None else result.save(mapped.out, command=said()))
+    control_law = read_law_for_arm(law, arm, task, chain)
+    targets, places = read_targets(control_law, target), read_positions(mapped.starts)
+    clearance = touched.build_contact_clearance(control_law.arm)
+    with ProgressBar(json_, "runs") as progress:
+        map_options: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": seed}
+        result = hf.convergence_map(
+            control_law, targets, places, time_limit=time_limit, clearance=clearance, progress=progress, **map_options
+        )
+    print_result(result, json_, [] if mapped.out is None else result.save(mapped.out, command=current_command()))

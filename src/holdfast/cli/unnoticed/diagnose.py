@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output
-from holdfast.cli.options import NOT_MET
+from holdfast.cli.groups import ArmSourceOptions, OutputOptions
+from holdfast.cli.options import NOT_MET_EXIT_CODE
 
 ArmOption = Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."]
 ColumnsOption = Annotated[Path | None, "Names and units of the columns (YAML), where they are not a log's."]
@@ -22,8 +22,8 @@ def command(
     bounds: Annotated[Path, "File that calibrate wrote."],
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
-    chain: Chain = Chain(),
-    output: Output = Output(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Detect and identify a joint fault in a log.
 
@@ -31,8 +31,10 @@ def command(
 
     Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
     """
-    model = chain.arm(arm)
-    found = hf.diagnosis.diagnose(model, hf.faults.Log.load(log, columns=columns, latency=latency), hf.diagnosis.load(bounds))
-    output.printed(found)
-    if found.verdict.alarm:
-        raise typer.Exit(NOT_MET)
+    model = chain.resolve_arm(arm)
+    diagnosis = hf.diagnosis.diagnose(
+        model, hf.faults.Log.load(log, columns=columns, latency=latency), hf.diagnosis.load(bounds)
+    )
+    output.print_result(diagnosis)
+    if diagnosis.verdict.alarm:
+        raise typer.Exit(NOT_MET_EXIT_CODE)

@@ -8,16 +8,16 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import JsonOption
-from holdfast.present.results import printed
+from holdfast.present.results import print_result
 
 command = typer.Typer(name="faults", help="Generate timed joint faults for simulators.", no_args_is_help=True)
 
 
 @command.callback()
-def _group() -> None:
-    """Typer makes a command of a group with one command alone."""
+def _describe_group() -> None:
+    """Force typer to keep a group, because it turns a group with a single command into that command."""
 
 
 @command.command()
@@ -27,7 +27,7 @@ def draw(
     episodes: Annotated[int, "So many, from number 0 on."] = 1,
     horizon: Annotated[float | None, "Length of an episode, s. Default: endless."] = None,
     seed: Annotated[int | None, "In place of the file's."] = None,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Draw the fault events of some episodes.
@@ -35,5 +35,5 @@ def draw(
     Example: holdfast faults draw faults.yaml --arm panda --episodes 5 --seed 7
     """
     faults = hf.faults.load(file).seeded(seed)
-    model = chain.arm(arm)
-    printed(faults.batch(model, episodes=episodes, horizon=horizon or float("inf")), json_)
+    model = chain.resolve_arm(arm)
+    print_result(faults.batch(model, episodes=episodes, horizon=horizon or float("inf")), json_)

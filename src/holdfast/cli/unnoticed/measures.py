@@ -1,4 +1,4 @@
-"""Options of the commands that look at many places."""
+"""Options of the commands that evaluate many positions."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ MapTimeOption = Annotated[float | None, "Time limit, s.", "500/gain s"]
 
 
 @dataclass(frozen=True)
-class Measured:
-    """What the measures are made of."""
+class MeasureOptions:
+    """Options for the samples and the method of convergence measures."""
 
     out: FolderOption = None
     starts: Annotated[
@@ -38,14 +38,14 @@ class Measured:
         Literal["inside", "whole"], "F as a fraction of the part of the path within the joints' ranges, or of the whole path."
     ] = "inside"
 
-    def options(self) -> dict[str, Any]:
-        """As the library takes them."""
+    def library_arguments(self) -> dict[str, Any]:
+        """Return the options as arguments of the library."""
         return {name: getattr(self, name) for name in ("configurations", "points", "method", "relative_to")}
 
 
 @dataclass(frozen=True)
-class Mapped:
-    """What a map is made of."""
+class MapOptions:
+    """Options for the positions and motions of a convergence map."""
 
     out: FolderOption = None
     starts: Annotated[str, "A number of random places, or a lattice as grid:52."] = "1000"

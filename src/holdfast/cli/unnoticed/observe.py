@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output
+from holdfast.cli.groups import ArmSourceOptions, OutputOptions
 from holdfast.cli.unnoticed.diagnose import ArmOption
 
 
@@ -16,15 +16,15 @@ def command(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="Record (.npz, .csv), or motion as follow writes it.")],
     arm: ArmOption,
     bounds: Annotated[Path | None, "File that calibrate wrote: how soon a lock is noticed."] = None,
-    chain: Chain = Chain(),
-    output: Output = Output(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Predict which locks a motion would reveal, and how soon.
 
     Example: holdfast observe healthy/000000.npz --arm panda --bounds bounds.json
     """
-    model = chain.arm(arm)
+    model = chain.resolve_arm(arm)
     q, rate = hf.diagnosis.read_motion(model, motion)
-    known = None if bounds is None else hf.diagnosis.load(bounds)
-    found = hf.diagnosis.observe(model, q, rate=rate, bounds=known)
-    output.printed(found)
+    thresholds = None if bounds is None else hf.diagnosis.load(bounds)
+    detectability = hf.diagnosis.predict_detection(model, q, rate=rate, bounds=thresholds)
+    output.print_result(detectability)

@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
+from holdfast.cli.groups import ArmSourceOptions
 from holdfast.cli.options import ArmArgument, SeedOption
-from holdfast.files.output import made
-from holdfast.present.printing import console, print_written
+from holdfast.files.output import make_folder
+from holdfast.present.printing import make_console, print_written_files
 
 
 def command(
@@ -20,9 +20,9 @@ def command(
     records: Annotated[int, typer.Option("--records", min=1, help="So many, each with a motion of its own.")] = 1,
     duration: Annotated[float, "Of each, s."] = 6.0,
     faults: Annotated[Path | None, "Faults file (YAML); record k is episode k."] = None,
-    body: Annotated[int, "Which robot: records of one have one."] = 0,
+    robot: Annotated[int, "Which robot: records of one have one."] = 0,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
 ) -> None:
     """Simulate sensor logs of an arm, with or without faults.
 
@@ -30,10 +30,14 @@ def command(
 
     Example: holdfast rehearse panda --records 2 --out healthy
     """
-    model = chain.arm(arm)
-    model_of = None if faults is None else hf.faults.load(faults)
-    events = None if model_of is None else [model_of.draw(model, episode=k, horizon=duration) for k in range(records)]
-    seeds, folder = range(seed, seed + records), made(out)
-    logs = hf.diagnosis.rehearse_many(model, duration, seeds=seeds, faults=events, bodies=[body] * records)
-    files = [log.save(folder / f"{k:06d}.npz") for k, log in enumerate(logs)]
-    print_written(console(), files)
+    model = chain.resolve_arm(arm)
+    fault_model = None if faults is None else hf.faults.load(faults)
+    events = (
+        None
+        if fault_model is None
+        else [fault_model.draw(model, episode=number, horizon=duration) for number in range(records)]
+    )
+    seeds, folder = range(seed, seed + records), make_folder(out)
+    logs = hf.diagnosis.simulate_logs(model, duration, seeds=seeds, faults=events, robots=[robot] * records)
+    files = [log.save(folder / f"{number:06d}.npz") for number, log in enumerate(logs)]
+    print_written_files(make_console(), files)

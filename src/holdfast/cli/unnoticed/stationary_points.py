@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 import holdfast as hf
-from holdfast.cli.groups import Chain, Output
-from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
+from holdfast.cli.groups import ArmSourceOptions, OutputOptions
+from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, read_law_for_arm
 from holdfast.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption
 from holdfast.cli.values import read_locks, read_target
 from holdfast.errors import InputError
@@ -26,17 +26,17 @@ def command(
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
-    output: Output = Output(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
 ) -> None:
     """Find the configurations at which an arm with an undetected lock can stop.
 
     Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=140 --degrees
     """
-    made = law_of(law, arm, task, chain)
-    goal = read_target(made.arm, made.task, target)
-    locked = read_locks(made.arm, lock, degrees, alone=True, failure=failure)
+    control_law = read_law_for_arm(law, arm, task, chain)
+    target_value = read_target(control_law.arm, control_law.task, target)
+    locked = read_locks(control_law.arm, lock, degrees, optional_value=True, failure=failure)
     if output.plot is not None and all("=" in text for text in lock or []):
         raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
-    result: Result = hf.stationary_points(made, goal, locked, seed=seed)
-    output.printed(result)
+    result: Result = hf.stationary_points(control_law, target_value, locked, seed=seed)
+    output.print_result(result)

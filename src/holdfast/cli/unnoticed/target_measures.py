@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
-from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
+from holdfast.cli.groups import ArmSourceOptions
+from holdfast.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_positions, read_targets
 from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
-from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import Measured, MeasureTimeOption
-from holdfast.present.results import printed, said
+from holdfast.cli.progress import ProgressBar
+from holdfast.cli.unnoticed.measures import MeasureOptions, MeasureTimeOption
+from holdfast.present.results import current_command, print_result
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    measured: Measured = Measured(),
+    measured: MeasureOptions = MeasureOptions(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     time_limit: MeasureTimeOption = None,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Measure how much an undetected lock endangers each target, averaged over starts.
@@ -30,9 +30,9 @@ def command(
 
     Example: holdfast target-measures panda --task position --target random:50 --out results
     """
-    made = law_of(law, arm, task, chain)
-    targets, places = read_targets(made, target), None if measured.starts is None else read_places(measured.starts)
-    options = {"time_limit": time_limit, "seed": seed, **measured.options()}
-    with progress_bar(json_, "targets") as progress:
-        result = hf.target_measures(made, targets, places, progress=progress, **options)
-    printed(result, json_, [] if measured.out is None else result.save(measured.out, command=said()))
+    control_law = read_law_for_arm(law, arm, task, chain)
+    targets, places = read_targets(control_law, target), None if measured.starts is None else read_positions(measured.starts)
+    options = {"time_limit": time_limit, "seed": seed, **measured.library_arguments()}
+    with ProgressBar(json_, "targets") as progress:
+        result = hf.target_measures(control_law, targets, places, progress=progress, **options)
+    print_result(result, json_, [] if measured.out is None else result.save(measured.out, command=current_command()))

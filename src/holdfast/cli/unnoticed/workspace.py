@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import holdfast as hf
-from holdfast.cli.groups import Chain
-from holdfast.cli.laws import LawOption, TargetOption, law_of, read_places
+from holdfast.cli.groups import ArmSourceOptions
+from holdfast.cli.laws import LawOption, TargetOption, read_law_for_arm, read_positions
 from holdfast.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
-from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import Measured, MeasureTimeOption
+from holdfast.cli.progress import ProgressBar
+from holdfast.cli.unnoticed.measures import MeasureOptions, MeasureTimeOption
 from holdfast.cli.values import read_target
-from holdfast.present.results import printed, said
+from holdfast.present.results import current_command, print_result
 
 
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    measured: Measured = Measured(),
+    measured: MeasureOptions = MeasureOptions(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     time_limit: MeasureTimeOption = None,
     seed: SeedOption = 0,
-    chain: Chain = Chain(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Map the start positions from which a target is still reached after an undetected lock.
@@ -32,10 +32,13 @@ def command(
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
-    made = law_of(law, arm, task, chain)
-    goal, places = read_target(made.arm, made.task, target), None if measured.starts is None else read_places(measured.starts)
+    control_law = read_law_for_arm(law, arm, task, chain)
+    target_value, places = (
+        read_target(control_law.arm, control_law.task, target),
+        None if measured.starts is None else read_positions(measured.starts),
+    )
     store = None if measured.out is None else measured.out / "run"
-    options = {"time_limit": time_limit, "seed": seed, "store": store, **measured.options()}
-    with progress_bar(json_, "starts") as progress:
-        result = hf.workspace(made, goal, places, progress=progress, **options)
-    printed(result, json_, [] if measured.out is None else result.save(measured.out, command=said()))
+    options = {"time_limit": time_limit, "seed": seed, "store": store, **measured.library_arguments()}
+    with ProgressBar(json_, "starts") as progress:
+        result = hf.workspace(control_law, target_value, places, progress=progress, **options)
+    print_result(result, json_, [] if measured.out is None else result.save(measured.out, command=current_command()))

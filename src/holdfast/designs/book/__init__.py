@@ -1,1 +1,1 @@
-"""The record book: what is the best that anybody has found, in files that anyone can check again."""
+"""Book of record designs: the best arms found so far, in files that anyone can check again."""

@@ -1,1 +1,1 @@
-"""Designs by what has no slope: an evolution strategy, and what it maximises."""
+"""Design search for measures without gradients: an evolution strategy and its objectives."""

@@ -1,4 +1,4 @@
-"""What an evolution strategy found: an arm, and what it is worth."""
+"""Result of an evolution strategy: an arm and its value."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arms.dh_file import text
+from holdfast.arms.dh_file import format_dh_file
 from holdfast.designs.space import DesignSpace
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-OBJECTIVES = ("self-motion-size", "tolerant-workspace")
+EVOLUTION_OBJECTIVES = ("self-motion-size", "tolerant-workspace")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class EvolvedDesign(Result):
-    """The best arm that an evolution strategy found.
+    """Best arm that an evolution strategy found.
 
     Attributes:
         space: What was varied.
@@ -51,31 +51,34 @@ class EvolvedDesign(Result):
 
     @property
     def unit(self) -> str:
-        """Of the value."""
+        """Unit of the value."""
         return "whole turns" if self.objective == "self-motion-size" else "m^2"
 
     def arm(self) -> Arm:
-        """The arm, without inertial data."""
+        """Return the arm, without inertial data."""
         return self.space.arm_of(self.values)
 
     def arm_file(self) -> str:
-        """The arm as a file that every command takes."""
+        """Return the arm as a file that every command reads."""
         arm = self.arm()
-        return text(self.space.table_of(self.values), arm.name, arm.gravity, arm.source)
+        return format_dh_file(self.space.table_of(self.values), arm.name, arm.gravity, arm.source)
 
     def describe(self) -> list[str]:
-        """What it is worth, beside the given arm and what none can beat."""
+        """Return the value of the arm, compared with the baseline arm and the upper bound."""
         lines = [
             f"{self.objective}: {self.value:.6g} {self.unit}, the given arm {self.given:.4g}; no arm of these bounds has more "
             f"than {self.bound:.6g} {self.unit}"
         ]
         if self.q is not None and self.winding is not None:
-            turns = ", ".join(f"{x:+d}" for x in self.winding)
-            at = ", ".join(f"{x:.4f}" for x in self.q)
-            lines.append(f"on one curve of the pose at q = {at} rad; whole turns on the way round: {turns}")
-        if self.limits is not None:
-            pairs = ", ".join(f"{a:.1f} to {b:.1f}" for a, b in np.degrees(self.limits))
+            revolutions = ", ".join(f"{x:+d}" for x in self.winding)
+            configuration_text = ", ".join(f"{x:.4f}" for x in self.q)
             lines.append(
-                f"until a joint locks the joints stay within {pairs} deg; the bound is for arms whose joint 1 has no limits"
+                f"on one curve of the pose at q = {configuration_text} rad; whole turns on the way round: {revolutions}"
+            )
+        if self.limits is not None:
+            limits_text = ", ".join(f"{a:.1f} to {b:.1f}" for a, b in np.degrees(self.limits))
+            lines.append(
+                f"until a joint locks the joints stay within {limits_text} deg; the bound is for arms whose joint 1 "
+                f"has no limits"
             )
         return lines

@@ -1,4 +1,4 @@
-"""Arms whose joints turn as far as can be on one self-motion: whatever joint locks at whatever angle, the pose is left."""
+"""Search for arms whose joints sweep as far as possible on one self-motion, so that the pose stays reachable after any lock."""
 
 from __future__ import annotations
 
@@ -8,31 +8,32 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.designs.evolution.found import EvolvedDesign
-from holdfast.designs.evolution.strategy import evolved
-from holdfast.designs.evolution.sweeps import Sweeps
+from holdfast.designs.evolution.strategy import minimise_by_evolution
+from holdfast.designs.evolution.sweeps import SelfMotionTracer
 from holdfast.designs.family import Family
 from holdfast.designs.space import Vary, design_space
 from holdfast.errors import InputError, TaskError
-from holdfast.notice import Count, says
+from holdfast.notice import ProgressCount, reports_progress
 
 Array = NDArray[np.float64]
 
-_POPULATION = 48
-_SPACING, _LAST_SPACING = 0.1, 0.02  # rad; long steps may pass from one curve to another
-_FULL = 1e-6  # of a turn
-_WINDS = 1e-3  # turns that a joint that winds is worth more than one that turns all the way and back
+_POPULATION_SIZE = 48
+_TRACE_SPACING_RAD, _FINAL_SPACING_RAD = 0.1, 0.02  # rad; long steps may pass from one curve to another
+_FULL_SIZE_TOLERANCE = 1e-6  # of a turn
+_WINDING_BONUS = 1e-3  # turns that a joint that winds is worth more than one that turns all the way and back
 
 
-@checked
-@says("searching designs")
+@check_arguments
+@reports_progress("searching designs")
 def design_for_self_motion(
     arm: Arm, vary: Vary, *, task: str | Task | Sequence[str] = "pose", generations: int = 150, restarts: int = 3, seed: int = 0
 ) -> EvolvedDesign:
-    """Search an arm and a pose on one of whose self-motions the joints turn farthest: at most all of them all the way.
+    """Search for an arm and a pose with a self-motion on which the joints sweep farthest: at most all joints, a full revolution
+    each.
 
     Where all do, the pose stays within reach whatever joint locks, at whatever angle, and all these configurations are on one
     curve. Of equal sums more joints that wind are better: those take every angle, whatever the spacing of the points. A pose
@@ -52,7 +53,7 @@ def design_for_self_motion(
 
     Source: Almarkhi and Maciejewski, RA-L 2020, for the size; the search is ours.
     """
-    begin = time.monotonic()
+    start_time = time.monotonic()
     if generations < 1 or restarts < 1:
         raise InputError(f"generations is {generations} and restarts {restarts}; give at least 1")
     space = design_space(arm, vary)
@@ -64,55 +65,65 @@ def design_for_self_motion(
         )
     if family.prismatic.any():
         raise InputError(f"'{arm.name}' has prismatic joints, which have no turns; vary an arm of revolute joints")
-    sweeps, rng, history = Sweeps(family), np.random.default_rng(seed), list[float]()
-    size = len(space.start)
+    tracer, rng, history = SelfMotionTracer(family), np.random.default_rng(seed), list[float]()
+    parameter_count = len(space.start)
 
-    def placed(x: Array) -> Array:
-        """Designs (P, k) within their bounds: what is beyond is mirrored."""
-        unit = np.mod(x[:, :size], 2)
-        return np.asarray(space.lower + np.where(unit > 1, 2 - unit, unit) * (space.upper - space.lower))
+    def mirror_into_bounds(x: Array) -> Array:
+        """Return designs (P, k) within their bounds; values beyond a bound are mirrored."""
+        folded = np.mod(x[:, :parameter_count], 2)
+        return np.asarray(space.lower + np.where(folded > 1, 2 - folded, folded) * (space.upper - space.lower))
 
-    def turns(values: Array, q: Array, spacing: float) -> tuple[Array, NDArray[np.int64]]:
-        swept = sweeps(values, q, spacing)
-        return swept.ranges.sum(axis=1) / (2 * np.pi), swept.winding
+    def measure_revolutions(values: Array, q: Array, spacing: float) -> tuple[Array, NDArray[np.int64]]:
+        curves = tracer(values, q, spacing)
+        return curves.ranges.sum(axis=1) / (2 * np.pi), curves.winding
 
-    def cost(x: Array) -> Array:
-        found, winding = turns(placed(x), x[:, size:], _SPACING)
-        return np.asarray(-found - _WINDS * (winding != 0).sum(axis=1))
+    def compute_cost(x: Array) -> Array:
+        revolutions, winding = measure_revolutions(mirror_into_bounds(x), x[:, parameter_count:], _TRACE_SPACING_RAD)
+        return np.asarray(-revolutions - _WINDING_BONUS * (winding != 0).sum(axis=1))
 
-    starts = rng.uniform(-np.pi, np.pi, (_POPULATION, arm.n))
-    given = float(turns(np.tile(space.start, (_POPULATION, 1)), starts, _LAST_SPACING)[0].max())
+    initial_configurations = rng.uniform(-np.pi, np.pi, (_POPULATION_SIZE, arm.n))
+    baseline_value = float(
+        measure_revolutions(np.tile(space.start, (_POPULATION_SIZE, 1)), initial_configurations, _FINAL_SPACING_RAD)[0].max()
+    )
     best: tuple[float, float, Array] | None = None
-    everything = arm.n * (1 + _WINDS) - _FULL
-    with Count("generations", restarts * generations, most=True) as step:
+    full_score = arm.n * (1 + _WINDING_BONUS) - _FULL_SIZE_TOLERANCE
+    with ProgressCount("generations", restarts * generations, most=True) as advance:
 
-        def tell(least: float) -> bool:
-            step(1)
-            history.append(max(-least, history[-1] if history else 0.0))
-            return -least >= everything
+        def record_generation(least_cost: float) -> bool:
+            advance(1)
+            history.append(max(-least_cost, history[-1] if history else 0.0))
+            return -least_cost >= full_score
 
         for _ in range(restarts):
-            start = np.concatenate([rng.uniform(0.2, 0.8, size), rng.uniform(-np.pi, np.pi, arm.n)])
-            width = np.concatenate([np.full(size, 0.25), np.full(arm.n, 1.5)])
-            x, _ = evolved(cost, start, width, population=_POPULATION, generations=generations, rng=rng, tell=tell)
-            value, winding = turns(placed(x[None]), x[None, size:], _LAST_SPACING)
-            score = float(value[0]) + _WINDS * float((winding != 0).sum())
+            start_point = np.concatenate([rng.uniform(0.2, 0.8, parameter_count), rng.uniform(-np.pi, np.pi, arm.n)])
+            deviations = np.concatenate([np.full(parameter_count, 0.25), np.full(arm.n, 1.5)])
+            x, _ = minimise_by_evolution(
+                compute_cost,
+                start_point,
+                deviations,
+                population=_POPULATION_SIZE,
+                generations=generations,
+                rng=rng,
+                on_generation=record_generation,
+            )
+            value, winding = measure_revolutions(mirror_into_bounds(x[None]), x[None, parameter_count:], _FINAL_SPACING_RAD)
+            score = float(value[0]) + _WINDING_BONUS * float((winding != 0).sum())
             if best is None or score > best[0]:
                 best = score, float(value[0]), x
-            if best[0] >= everything:
+            if best[0] >= full_score:
                 break
     assert best is not None
-    values, q = placed(best[2][None]), np.mod(best[2][size:] + np.pi, 2 * np.pi) - np.pi
+    values, q = mirror_into_bounds(best[2][None]), np.mod(best[2][parameter_count:] + np.pi, 2 * np.pi) - np.pi
     return EvolvedDesign(
         space=space,
         objective="self-motion-size",
         values=values[0],
         value=best[1],
-        given=given,
+        given=baseline_value,
         bound=float(arm.n),
         q=q,
-        winding=turns(values, q[None], _LAST_SPACING)[1][0],
+        winding=measure_revolutions(values, q[None], _FINAL_SPACING_RAD)[1][0],
         history=np.minimum(history, arm.n),
         seed=seed,
-        seconds=time.monotonic() - begin,
+        seconds=time.monotonic() - start_time,
     )

@@ -1,4 +1,4 @@
-"""An evolution strategy whose steps learn their shape: covariance matrix adaptation."""
+"""Evolution strategy with covariance matrix adaptation (CMA-ES)."""
 
 from __future__ import annotations
 
@@ -9,67 +9,82 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_SMALLEST = 1e-12  # of a step: then nothing moves any more
+_SMALLEST_STEP = 1e-12  # of a step: then nothing moves any more
 
 
-def evolved(
+def minimise_by_evolution(
     cost: Callable[[Array], Array],
     start: Array,
-    width: Array,
+    deviations: Array,
     *,
     population: int,
     generations: int,
     rng: np.random.Generator,
-    tell: Callable[[float], bool],
+    on_generation: Callable[[float], bool],
 ) -> tuple[Array, float]:
-    """The point of least cost that was looked at.
+    """Return the point of least cost that was evaluated.
 
     Args:
         cost: (P,) of points (P, k), all of a generation at once.
         start: (k,) where the first generation is centred.
-        width: (k,) its standard deviations, in the units of each number.
+        deviations: (k,) its standard deviations, in the units of each number.
         population: Points of a generation.
         generations: At most.
         rng: Draws the steps.
-        tell: Called with the least cost after each generation; True ends the search.
+        on_generation: Called with the least cost after each generation; True ends the search.
 
     Returns:
         The point (k,) and its cost.
 
     Source: Hansen, The CMA Evolution Strategy: A Tutorial (2016), with its default weights.
     """
-    k, parents = len(start), population // 2
+    dimension, parents = len(start), population // 2
     weights = np.log(parents + 0.5) - np.log(np.arange(1, parents + 1))
     weights /= weights.sum()
-    mass = 1 / (weights**2).sum()
-    along, damping = (mass + 2) / (k + mass + 5), 1 + 2 * max(0.0, np.sqrt((mass - 1) / (k + 1)) - 1)
-    damping += along
-    path_rate = (4 + mass / k) / (k + 4 + 2 * mass / k)
-    one_rate = 2 / ((k + 1.3) ** 2 + mass)
-    many_rate = min(1 - one_rate, 2 * (mass - 2 + 1 / mass) / ((k + 2) ** 2 + mass))
-    length = np.sqrt(k) * (1 - 1 / (4 * k) + 1 / (21 * k * k))  # mean length of a normal vector
-    mean, size, shape = np.zeros(k), 1.0, np.eye(k)
-    size_path, shape_path = np.zeros(k), np.zeros(k)
-    best, least = start.copy(), np.inf
+    effective_parents = 1 / (weights**2).sum()
+    step_rate, damping = (
+        (effective_parents + 2) / (dimension + effective_parents + 5),
+        1 + 2 * max(0.0, np.sqrt((effective_parents - 1) / (dimension + 1)) - 1),
+    )
+    damping += step_rate
+    path_rate = (4 + effective_parents / dimension) / (dimension + 4 + 2 * effective_parents / dimension)
+    rank_one_rate = 2 / ((dimension + 1.3) ** 2 + effective_parents)
+    rank_mu_rate = min(
+        1 - rank_one_rate, 2 * (effective_parents - 2 + 1 / effective_parents) / ((dimension + 2) ** 2 + effective_parents)
+    )
+    expected_norm = np.sqrt(dimension) * (
+        1 - 1 / (4 * dimension) + 1 / (21 * dimension * dimension)
+    )  # mean length of a normal vector
+    mean, step_size, covariance = np.zeros(dimension), 1.0, np.eye(dimension)
+    step_path, covariance_path = np.zeros(dimension), np.zeros(dimension)
+    best_point, least_cost = start.copy(), np.inf
     for generation in range(1, generations + 1):
-        values, axes = np.linalg.eigh(shape)
-        values = np.sqrt(np.maximum(values, _SMALLEST))
-        steps = (rng.normal(size=(population, k)) * values) @ axes.T
-        points = start + width * (mean + size * steps)
-        found = cost(points)
-        order = np.argsort(found, kind="stable")
-        if found[order[0]] < least:
-            best, least = points[order[0]].copy(), float(found[order[0]])
-        chosen = steps[order[:parents]]
-        step = weights @ chosen
-        mean = mean + size * step
-        size_path = (1 - along) * size_path + np.sqrt(along * (2 - along) * mass) * (axes @ ((axes.T @ step) / values))
-        norm = np.linalg.norm(size_path)
-        going = norm / np.sqrt(1 - (1 - along) ** (2 * generation)) < (1.4 + 2 / (k + 1)) * length
-        shape_path = (1 - path_rate) * shape_path + going * np.sqrt(path_rate * (2 - path_rate) * mass) * step
-        shape = (1 - one_rate - many_rate) * shape + one_rate * np.outer(shape_path, shape_path)
-        shape += many_rate * (chosen.T * weights) @ chosen
-        size *= float(np.exp(along / damping * (norm / length - 1)))
-        if tell(least) or size * values.max() < _SMALLEST:
+        scales, axes = np.linalg.eigh(covariance)
+        scales = np.sqrt(np.maximum(scales, _SMALLEST_STEP))
+        steps = (rng.normal(size=(population, dimension)) * scales) @ axes.T
+        points = start + deviations * (mean + step_size * steps)
+        costs = cost(points)
+        order = np.argsort(costs, kind="stable")
+        if costs[order[0]] < least_cost:
+            best_point, least_cost = points[order[0]].copy(), float(costs[order[0]])
+        selected = steps[order[:parents]]
+        mean_step = weights @ selected
+        mean = mean + step_size * mean_step
+        step_path = (1 - step_rate) * step_path + np.sqrt(step_rate * (2 - step_rate) * effective_parents) * (
+            axes @ ((axes.T @ mean_step) / scales)
+        )
+        path_norm = np.linalg.norm(step_path)
+        path_is_short = (
+            path_norm / np.sqrt(1 - (1 - step_rate) ** (2 * generation)) < (1.4 + 2 / (dimension + 1)) * expected_norm
+        )
+        covariance_path = (1 - path_rate) * covariance_path + path_is_short * np.sqrt(
+            path_rate * (2 - path_rate) * effective_parents
+        ) * mean_step
+        covariance = (1 - rank_one_rate - rank_mu_rate) * covariance + rank_one_rate * np.outer(
+            covariance_path, covariance_path
+        )
+        covariance += rank_mu_rate * (selected.T * weights) @ selected
+        step_size *= float(np.exp(step_rate / damping * (path_norm / expected_norm - 1)))
+        if on_generation(least_cost) or step_size * scales.max() < _SMALLEST_STEP:
             break
-    return best, least
+    return best_point, least_cost

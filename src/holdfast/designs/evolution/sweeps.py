@@ -1,4 +1,4 @@
-"""How far the joints of many designs turn on the self-motion through a configuration, all designs side by side."""
+"""Measure how far the joints of many designs sweep on the self-motion through a configuration, all designs side by side."""
 
 from __future__ import annotations
 
@@ -12,103 +12,119 @@ from holdfast.arm import kinematics
 from holdfast.caching import cached_property
 from holdfast.designs.family import Family
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
-from holdfast.linalg import damped_least_norm, householder
+from holdfast.kernels.recall import cached_kernel
+from holdfast.linalg import damped_least_norm, factor_householder
 from holdfast.solvers.inverse_kinematics import task_error
 
 Array = NDArray[np.float64]
 
-_FAR = 120.0  # rad: longer curves are cut
-_CLOSE = 1e-3  # error after one Newton step with which the next one is enough
-_STRAIGHT = 0.9  # least cosine between the null vectors at the two ends of a step
-_HALVINGS = 6  # of a step before the curve ends there
-_ON_CURVE = 0.15  # of a step: how near the curve must come to its first point
+_MAX_CURVE_LENGTH_RAD = 120.0  # rad: longer curves are cut
+_NEWTON_ERROR_BOUND = 1e-3  # error after one Newton step with which the next one is enough
+_MIN_TANGENT_COSINE = 0.9  # least cosine between the null vectors at the two ends of a step
+_MAX_STEP_HALVINGS = 6  # of a step before the curve ends there
+_CLOSING_STEP_FRACTION = 0.15  # of a step: how near the curve must come to its first point
 
 
 @dataclass(frozen=True, kw_only=True)
-class Swept:
-    """P curves.
+class SelfMotionRanges:
+    """Joint ranges of P self-motion curves.
 
     Attributes:
         ranges: (P, n) length of the interval of values of each joint, rad; 2 pi of one that winds, and at most that.
-        closed: (P,) the curve came back to its first point.
+        is_closed: (P,) the curve came back to its first point.
         winding: (P, n) whole turns on the way round a closed curve.
     """
 
     ranges: Array
-    closed: NDArray[np.bool_]
+    is_closed: NDArray[np.bool_]
     winding: NDArray[np.int64]
 
 
-class Sweeps:
-    """The compiled predictor and corrector of all designs of a family, of one degree of redundancy and revolute joints."""
+class SelfMotionTracer:
+    """Compiled predictor and corrector of all designs of a family, with one degree of redundancy and revolute joints."""
 
     def __init__(self, family: Family) -> None:
         self.family = family
 
     @cached_property
-    @recalled
-    def _pose(self) -> Kernel:
+    @cached_kernel
+    def _pose_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.family.arm)
-        chain = kinematics.chain(self.family.arm, q)
+        chain = kinematics.kinematic_chain(self.family.arm, q)
         return Kernel("poses of designs", [q, self.family.x], [ca.vertcat(chain.position, ca.vec(chain.rotation.T))])
 
     @cached_property
-    @recalled
-    def _step(self) -> Kernel:
+    @cached_kernel
+    def _step_kernel(self) -> Kernel:
         arm, q = self.family.arm, kinematics.joint_symbols(self.family.arm)
-        p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        e, j = task_error(arm, self.family.task, q, p, r)
+        position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        error, jacobian = task_error(arm, self.family.task, q, position, rotation)
         scale = ca.sparsify(ca.SX(ca.DM(self.family.task.scale(self.family.space.arm.length_unit))))
-        e, j = scale @ e, scale @ j
-        null = householder(j).null_rows()
-        out = ca.vertcat(q + damped_least_norm(j, e, 1e-14), ca.norm_2(e), *[null[k][0] for k in range(arm.n)])
-        return Kernel("self-motion of designs", [q, p, r, self.family.x], [out])
+        error, jacobian = scale @ error, scale @ jacobian
+        null_vectors = factor_householder(jacobian).null_rows()
+        outputs = ca.vertcat(
+            q + damped_least_norm(jacobian, error, 1e-14), ca.norm_2(error), *[null_vectors[k][0] for k in range(arm.n)]
+        )
+        return Kernel("self-motion of designs", [q, position, rotation, self.family.x], [outputs])
 
-    def __call__(self, values: Array, q: Array, spacing: float) -> Swept:
-        """The curves of designs (P, k) through configurations (P, n), rad, in steps of ``spacing``, rad."""
-        at = self._pose.rows(q, values)
-        p, r = np.ascontiguousarray(at[:, :3]), np.ascontiguousarray(at[:, 3:].reshape(-1, 3, 3))
+    def __call__(self, values: Array, q: Array, spacing: float) -> SelfMotionRanges:
+        """Trace the curves of designs (P, k) through configurations (P, n), rad, in steps of ``spacing``, rad."""
+        pose_rows = self._pose_kernel.rows(q, values)
+        position, rotation = np.ascontiguousarray(pose_rows[:, :3]), np.ascontiguousarray(pose_rows[:, 3:].reshape(-1, 3, 3))
         lower, upper = self.family.limits(values)
-        low, high = q.copy(), q.copy()
-        closed, winding = np.zeros(len(q), dtype=bool), np.zeros(q.shape, dtype=np.int64)
-        for way in (1.0, -1.0):
-            left = np.flatnonzero(~closed & (q >= lower).all(axis=1) & (q <= upper).all(axis=1))
-            here, step, gone = q.copy(), np.full(len(q), spacing), np.zeros(len(q))
-            along = self._step.rows(q, p, r, values)[:, q.shape[1] + 1 :] * way
-            first = along.copy()
-            while left.size:
-                given = p[left], r[left], values[left]
-                start, tangent, size = here[left], along[left], step[left]
-                near = self._step.rows(start + size[:, None] * tangent, *given)
-                out = self._step.rows(near[:, : q.shape[1]], *given)
-                new, ahead = out[:, : q.shape[1]], out[:, q.shape[1] + 1 :]
-                turn = np.einsum("ij,ij->i", ahead, tangent)
-                moved = np.linalg.norm(new - start, axis=1)
-                good = (out[:, q.shape[1]] <= _CLOSE) & (abs(turn) >= _STRAIGHT) & (moved <= 1.5 * size)
-                inside = good & ((new >= lower[left]) & (new <= upper[left])).all(axis=1)
-                rows = left[inside]
-                before, after = start[inside] - q[rows], new[inside] - q[rows]
-                here[rows], along[rows] = new[inside], ahead[inside] * np.sign(turn[inside])[:, None]
-                gone[rows] += moved[inside]
-                home = _home(before, after, first[rows], moved[inside])
-                winding[rows[home]] = np.rint(after[home] / (2 * np.pi)).astype(np.int64)
-                closed[rows[home]] = True
-                np.minimum.at(low, rows[~home], new[inside][~home])
-                np.maximum.at(high, rows[~home], new[inside][~home])
-                step[rows] = np.minimum(2 * step[rows], spacing)
-                step[left[~inside]] *= 0.5
-                left = left[~closed[left] & (step[left] >= spacing / 2**_HALVINGS) & (gone[left] <= _FAR)]
-        wide = np.minimum(high - low, 2 * np.pi)
-        return Swept(ranges=np.where(winding != 0, 2 * np.pi, wide), closed=closed, winding=winding)
+        least_q, greatest_q = q.copy(), q.copy()
+        is_closed, winding = np.zeros(len(q), dtype=bool), np.zeros(q.shape, dtype=np.int64)
+        for direction in (1.0, -1.0):
+            active = np.flatnonzero(~is_closed & (q >= lower).all(axis=1) & (q <= upper).all(axis=1))
+            current_q, step_sizes, travelled = q.copy(), np.full(len(q), spacing), np.zeros(len(q))
+            tangents = self._step_kernel.rows(q, position, rotation, values)[:, q.shape[1] + 1 :] * direction
+            first_tangents = tangents.copy()
+            while active.size:
+                targets = position[active], rotation[active], values[active]
+                start_q, tangent, sizes = current_q[active], tangents[active], step_sizes[active]
+                predicted = self._step_kernel.rows(start_q + sizes[:, None] * tangent, *targets)
+                corrected = self._step_kernel.rows(predicted[:, : q.shape[1]], *targets)
+                next_q, next_tangents = corrected[:, : q.shape[1]], corrected[:, q.shape[1] + 1 :]
+                cosines = np.einsum("ij,ij->i", next_tangents, tangent)
+                distances = np.linalg.norm(next_q - start_q, axis=1)
+                accepted = (
+                    (corrected[:, q.shape[1]] <= _NEWTON_ERROR_BOUND)
+                    & (abs(cosines) >= _MIN_TANGENT_COSINE)
+                    & (distances <= 1.5 * sizes)
+                )
+                inside = accepted & ((next_q >= lower[active]) & (next_q <= upper[active])).all(axis=1)
+                rows = active[inside]
+                start_offsets, end_offsets = start_q[inside] - q[rows], next_q[inside] - q[rows]
+                current_q[rows], tangents[rows] = next_q[inside], next_tangents[inside] * np.sign(cosines[inside])[:, None]
+                travelled[rows] += distances[inside]
+                returned = _passes_start(start_offsets, end_offsets, first_tangents[rows], distances[inside])
+                winding[rows[returned]] = np.rint(end_offsets[returned] / (2 * np.pi)).astype(np.int64)
+                is_closed[rows[returned]] = True
+                np.minimum.at(least_q, rows[~returned], next_q[inside][~returned])
+                np.maximum.at(greatest_q, rows[~returned], next_q[inside][~returned])
+                step_sizes[rows] = np.minimum(2 * step_sizes[rows], spacing)
+                step_sizes[active[~inside]] *= 0.5
+                active = active[
+                    ~is_closed[active]
+                    & (step_sizes[active] >= spacing / 2**_MAX_STEP_HALVINGS)
+                    & (travelled[active] <= _MAX_CURVE_LENGTH_RAD)
+                ]
+        spans = np.minimum(greatest_q - least_q, 2 * np.pi)
+        return SelfMotionRanges(ranges=np.where(winding != 0, 2 * np.pi, spans), is_closed=is_closed, winding=winding)
 
 
-def _home(before: Array, after: Array, first: Array, size: Array) -> NDArray[np.bool_]:
-    """True where a step passes the first point, which both ends are seen from (modulo whole turns), the way it was left."""
-    turns = 2 * np.pi * np.rint(after / (2 * np.pi))
-    before, after = before - turns, after - turns
-    crosses = (np.einsum("ij,ij->i", before, first) < 0) & (np.einsum("ij,ij->i", after, first) >= 0)
-    step = after - before
-    part = np.clip(-np.einsum("ij,ij->i", before, step) / np.maximum(np.einsum("ij,ij->i", step, step), 1e-300), 0, 1)
-    away = np.linalg.norm(before + part[:, None] * step, axis=1)
-    return np.asarray(crosses & (away <= _ON_CURVE * size) & (np.linalg.norm(before, axis=1) <= 2 * size))
+def _passes_start(start_offset: Array, end_offset: Array, first_tangents: Array, step_sizes: Array) -> NDArray[np.bool_]:
+    """Return True where a step passes the first point (modulo full revolutions, seen from both ends) in the direction of
+    departure.
+    """
+    revolutions = 2 * np.pi * np.rint(end_offset / (2 * np.pi))
+    start_offset, end_offset = start_offset - revolutions, end_offset - revolutions
+    crosses = (np.einsum("ij,ij->i", start_offset, first_tangents) < 0) & (
+        np.einsum("ij,ij->i", end_offset, first_tangents) >= 0
+    )
+    step = end_offset - start_offset
+    fraction = np.clip(-np.einsum("ij,ij->i", start_offset, step) / np.maximum(np.einsum("ij,ij->i", step, step), 1e-300), 0, 1)
+    distance = np.linalg.norm(start_offset + fraction[:, None] * step, axis=1)
+    return np.asarray(
+        crosses & (distance <= _CLOSING_STEP_FRACTION * step_sizes) & (np.linalg.norm(start_offset, axis=1) <= 2 * step_sizes)
+    )

@@ -1,1 +1,1 @@
-"""Arms judged as wholes: what they are worth beside the one configuration that they were made for."""
+"""Compare arms as wholes, beyond the one configuration for which they were made."""

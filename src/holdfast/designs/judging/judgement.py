@@ -1,4 +1,4 @@
-"""Arms judged as wholes: measures over a region, over joint space and over the workspace in one table, with intervals."""
+"""Compare arms as wholes: measures over a region, joint space, and the workspace in one table, with intervals."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
-from holdfast.designs.designs import Checked
-from holdfast.designs.search import drawn_poses
+from holdfast.designs.designs import HeldOutResult
+from holdfast.designs.search import sample_poses
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.determinants import RelativeManipulability
-from holdfast.notice import Count, says
+from holdfast.notice import ProgressCount, reports_progress
 from holdfast.probability.intervals import Interval
 from holdfast.reach.tolerance import tolerant_workspace
 from holdfast.regions.region import Region, default_region
@@ -29,14 +29,14 @@ from holdfast.solvers.self_motions import fibres
 Array = NDArray[np.float64]
 _Cell = tuple[str, str, int, Interval]  # name and unit of a column, of how many samples, and what one arm has
 
-MEASURES = ("quantile", "fraction-above", "self-motion-size", "tolerant-workspace")
-CONFIDENCE = 0.95  # of all intervals
-_SPACING, _STARTS = 0.05, 32  # rad; of self-motions
+COMPARISON_MEASURES = ("quantile", "fraction-above", "self-motion-size", "tolerant-workspace")
+INTERVAL_CONFIDENCE = 0.95  # of all intervals
+_CURVE_SPACING_RAD, _CURVE_STARTS = 0.05, 32  # rad; of self-motions
 
 
 @dataclass(frozen=True, kw_only=True)
-class Measured:
-    """A column of a judgement: what all arms are measured by.
+class ArmMeasures:
+    """Column of a comparison of arms: a measure of all arms.
 
     Attributes:
         measure: One of the measures.
@@ -52,8 +52,8 @@ class Measured:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Judgement(Result):
-    """What :func:`judge` measured.
+class ArmComparison(Result):
+    """Result of :func:`compare_arms`.
 
     Attributes:
         arms: The arms, a row each.
@@ -73,7 +73,7 @@ class Judgement(Result):
     task: Task
     failures: int
     region: Region
-    columns: tuple[Measured, ...]
+    columns: tuple[ArmMeasures, ...]
     values: Array
     low: Array
     high: Array
@@ -83,7 +83,7 @@ class Judgement(Result):
     seconds: float
 
     def front(self, *names: str) -> NDArray[np.int64]:
-        """Arms, from 0, than which no other is better in all of some columns; what intervals do not tell apart is equal.
+        """Return the arms, from 0, that no other arm beats in some columns; values whose intervals overlap count as equal.
 
         Args:
             names: Of columns; all if none is given.
@@ -91,33 +91,36 @@ class Judgement(Result):
         Raises:
             InputError: There is no such column.
         """
-        known = [c.name for c in self.columns]
+        column_names = [column.name for column in self.columns]
         for name in names:
-            if name not in known:
-                raise InputError(f"there is no column '{name}'; there are {', '.join(known)}")
-        chosen = [known.index(name) for name in names or known]
-        low, high = self.low[:, chosen], self.high[:, chosen]
+            if name not in column_names:
+                raise InputError(f"there is no column '{name}'; there are {', '.join(column_names)}")
+        selected = [column_names.index(name) for name in names or column_names]
+        lower, upper = self.low[:, selected], self.high[:, selected]
         # No column is worse, as far as can be told, and one is better for sure.
-        no_worse = (high[:, None] >= low[None]).all(axis=2)
-        better = (low[:, None] > high[None]).any(axis=2)
+        no_worse = (upper[:, None] >= lower[None]).all(axis=2)
+        better = (lower[:, None] > upper[None]).any(axis=2)
         return np.flatnonzero(~(no_worse & better).any(axis=0))
 
     def describe(self) -> list[str]:
-        """The best arm of each column, and what is left out."""
-        named = ", ".join(arm.name for arm in self.arms)
-        lines = [f"{named}: task {self.task.name}, {self.region.name}, seed {self.seed}; intervals of {_percents(CONFIDENCE)}"]
-        for c, column in enumerate(self.columns):
-            best = int(self.values[:, c].argmax())
-            unit = "" if column.unit == "1" else f" {column.unit}"
-            which = f", {self.arms[best].name}" if len(self.arms) > 1 else ""
-            spread = f"{self.low[best, c]:.4g} to {self.high[best, c]:.4g}"
-            lines.append(f"{column.name}: {self.values[best, c]:.4g}{unit} ({spread}){which}")
+        """Return the best arm of each column, and the measures left out."""
+        arm_names = ", ".join(arm.name for arm in self.arms)
+        lines = [
+            f"{arm_names}: task {self.task.name}, {self.region.name}, seed {self.seed}; intervals of "
+            f"{_format_percent(INTERVAL_CONFIDENCE)}"
+        ]
+        for index, column in enumerate(self.columns):
+            best = int(self.values[:, index].argmax())
+            unit_text = "" if column.unit == "1" else f" {column.unit}"
+            arm_text = f", {self.arms[best].name}" if len(self.arms) > 1 else ""
+            spread = f"{self.low[best, index]:.4g} to {self.high[best, index]:.4g}"
+            lines.append(f"{column.name}: {self.values[best, index]:.4g}{unit_text} ({spread}){arm_text}")
         return [*lines, *self.left_out]
 
 
-@checked
-@says("judging arms")
-def judge(
+@check_arguments
+@reports_progress("judging arms")
+def compare_arms(
     arms: Arm | Sequence[Arm],
     region: Region | None = None,
     *,
@@ -131,8 +134,8 @@ def judge(
     points: int = 300,
     best_limits: bool = False,
     seed: int = 0,
-) -> Judgement:
-    """Judge arms as wholes: a configuration at a ceiling says nothing about the rest of an arm.
+) -> ArmComparison:
+    """Compare arms as wholes, because the value at one best configuration does not characterise the rest of an arm.
 
     - ``quantile``: relative manipulability, at the best configuration of each pose of the region, that the fraction ``level``
       of the poses has at least; poses out of reach have 0.
@@ -162,28 +165,30 @@ def judge(
 
     Source: derived here.
     """
-    begin = time.monotonic()
-    some = (arms,) if isinstance(arms, Arm) else tuple(arms)
-    if not some:
+    start_time = time.monotonic()
+    arm_list = (arms,) if isinstance(arms, Arm) else tuple(arms)
+    if not arm_list:
         raise InputError("there is no arm to judge")
-    wrong = [m for m in measures or () if m not in MEASURES]
-    if wrong:
-        raise InputError(f"'{wrong[0]}' is no measure; there are {', '.join(MEASURES)}")
+    unknown = [measure_name for measure_name in measures or () if measure_name not in COMPARISON_MEASURES]
+    if unknown:
+        raise InputError(f"'{unknown[0]}' is no measure; there are {', '.join(COMPARISON_MEASURES)}")
     if min(poses, samples, points) < 1 or not 0 < level < 1 or not thresholds:
         raise InputError("give at least 1 pose, sample, point and threshold, and a level between 0 and 1")
-    tasks = [as_task(arm, task) for arm in some]
-    chosen, left_out = list(measures or MEASURES), list[str]()
-    spare = {arm.n - rows.m for arm, rows in zip(some, tasks, strict=True)}
-    if spare != {1} and "self-motion-size" in chosen:
-        said = f"the size of self-motions needs one degree of redundancy; here it is {', '.join(map(str, sorted(spare)))}"
+    tasks = [as_task(arm, task) for arm in arm_list]
+    chosen, left_out = list(measures or COMPARISON_MEASURES), list[str]()
+    redundancies = {arm.n - arm_task.m for arm, arm_task in zip(arm_list, tasks, strict=True)}
+    if redundancies != {1} and "self-motion-size" in chosen:
+        reason = (
+            f"the size of self-motions needs one degree of redundancy; here it is {', '.join(map(str, sorted(redundancies)))}"
+        )
         if measures is not None:
-            raise TaskError(said)
+            raise TaskError(reason)
         chosen.remove("self-motion-size")
-        left_out.append(said)
-    where = default_region(some[0]) if region is None else region
-    targets, weights = drawn_poses(where, poses, seed)
-    drawn = _Drawn(
-        where,
+        left_out.append(reason)
+    pose_region = default_region(arm_list[0]) if region is None else region
+    targets, weights = sample_poses(pose_region, poses, seed)
+    sample = _ComparisonSample(
+        pose_region,
         targets,
         np.empty(0) if weights is None else weights,
         level,
@@ -193,42 +198,45 @@ def judge(
         best_limits,
         seed,
     )
-    ways = {
-        "quantile": drawn.quantile,
-        "fraction-above": drawn.above,
-        "self-motion-size": drawn.sizes,
-        "tolerant-workspace": drawn.workspace,
+    methods = {
+        "quantile": sample.measure_quantile,
+        "fraction-above": sample.measure_fractions_above,
+        "self-motion-size": sample.measure_self_motions,
+        "tolerant-workspace": sample.measure_workspace,
     }
-    columns: list[Measured] = []
+    columns: list[ArmMeasures] = []
     cells: list[list[Interval]] = []
-    most = 0
-    with Count("arms", len(some), whole=True) as step:
-        for arm, rows in zip(some, tasks, strict=True):
-            index = RelativeManipulability(arm, rows, failures)
-            most = max(most, *map(len, index.failures))
-            found = [(measure, *cell) for measure in chosen for cell in ways[measure](index)]
-            columns = [Measured(measure=measure, name=name, unit=unit, samples=size) for measure, name, unit, size, _ in found]
-            cells.append([interval for *_, interval in found])
-            step(1)
-    return Judgement(
-        arms=some,
+    most_failures = 0
+    with ProgressCount("arms", len(arm_list), whole=True) as advance:
+        for arm, arm_task in zip(arm_list, tasks, strict=True):
+            index = RelativeManipulability(arm, arm_task, failures)
+            most_failures = max(most_failures, *map(len, index.failures))
+            entries = [(measure, *cell) for measure in chosen for cell in methods[measure](index)]
+            columns = [
+                ArmMeasures(measure=measure, name=name, unit=unit, samples=sample_count)
+                for measure, name, unit, sample_count, _ in entries
+            ]
+            cells.append([interval for *_, interval in entries])
+            advance(1)
+    return ArmComparison(
+        arms=arm_list,
         task=tasks[0],
-        failures=most,
-        region=where,
+        failures=most_failures,
+        region=pose_region,
         columns=tuple(columns),
-        values=np.array([[x.value for x in row] for row in cells]),
-        low=np.array([[x.low for x in row] for row in cells]),
-        high=np.array([[x.high for x in row] for row in cells]),
+        values=np.array([[estimate.value for estimate in row] for row in cells]),
+        low=np.array([[estimate.low for estimate in row] for row in cells]),
+        high=np.array([[estimate.high for estimate in row] for row in cells]),
         left_out=tuple(left_out),
         level=level,
         seed=seed,
-        seconds=time.monotonic() - begin,
+        seconds=time.monotonic() - start_time,
     )
 
 
 @dataclass(frozen=True)
-class _Drawn:
-    """The poses, and how much else is drawn: the same for all arms."""
+class _ComparisonSample:
+    """Poses and further sampled quantities, equal for all arms."""
 
     region: Region
     poses: Array
@@ -240,41 +248,43 @@ class _Drawn:
     best_limits: bool
     seed: int
 
-    def _of_poses(self, values: Array, level: float) -> Interval:
-        there = np.ones(len(values), dtype=bool)
-        return Checked.of(values, there, self.weights, level=level, heaviest=self.region.heaviest).guaranteed
+    def _compute_quantile(self, values: Array, level: float) -> Interval:
+        is_reached = np.ones(len(values), dtype=bool)
+        return HeldOutResult.of(values, is_reached, self.weights, level=level, heaviest=self.region.heaviest).guaranteed
 
-    def quantile(self, index: RelativeManipulability) -> list[_Cell]:
+    def measure_quantile(self, index: RelativeManipulability) -> list[_Cell]:
         best = optimise(index.arm, self.poses, index, seed=self.seed)
-        kept = self._of_poses(np.where(best.success, best.value, 0.0), self.level)
-        return [(f"kept at {_percents(self.level)} of the poses", "1", len(self.poses), kept)]
+        interval = self._compute_quantile(np.where(best.success, best.value, 0.0), self.level)
+        return [(f"kept at {_format_percent(self.level)} of the poses", "1", len(self.poses), interval)]
 
-    def above(self, index: RelativeManipulability) -> list[_Cell]:
-        low, high = finite_limits(index.arm)
-        value = index(np.random.default_rng(self.seed).uniform(low, high, (self.samples, index.arm.n)))
-        hits = [int((value >= h).sum()) for h in self.thresholds]
+    def measure_fractions_above(self, index: RelativeManipulability) -> list[_Cell]:
+        lower, upper = finite_limits(index.arm)
+        value = index(np.random.default_rng(self.seed).uniform(lower, upper, (self.samples, index.arm.n)))
+        counts = [int((value >= threshold).sum()) for threshold in self.thresholds]
         return [
-            (f"joint space at {h:g} or more", "1", self.samples, Interval.of(count, self.samples, CONFIDENCE))
-            for h, count in zip(self.thresholds, hits, strict=True)
+            (f"joint space at {threshold:g} or more", "1", self.samples, Interval.of(count, self.samples, INTERVAL_CONFIDENCE))
+            for threshold, count in zip(self.thresholds, counts, strict=True)
         ]
 
-    def sizes(self, index: RelativeManipulability) -> list[_Cell]:
-        found = fibres(index.arm, self.poses, index.task, spacing=_SPACING, starts=_STARTS, seed=self.seed)
-        turns = np.array([each.size for each in found]) / (2 * np.pi)
-        levels = {"self-motion, median": 0.5, f"self-motion at {_percents(self.level)} of the poses": self.level}
-        return [(name, "turns", len(turns), self._of_poses(turns, level)) for name, level in levels.items()]
+    def measure_self_motions(self, index: RelativeManipulability) -> list[_Cell]:
+        motions = fibres(index.arm, self.poses, index.task, spacing=_CURVE_SPACING_RAD, starts=_CURVE_STARTS, seed=self.seed)
+        revolutions = np.array([motion.size for motion in motions]) / (2 * np.pi)
+        levels = {"self-motion, median": 0.5, f"self-motion at {_format_percent(self.level)} of the poses": self.level}
+        return [(name, "turns", len(revolutions), self._compute_quantile(revolutions, level)) for name, level in levels.items()]
 
-    def workspace(self, index: RelativeManipulability) -> list[_Cell]:
-        flat = plane_normal(index.arm) is not None
-        rows, options = "planar" if flat else "position", {"points": self.points, "seed": self.seed}
-        found = tolerant_workspace(index.arm, rows, optimise=self.best_limits, confidence=CONFIDENCE, **options)
+    def measure_workspace(self, index: RelativeManipulability) -> list[_Cell]:
+        is_planar = plane_normal(index.arm) is not None
+        task_name, options = "planar" if is_planar else "position", {"points": self.points, "seed": self.seed}
+        tolerant = tolerant_workspace(
+            index.arm, task_name, optimise=self.best_limits, confidence=INTERVAL_CONFIDENCE, **options
+        )
         length = index.arm.end_to_end
-        whole = np.pi * length**2 if flat else 4 / 3 * np.pi * length**3
-        value, low, high = (x / whole for x in (found.size, *found.size_interval))
-        interval = Interval(value=value, low=low, high=high, confidence=CONFIDENCE)
-        unit, points = f"of the {'disc' if flat else 'ball'}", 0 if found.exact else self.points
+        full_size = np.pi * length**2 if is_planar else 4 / 3 * np.pi * length**3
+        value, lower, upper = (x / full_size for x in (tolerant.size, *tolerant.size_interval))
+        interval = Interval(value=value, low=lower, high=upper, confidence=INTERVAL_CONFIDENCE)
+        unit, points = f"of the {'disc' if is_planar else 'ball'}", 0 if tolerant.exact else self.points
         return [("workspace that every lock leaves", unit, points, interval)]
 
 
-def _percents(fraction: float) -> str:
+def _format_percent(fraction: float) -> str:
     return f"{100 * fraction:g} %"

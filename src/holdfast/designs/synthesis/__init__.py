@@ -1,1 +1,1 @@
-"""Arms made from a Jacobian or a null space: lines of joint axes, and the tables of the arms that have them."""
+"""Make arms from a Jacobian or a null space: the lines of the joint axes, and Denavit-Hartenberg tables with these axes."""

@@ -1,4 +1,4 @@
-"""From a Jacobian or a null space to arms, as Denavit-Hartenberg tables in numbers that can be built."""
+"""Make arms from a Jacobian or a null space, as Denavit-Hartenberg tables with rounded numbers."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.machine import Joint
 from holdfast.arm.model import Arm
-from holdfast.arms.dh_file import text
+from holdfast.arms.dh_file import format_dh_file
 from holdfast.arms.dh_rows import DHTable, dh_table
-from holdfast.ceilings.ceiling import Ceiling, look_up
-from holdfast.ceilings.frames import complement
-from holdfast.ceilings.minors import lack_of_orthonormality, worst_case
-from holdfast.designs.synthesis.axes import axes_of, poses_of
+from holdfast.ceilings.ceiling import UpperBound, upper_bound
+from holdfast.ceilings.frames import orthogonal_complement
+from holdfast.ceilings.minors import measure_orthonormality_error, worst_relative_manipulability
+from holdfast.designs.synthesis.axes import find_joint_axes, find_pose_jacobians
 from holdfast.errors import InputError
-from holdfast.files.output import writing
-from holdfast.grammar import TASKS
+from holdfast.files.output import open_replacement
+from holdfast.grammar import TASK_SIZES
 from holdfast.result import Result
-from holdfast.words import capitalised
+from holdfast.words import capitalise_first
 
 Array = NDArray[np.float64]
 
-_ORTHONORMAL = 1e-9
-_LENGTH = 2.0  # m, sum of |a| and |d|
-_TASKS = ("planar", "position", "pose")
+_ORTHONORMALITY_TOLERANCE = 1e-9
+_TOTAL_LENGTH_M = 2.0  # m, sum of |a| and |d|
+_SYNTHESIS_TASKS = ("planar", "position", "pose")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,18 +55,19 @@ class Synthesis(Result):
     bound: float
 
     def describe(self) -> list[str]:
-        """How many arms, how good, and what rounding took."""
+        """Return the number of arms, their value, and the loss by rounding."""
         n = self.arms[0].n
         return [
-            f"{capitalised(self.task)}, {n} joints: {len(self.arms)} arms with {self.value:.6g} at the configuration of zeros, "
+            f"{capitalise_first(self.task)}, {n} joints: {len(self.arms)} arms with {self.value:.6g} at the "
+            f"configuration of zeros, "
             f"after the worst lock of {self.failures} at once (no arm can beat {self.bound:.6g}); rounding takes "
             f"at most {max(self.losses):.1e}"
         ]
 
 
-@checked
+@check_arguments
 def synthesise(
-    ceiling: Ceiling | None = None,
+    ceiling: UpperBound | None = None,
     *,
     jacobian: ArrayLike | None = None,
     null_space: ArrayLike | None = None,
@@ -76,7 +77,7 @@ def synthesise(
     seed: int = 0,
     decimals: int = 5,
 ) -> Synthesis:
-    """Arms of revolute joints that have a null space, or a Jacobian, at the configuration of zeros.
+    """Make arms of revolute joints that have a null space, or a Jacobian, at the configuration of zeros.
 
     Args:
         ceiling: Takes its best null space and its failures; or give one of the next two.
@@ -94,43 +95,45 @@ def synthesise(
 
     Source: derived here.
     """
-    if sum(x is not None for x in (ceiling, jacobian, null_space)) != 1:
+    if sum(source is not None for source in (ceiling, jacobian, null_space)) != 1:
         raise InputError("give one of a ceiling, a Jacobian and a null space")
-    if task not in _TASKS:
-        raise InputError(f"arms are made for {', '.join(_TASKS)}, not for '{task}'")
-    rows, residual = TASKS[task], 0.0
+    if task not in _SYNTHESIS_TASKS:
+        raise InputError(f"arms are made for {', '.join(_SYNTHESIS_TASKS)}, not for '{task}'")
+    row_count, residual = TASK_SIZES[task], 0.0
     rng = np.random.default_rng(seed)
     if jacobian is not None:
-        given = np.atleast_2d(real_numbers(jacobian, "the Jacobian"))
-        if len(given) != rows:
-            raise InputError(f"the Jacobian has {len(given)} rows; task '{task}' has {rows}")
-        null, found = _null_of(given), [given]
+        given_jacobian = np.atleast_2d(require_real_numbers(jacobian, "the Jacobian"))
+        if len(given_jacobian) != row_count:
+            raise InputError(f"the Jacobian has {len(given_jacobian)} rows; task '{task}' has {row_count}")
+        basis, candidates = _compute_null_space(given_jacobian), [given_jacobian]
     else:
-        null, failures = _given(ceiling, null_space, rows, task, failures)
+        basis, failures = _check_null_space(ceiling, null_space, row_count, task, failures)
         if task == "pose":
-            found, residual = poses_of(null, starts=starts, seed=seed)
-            if not found:
+            candidates, residual = find_pose_jacobians(basis, starts=starts, seed=seed)
+            if not candidates:
                 raise InputError(
                     f"no revolute axes with this null space were found from {starts} starts; the least residual was "
                     f"{residual:.1e}, which proves nothing: give more starts"
                 )
         else:
-            found = [complement(null).T]
+            candidates = [orthogonal_complement(basis).T]
     arms, jacobians, losses = list[Arm](), list[Array](), list[float]()
-    value = worst_case(null, failures)
-    for j in found:
-        turns = (
-            [rng.uniform(-np.pi, np.pi, len(null)) for _ in range(starts)]
+    value = worst_relative_manipulability(basis, failures)
+    for candidate in candidates:
+        angle_sets = (
+            [rng.uniform(-np.pi, np.pi, len(basis)) for _ in range(starts)]
             if task == "position" and jacobian is None
             else [None]
         )
-        for angles in turns:
-            table = _table(*axes_of(j, angles), 1.0 if jacobian is not None else None, task)
-            arm = _rounded(table, decimals, jacobian is not None).arm(name=f"{task}-{len(null)}R")
+        for angles in angle_sets:
+            table = _make_table(*find_joint_axes(candidate, angles), 1.0 if jacobian is not None else None, task)
+            arm = _round_table(table, decimals, jacobian is not None).arm(name=f"{task}-{len(basis)}R")
             arms.append(arm)
-            jacobians.append(j)
-            losses.append(value - worst_case(_null_of(task_rows(arm, task)), failures))
-    bound = (ceiling or look_up(n=len(null), m=rows, k=failures)).bound
+            jacobians.append(candidate)
+            losses.append(
+                value - worst_relative_manipulability(_compute_null_space(compute_task_jacobian(arm, task)), failures)
+            )
+    bound = (ceiling or upper_bound(n=len(basis), m=row_count, k=failures)).bound
     return Synthesis(
         task=task,
         failures=failures,
@@ -143,73 +146,85 @@ def synthesise(
     )
 
 
-def written(arm: Arm, path: Path) -> Path:
+def write_dh_table(arm: Arm, path: Path) -> Path:
     """Write an arm's Denavit-Hartenberg table as a YAML file, which all commands read.
 
     Raises:
         StoreError: It cannot be written.
     """
-    with writing(path) as file:
-        file.write(text(dh_table(arm), arm.name))
+    with open_replacement(path) as file:
+        file.write(format_dh_file(dh_table(arm), arm.name))
     return path
 
 
-def task_rows(arm: Arm, task: str) -> Array:
-    """The task's rows of the Jacobian at the configuration of zeros, (m, n)."""
-    return np.asarray(arm.jacobian(np.zeros(arm.n))[: TASKS[task]])
+def compute_task_jacobian(arm: Arm, task: str) -> Array:
+    """Return the task's rows of the Jacobian at the configuration of zeros, (m, n)."""
+    return np.asarray(arm.jacobian(np.zeros(arm.n))[: TASK_SIZES[task]])
 
 
-def _null_of(jacobian: Array) -> Array:
-    return complement(np.linalg.qr(jacobian.T)[0])
+def _compute_null_space(jacobian: Array) -> Array:
+    return orthogonal_complement(np.linalg.qr(jacobian.T)[0])
 
 
-def _given(ceiling: Ceiling | None, null_space: ArrayLike | None, rows: int, task: str, failures: int) -> tuple[Array, int]:
-    """The null space asked for, checked, and the failures."""
+def _check_null_space(
+    ceiling: UpperBound | None, null_space: ArrayLike | None, row_count: int, task: str, failures: int
+) -> tuple[Array, int]:
+    """Check the requested null space, and return it with the number of failures."""
     if ceiling is not None:
         if ceiling.null_space is None:
             raise InputError(f"no null space is stored for {ceiling.n},{ceiling.m},{ceiling.k}: search for one and give it")
-        null, failures = ceiling.null_space, ceiling.k
+        basis, failures = ceiling.null_space, ceiling.k
     else:
-        null = real_numbers(null_space, "the null space")
-    if null.ndim != 2 or null.shape[0] - null.shape[1] != rows:
-        raise InputError(f"the null space has shape {null.shape}; that of task '{task}' with {rows} rows is (n, n - {rows})")
-    if not lack_of_orthonormality(null) <= _ORTHONORMAL:
-        raise InputError(f"the columns of the null space are not orthonormal: N'N - I is {lack_of_orthonormality(null):.1e}")
-    return null, failures
+        basis = require_real_numbers(null_space, "the null space")
+    if basis.ndim != 2 or basis.shape[0] - basis.shape[1] != row_count:
+        raise InputError(
+            f"the null space has shape {basis.shape}; that of task '{task}' with {row_count} rows is (n, n - {row_count})"
+        )
+    if not measure_orthonormality_error(basis) <= _ORTHONORMALITY_TOLERANCE:
+        raise InputError(
+            f"the columns of the null space are not orthonormal: N'N - I is {measure_orthonormality_error(basis):.1e}"
+        )
+    return basis, failures
 
 
-def _table(w: Array, o: Array, scale: float | None, task: str) -> DHTable:
-    """The table of the arm whose axes these are at zero, the tool at the origin; lengths scaled to 2 m in all if not given."""
-    joints, last = list[Joint](), np.eye(4)
-    for i, (axis, point) in enumerate(zip(w, o, strict=True)):
+def _make_table(directions: Array, origins: Array, scale: float | None, task: str) -> DHTable:
+    """Return the table of the arm with these axes at zero and the tool at the origin; without ``scale`` the lengths
+    sum to 2 m.
+    """
+    joints, last_frame = list[Joint](), np.eye(4)
+    for index, (axis, point) in enumerate(zip(directions, origins, strict=True)):
         frame = np.eye(4)
         frame[:3, :3] = np.linalg.qr(np.column_stack([axis, np.eye(3)]), mode="complete")[0][:, [1, 2, 0]]
         frame[:3, 2] = axis
         frame[:3, 1] = np.cross(axis, frame[:3, 0])
         frame[:3, 3] = point
-        joints.append(Joint(f"joint{i + 1}", "continuous", np.linalg.inv(last) @ frame, axis=np.array([0.0, 0.0, 1.0])))
-        last = frame
-    table = dh_table(Arm(name="lines", joints=tuple(joints), tool=np.asarray(np.linalg.inv(last), np.float64)))
-    length = sum(abs(r.a) + abs(r.d) for r in table.rows[:-1])
-    if scale is None and length > 0:
-        return _table(w, o * (_LENGTH / length), 1.0, task)
+        joints.append(
+            Joint(f"joint{index + 1}", "continuous", np.linalg.inv(last_frame) @ frame, axis=np.array([0.0, 0.0, 1.0]))
+        )
+        last_frame = frame
+    table = dh_table(Arm(name="lines", joints=tuple(joints), tool=np.asarray(np.linalg.inv(last_frame), np.float64)))
+    total_length = sum(abs(row.a) + abs(row.d) for row in table.rows[:-1])
+    if scale is None and total_length > 0:
+        return _make_table(directions, origins * (_TOTAL_LENGTH_M / total_length), 1.0, task)
     return table
 
 
-def _rounded(table: DHTable, decimals: int, placed: bool) -> DHTable:
-    """With its numbers in so many decimals; where the arm is placed its base and tool as they are.
+def _round_table(table: DHTable, decimals: int, keep_frames: bool) -> DHTable:
+    """Return the table with its numbers rounded to ``decimals``; ``keep_frames`` keeps its base and tool unchanged.
 
     Elsewhere the base is the world and the tool is turned as the last row is: relative manipulability knows neither.
     """
 
-    def angle(x: float) -> float:
+    def round_angle(x: float) -> float:
         return float(np.radians(round(float(np.degrees(x)), decimals - 2)))
 
     rows = tuple(
-        replace(r, a=round(r.a, decimals), d=round(r.d, decimals), alpha=angle(r.alpha), theta=angle(r.theta))
-        for r in table.rows
+        replace(
+            row, a=round(row.a, decimals), d=round(row.d, decimals), alpha=round_angle(row.alpha), theta=round_angle(row.theta)
+        )
+        for row in table.rows
     )
-    if placed:
+    if keep_frames:
         return DHTable(rows, table.base, table.tool)
     tool = np.eye(4)
     tool[:3, 3] = np.round(table.tool[:3, 3], decimals)

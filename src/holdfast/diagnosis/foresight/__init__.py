@@ -1,1 +1,1 @@
-"""What a motion will show of locks, before it is made, and motions made to show them."""
+"""Predict which locks a motion will make detectable, and plan motions that isolate them."""

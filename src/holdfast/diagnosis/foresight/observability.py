@@ -1,4 +1,4 @@
-"""What a motion will show of locks, before it is made: which joints, how soon, and which not from which."""
+"""Predict which single locked joints a motion makes detectable, with which delay, and which of them are not separable."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.foresight.delay import expected_delays
-from holdfast.diagnosis.foresight.motions import resampled
-from holdfast.diagnosis.foresight.probe import RATE
-from holdfast.diagnosis.foresight.separation import separations, together, unseen
+from holdfast.diagnosis.foresight.motions import resample_motion
+from holdfast.diagnosis.foresight.probe import PLAN_RATE_HZ
+from holdfast.diagnosis.foresight.separation import hypothesis_separations, inseparable_pairs, undetectable_joints
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-_ONSETS = 40  # times along the motion at which a joint may lock
-_BANDWIDTH = 2 * np.pi * 10  # rad/s, of servos that nobody described
-_MOVES = 2.0  # times dry friction: so much gravity moves a joint whose motor is dead
+_ONSET_COUNT = 40  # times along the motion at which a joint may lock
+_SERVO_BANDWIDTH_RAD_S = 2 * np.pi * 10  # rad/s, of servos that nobody described
+_MOVING_FRICTION_FACTOR = 2.0  # times dry friction: so much gravity moves a joint whose motor is dead
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Observability(Result):
-    """What a motion shows of locks. Hypothesis 0 is that nothing is locked.
+    """Detectability of locked joints on a motion. Hypothesis 0 is that no joint is locked.
 
     Attributes:
         arm: The arm.
@@ -51,42 +51,46 @@ class Observability(Result):
 
     @cached_property
     def unseen(self) -> tuple[str, ...]:
-        """Joints whose lock the tool's pose does not show."""
-        return tuple(self.arm.joint_names[i] for i in unseen(self.separation, range(self.arm.n)))
+        """Joints whose lock the tool's pose does not reveal."""
+        return tuple(self.arm.joint_names[joint] for joint in undetectable_joints(self.separation, range(self.arm.n)))
 
     @cached_property
     def together(self) -> tuple[tuple[str, str], ...]:
-        """Pairs of joints whose locks the tool's pose shows and does not tell apart."""
+        """Pairs of joints whose locks the tool's pose reveals but does not distinguish."""
         names = self.arm.joint_names
-        return tuple((names[i], names[j]) for i, j in together(self.separation, range(self.arm.n)))
+        return tuple((names[first], names[second]) for first, second in inseparable_pairs(self.separation, range(self.arm.n)))
 
     def describe(self) -> list[str]:
-        """Seen or not, by the tool's pose and by the joints; what stays together."""
-        names, n = self.arm.joint_names, self.arm.n
-        seen = f"{n - len(self.unseen)} of {n} joints"
-        lines = [f"the tool's pose alone shows the lock of {seen} on this motion of {self.duration:.3g} s"]
+        """Describe which locks the tool's pose and the joint signals detect, and which pairs are not separable."""
+        names, joint_count = self.arm.joint_names, self.arm.n
+        detectable = f"{joint_count - len(self.unseen)} of {joint_count} joints"
+        lines = [f"the tool's pose alone shows the lock of {detectable} on this motion of {self.duration:.3g} s"]
         lines += [f"not shown: {', '.join(self.unseen)}"] if self.unseen else []
-        lines += [f"locks of {a} and {b} cannot be told apart" for a, b in self.together]
+        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.together]
         if self.delays is not None and self.strayed is not None:
-            found = np.isfinite(self.delays)
-            for k, name in enumerate(names):
-                here = found[:, k]
-                if not here.any():
+            is_detected = np.isfinite(self.delays)
+            for index, name in enumerate(names):
+                joint_detected = is_detected[:, index]
+                if not joint_detected.any():
                     lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
                     continue
-                late, far = np.median(self.delays[here, k]), np.median(self.strayed[here, k])
+                median_delay, median_error = (
+                    np.median(self.delays[joint_detected, index]),
+                    np.median(self.strayed[joint_detected, index]),
+                )
                 lines.append(
-                    f"a lock of {name} is noticed after {1e3 * late:.3g} ms, with the tool {1e3 * far:.2g} mm off (medians; "
-                    f"{here.mean():.0%} of the times at which it may lock)"
+                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool "
+                    f"{1e3 * median_error:.2g} mm off (medians; "
+                    f"{joint_detected.mean():.0%} of the times at which it may lock)"
                 )
         if self.alike:
             lines.append(f"locked and free-swinging look alike, for gravity is small: {', '.join(self.alike)}")
         return lines
 
 
-@checked
-@says("looking ahead")
-def observe(
+@check_arguments
+@reports_progress("looking ahead")
+def predict_detection(
     arm: Arm,
     motion: ArrayLike,
     *,
@@ -96,7 +100,7 @@ def observe(
     stiffness: ArrayLike | None = None,
     damping: ArrayLike | None = None,
 ) -> Observability:
-    """What a motion will show of locks of single joints, before it is made.
+    """Predict which locks of single joints a motion makes detectable, before the arm executes it.
 
     Args:
         arm: The arm.
@@ -112,51 +116,63 @@ def observe(
             and damping.
         ArmError: With bounds and without stiffness, if inertial data are missing or impossible.
 
-    Source: derived here; see :func:`holdfast.diagnosis.expected_delays` and :func:`holdfast.diagnosis.plan_probe`.
+    Source: derived here; see :func:`holdfast.diagnosis.expected_delays` and :func:`holdfast.diagnosis.plan_identification`.
     """
-    q = arm.check_configurations(motion)
-    if q.ndim != 2 or len(q) < 2 or not rate > 0:
+    references = arm.check_configurations(motion)
+    if references.ndim != 2 or len(references) < 2 or not rate > 0:
         raise InputError(
-            f"motion has shape {q.shape} at {rate:g} Hz; it must be two configurations or more, and a rate above 0"
+            f"motion has shape {references.shape} at {rate:g} Hz; it must be two configurations or more, and a rate above 0"
         )
     if (stiffness is None) != (damping is None):
         raise InputError("only one of stiffness and damping is given; give both, or neither")
-    some, duration = resampled(q, rate, RATE) if rate > RATE else q, (len(q) - 1) / rate
+    sampled, duration = (
+        resample_motion(references, rate, PLAN_RATE_HZ) if rate > PLAN_RATE_HZ else references,
+        (len(references) - 1) / rate,
+    )
     delays = strayed = alike = None
     if bounds is not None:
         bounds.require(arm, bounds.rate)
-        q = resampled(q, rate, bounds.rate)
+        references = resample_motion(references, rate, bounds.rate)
         torques = bool(np.isfinite(bounds.torque).all())
         if stiffness is None and torques:
-            inertia = arm.inertia_diagonal(some).max(axis=0)
-            stiffness, damping = _BANDWIDTH**2 * inertia, 2 * _BANDWIDTH * inertia
+            inertia = arm.inertia_diagonal(sampled).max(axis=0)
+            stiffness, damping = _SERVO_BANDWIDTH_RAD_S**2 * inertia, 2 * _SERVO_BANDWIDTH_RAD_S * inertia
         elif stiffness is None:
             stiffness = damping = np.zeros(arm.n)
-        onsets = np.unique(np.linspace(0, 0.9 * (len(q) - 2), _ONSETS).astype(int))
+        onsets = np.unique(np.linspace(0, 0.9 * (len(references) - 2), _ONSET_COUNT).astype(int))
         delays = np.array(
-            [expected_delays(bounds, q, stiffness=stiffness, damping=damping, onset=k / bounds.rate) for k in onsets]  # type: ignore[arg-type]
+            [
+                expected_delays(
+                    bounds,
+                    references,
+                    stiffness=stiffness,
+                    damping=damping,  # type: ignore[arg-type]
+                    onset=onset / bounds.rate,
+                )
+                for onset in onsets
+            ]
         )
-        strayed = _strayed(arm, q, onsets, np.where(np.isfinite(delays), delays, 0.0) * bounds.rate)
+        strayed = _tool_errors(arm, references, onsets, np.where(np.isfinite(delays), delays, 0.0) * bounds.rate)
         if torques:
-            least = np.abs(arm.gravity_torque(some)).max(axis=0) < _MOVES * bounds.coulomb
-            alike = tuple(name for name, small in zip(arm.joint_names, least, strict=True) if small)
+            has_small_gravity = np.abs(arm.gravity_torque(sampled)).max(axis=0) < _MOVING_FRICTION_FACTOR * bounds.coulomb
+            alike = tuple(name for name, is_ambiguous in zip(arm.joint_names, has_small_gravity, strict=True) if is_ambiguous)
     return Observability(
         arm=arm,
         duration=duration,
-        separation=separations(arm, some, sensors or Sensors()),
+        separation=hypothesis_separations(arm, sampled, sensors or Sensors()),
         delays=delays,
         strayed=strayed,
         alike=alike,
     )
 
 
-def _strayed(arm: Arm, q: Array, onsets: NDArray[np.int64], later: Array) -> Array:
-    """(K, n) m, the tool off its way so many samples after each joint locked."""
-    out = np.zeros(later.shape)
-    for k, onset in enumerate(onsets):
-        rows = np.minimum(onset + np.round(later[k]).astype(int), len(q) - 1)
+def _tool_errors(arm: Arm, q: Array, onsets: NDArray[np.int64], delay_rows: Array) -> Array:
+    """Return the tool position errors (K, n), m, a given number of samples after each joint locked."""
+    errors = np.zeros(delay_rows.shape)
+    for index, onset in enumerate(onsets):
+        rows = np.minimum(onset + np.round(delay_rows[index]).astype(int), len(q) - 1)
         locked = q[rows].copy()
         np.fill_diagonal(locked, q[onset])
-        apart = arm.forward_kinematics(locked)[:, :3, 3] - arm.forward_kinematics(q[rows])[:, :3, 3]
-        out[k] = np.linalg.norm(apart, axis=1)
-    return out
+        displacements = arm.forward_kinematics(locked)[:, :3, 3] - arm.forward_kinematics(q[rows])[:, :3, 3]
+        errors[index] = np.linalg.norm(displacements, axis=1)
+    return errors

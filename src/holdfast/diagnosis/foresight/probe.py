@@ -1,4 +1,4 @@
-"""Self-motions that tell which joint is locked: planned, and decided from the tool's measured pose alone."""
+"""Self-motions that isolate a locked joint: planned, and evaluated from the tool's measured pose alone."""
 
 from __future__ import annotations
 
@@ -9,45 +9,45 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
-from holdfast.diagnosis.foresight.motions import resampled
+from holdfast.diagnosis.foresight.motions import resample_motion
 from holdfast.diagnosis.foresight.separation import (
-    LIKELY,
-    differences,
-    hypotheses,
+    LOG_LIKELIHOOD_THRESHOLD,
+    hypothesis_separations,
+    inseparable_pairs,
     null_space,
+    pose_differences,
+    pose_weights,
+    project_to_task,
     self_motion_rates,
-    separations,
-    task_rows,
-    together,
-    unseen,
-    weights,
+    tool_poses_by_hypothesis,
+    undetectable_joints,
 )
 from holdfast.diagnosis.sensors import Sensors
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 from holdfast.files.output import write_table
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.paths.joint_table import joint_columns
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
-RATE = 100.0  # Hz, of the plan
-BEFORE, AFTER, RAMP = 0.2, 0.3, 0.3  # s at rest, s of acceleration
-_ROOM = 0.05  # rad or m from a limit
-_DIRECTIONS, _LEGS = 24, 3
-_INVISIBLE = 1e-6  # of a unit rate
+PLAN_RATE_HZ = 100.0  # Hz, of the plan
+REST_BEFORE_S, REST_AFTER_S, RAMP_TIME_S = 0.2, 0.3, 0.3  # s at rest, s of acceleration
+_LIMIT_MARGIN = 0.05  # rad or m from a limit
+_DIRECTION_COUNT, _MAX_LEGS = 24, 3
+_MIN_VISIBLE_RATE = 1e-6  # of a unit rate
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Probe(Result):
-    """A self-motion, with what it can tell. Joints count from 0; hypothesis 0 is that nothing is locked.
+class ProbingMotion(Result):
+    """Self-motion with the locks that it can isolate. Joints count from 0; hypothesis 0 is that no joint is locked.
 
     Attributes:
         arm: The arm.
@@ -73,38 +73,38 @@ class Probe(Result):
 
     @cached_property
     def untestable(self) -> tuple[str, ...]:
-        """Suspects whose lock the tool's pose does not show on this motion."""
-        return tuple(self.arm.joint_names[i] for i in unseen(self.separation, self.suspects))
+        """Candidate joints whose lock the tool's pose does not reveal on this motion."""
+        return tuple(self.arm.joint_names[joint] for joint in undetectable_joints(self.separation, self.suspects))
 
     @cached_property
     def together(self) -> tuple[tuple[str, str], ...]:
-        """Pairs of testable suspects that it does not tell apart."""
+        """Pairs of testable candidate joints that the motion does not distinguish."""
         names = self.arm.joint_names
-        return tuple((names[i], names[j]) for i, j in together(self.separation, self.suspects))
+        return tuple((names[first], names[second]) for first, second in inseparable_pairs(self.separation, self.suspects))
 
     @property
     def told_apart(self) -> tuple[str, ...]:
-        """Suspects that are told from health and from every other suspect."""
-        pairs = {name for pair in self.together for name in pair}
-        names = [self.arm.joint_names[i] for i in self.suspects]
-        return tuple(name for name in names if name not in self.untestable and name not in pairs)
+        """Candidate joints that are distinguished from a healthy arm and from every other candidate joint."""
+        inseparable = {name for pair in self.together for name in pair}
+        names = [self.arm.joint_names[joint] for joint in self.suspects]
+        return tuple(name for name in names if name not in self.untestable and name not in inseparable)
 
     def describe(self) -> list[str]:
-        """What the motion can tell and what not, before anything moves."""
+        """Describe which locks the motion can isolate, before anything moves."""
         names = self.arm.joint_names
         lines = [
             f"a self-motion of {self.t[-1]:.3g} s tells {len(self.told_apart)} of {len(self.suspects)} suspects apart"
             + (f": {', '.join(self.told_apart)}" if self.told_apart else "")
         ]
         for name in self.untestable:
-            still = self.visible[names.index(name)] < _INVISIBLE
-            never = ": no self-motion moves it here, and its lock is not tolerable here either" if still else ""
-            lines.append(f"a lock of {name} cannot be tested{never}")
-        lines += [f"locks of {a} and {b} cannot be told apart" for a, b in self.together]
+            is_invisible = self.visible[names.index(name)] < _MIN_VISIBLE_RATE
+            reason = ": no self-motion moves it here, and its lock is not tolerable here either" if is_invisible else ""
+            lines.append(f"a lock of {name} cannot be tested{reason}")
+        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.together]
         return [*lines, f"the tool stays within {1e3 * self.tool:.2g} mm of where it is while nothing is locked"]
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the references: ``time_s`` and a column for each joint, as other motions are written.
+        """Write the references as other motions are written: ``time_s`` and a column for each joint.
 
         Raises:
             StoreError: It cannot be written.
@@ -112,17 +112,17 @@ class Probe(Result):
         return write_table(file, "probe", ["time_s", *joint_columns(self.arm)], np.column_stack([self.t, self.q]))
 
     def at(self, rate: float) -> Array:
-        """References (K, n) at so many samples a second, in straight lines between those of the plan."""
-        return resampled(self.q, RATE, rate)
+        """Return the references (K, n) at a sample rate in Hz, by linear interpolation of the plan."""
+        return resample_motion(self.q, PLAN_RATE_HZ, rate)
 
-    def decide(self, log: Log) -> Finding:
-        """What a record of this motion shows; see :func:`holdfast.diagnosis.decide`."""
-        return decide(self.arm, log, suspects=[self.arm.joint_names[i] for i in self.suspects], sensors=self.sensors)
+    def decide(self, log: Log) -> Identification:
+        """Identify the locked joint from a recording of this motion; see :func:`holdfast.diagnosis.identify`."""
+        return identify(self.arm, log, suspects=[self.arm.joint_names[joint] for joint in self.suspects], sensors=self.sensors)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Finding(Result):
-    """What a record of a probe showed of locks.
+class Identification(Result):
+    """Identification of a locked joint from a recording of a probing motion.
 
     Attributes:
         joint: The locked one; None if it was not decided, or none of the suspects is.
@@ -139,19 +139,19 @@ class Finding(Result):
     displacement: float
 
     def describe(self) -> list[str]:
-        """The locked joint, or what remains possible."""
-        at = f"{self.time:.3g} s, with the tool {1e3 * self.displacement:.2g} mm from its rest"
+        """Describe the locked joint, or the remaining hypotheses."""
+        decision_point = f"{self.time:.3g} s, with the tool {1e3 * self.displacement:.2g} mm from its rest"
         if self.joint is not None:
-            return [f"{self.joint} is locked: decided after {at}"]
+            return [f"{self.joint} is locked: decided after {decision_point}"]
         if self.remaining == ("none",):
-            return [f"none of the suspects is locked: decided after {at}"]
-        lines = [f"not decided after {at}: what remains possible is {', '.join(self.remaining)}"]
+            return [f"none of the suspects is locked: decided after {decision_point}"]
+        lines = [f"not decided after {decision_point}: what remains possible is {', '.join(self.remaining)}"]
         return lines + ([f"not locked: {', '.join(self.cleared)}"] if self.cleared else [])
 
 
-@checked
-@says("planning a self-motion")
-def plan_probe(
+@check_arguments
+@reports_progress("planning a self-motion")
+def plan_identification(
     arm: Arm,
     q: ArrayLike,
     *,
@@ -163,8 +163,8 @@ def plan_probe(
     clearance: Clearance | None = None,
     margin: float = 0.0,
     seed: int = 0,
-) -> Probe:
-    """A self-motion that tells apart which joint is locked, from the tool's pose alone.
+) -> ProbingMotion:
+    """Plan a self-motion from which the tool's pose alone reveals which joint is locked.
 
     With one degree of redundancy it goes one of the two ways, with more one of 24 random ones: that which tells most pairs of
     suspects apart. Where pairs remain it goes on from its end, three legs at most.
@@ -186,48 +186,66 @@ def plan_probe(
 
     Source: derived here; the bound on what any motion can tell is Wald's.
     """
-    rows, sensors = as_task(arm, task), sensors or Sensors()
-    here = arm.check_configurations(q)
-    if here.ndim != 1:
-        raise InputError(f"q has shape {here.shape}; it must be one configuration")
-    if arm.n <= rows.m:
-        raise InputError(f"'{arm.name}' has no redundancy for task '{rows.name}', so it has no self-motions; keep fewer rows")
-    if not duration > 2 * RAMP or not speed > 0:
-        raise InputError(f"duration is {duration:g} s and speed {speed:g}; they must be above {2 * RAMP:g} and above 0")
-    if clearance is not None and not clearance(here) > margin:
+    required_task, sensors = as_task(arm, task), sensors or Sensors()
+    start = arm.check_configurations(q)
+    if start.ndim != 1:
+        raise InputError(f"q has shape {start.shape}; it must be one configuration")
+    if arm.n <= required_task.m:
+        raise InputError(
+            f"'{arm.name}' has no redundancy for task '{required_task.name}', so it has no self-motions; keep fewer rows"
+        )
+    if not duration > 2 * RAMP_TIME_S or not speed > 0:
+        raise InputError(f"duration is {duration:g} s and speed {speed:g}; they must be above {2 * RAMP_TIME_S:g} and above 0")
+    if clearance is not None and not clearance(start) > margin:
         raise InputError("the configuration is not clear of itself or of the cell by the margin; begin elsewhere")
-    chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(s) for s in suspects)
-    rng, motion, best = np.random.default_rng(seed), np.repeat(here[None], round(BEFORE * RATE), axis=0), (-1, 0.0)
-    ids = [0, *(i + 1 for i in chosen)]
-    pairs = len(ids) * (len(ids) - 1) // 2
-    for _ in range(_LEGS):
-        legs = [_timed(leg, speed) for leg in _traced(arm, rows, motion[-1], here, (duration - RAMP) * speed, speed, rng)]
-        tried = [np.concatenate([motion, _clear(arm, motion, leg, chosen, clearance, margin)]) for leg in legs]
-        scores = [_score(separations(arm, trial, sensors)[np.ix_(ids, ids)]) for trial in tried]
-        top = max(range(len(tried)), key=lambda k: scores[k])
-        if scores[top] <= best:
+    chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(candidate) for candidate in suspects)
+    rng, motion, best_score = (
+        np.random.default_rng(seed),
+        np.repeat(start[None], round(REST_BEFORE_S * PLAN_RATE_HZ), axis=0),
+        (-1, 0.0),
+    )
+    hypothesis_indices = [0, *(candidate_index + 1 for candidate_index in chosen)]
+    pairs = len(hypothesis_indices) * (len(hypothesis_indices) - 1) // 2
+    for _ in range(_MAX_LEGS):
+        legs = [
+            _time_curve(leg, speed)
+            for leg in _trace_self_motions(arm, required_task, motion[-1], start, (duration - RAMP_TIME_S) * speed, speed, rng)
+        ]
+        trials = [np.concatenate([motion, _collision_free_part(arm, motion, leg, chosen, clearance, margin)]) for leg in legs]
+        scores = [
+            _score_separation(hypothesis_separations(arm, trial, sensors)[np.ix_(hypothesis_indices, hypothesis_indices)])
+            for trial in trials
+        ]
+        best_trial = max(range(len(trials)), key=lambda k: scores[k])
+        if scores[best_trial] <= best_score:
             break
-        motion, best = tried[top], scores[top]
-        if best[0] == pairs:
+        motion, best_score = trials[best_trial], scores[best_trial]
+        if best_score[0] == pairs:
             break
-    motion = np.concatenate([motion, np.repeat(motion[-1:], round(AFTER * RATE), axis=0)])
+    motion = np.concatenate([motion, np.repeat(motion[-1:], round(REST_AFTER_S * PLAN_RATE_HZ), axis=0)])
     poses = arm.forward_kinematics(motion)
-    return Probe(
+    return ProbingMotion(
         arm=arm,
-        task=rows,
+        task=required_task,
         suspects=chosen,
-        t=np.arange(len(motion)) / RATE,
+        t=np.arange(len(motion)) / PLAN_RATE_HZ,
         q=motion,
-        separation=separations(arm, motion, sensors),
-        visible=self_motion_rates(arm, here, rows),
+        separation=hypothesis_separations(arm, motion, sensors),
+        visible=self_motion_rates(arm, start, required_task),
         sensors=sensors,
-        tool=float(np.linalg.norm(task_rows(arm, rows, motion, differences(poses, poses[0])[..., None])[..., 0], axis=1).max()),
+        tool=float(
+            np.linalg.norm(
+                project_to_task(arm, required_task, motion, pose_differences(poses, poses[0])[..., None])[..., 0], axis=1
+            ).max()
+        ),
     )
 
 
-@checked
-def decide(arm: Arm, log: Log, *, suspects: Sequence[str | int] | None = None, sensors: Sensors | None = None) -> Finding:
-    """Which joint is locked, from the tool's measured pose on a motion alone; no joint sensor is looked at.
+@check_arguments
+def identify(
+    arm: Arm, log: Log, *, suspects: Sequence[str | int] | None = None, sensors: Sensors | None = None
+) -> Identification:
+    """Identify the locked joint from the tool's measured pose on a motion alone, without the joint sensors.
 
     Samples are taken in their order until one hypothesis leads all others by ``ln 10^4``. The mean over the rest before the
     motion is taken off.
@@ -247,91 +265,115 @@ def decide(arm: Arm, log: Log, *, suspects: Sequence[str | int] | None = None, s
         raise InputError(f"the record has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
     if log.x is None or log.quat is None:
         raise InputError("the record has no measured pose of the tool; record x and quat")
-    chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(s) for s in suspects)
-    there = np.flatnonzero(np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
-    moved = np.abs(log.q_ref - log.q_ref[0]).max(axis=1) > 1e-9
-    resting = there[there < (int(moved.argmax()) if moved.any() else len(moved))]
+    chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(candidate) for candidate in suspects)
+    pose_rows = np.flatnonzero(np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
+    is_moving = np.abs(log.q_ref - log.q_ref[0]).max(axis=1) > 1e-9
+    resting = pose_rows[pose_rows < (int(is_moving.argmax()) if is_moving.any() else len(is_moving))]
     if not resting.size:
         raise InputError("the tool's pose is not measured before the references move; begin the record at rest")
-    measured = np.zeros((len(there), 4, 4))
-    measured[:, :3, :3], measured[:, :3, 3] = rotations_of_quaternions(log.quat[there]), log.x[there]
-    motion = np.concatenate([log.q_ref[:1], log.q_ref[there]])
-    ids = [0, *(i + 1 for i in chosen)]
-    error = differences(measured, hypotheses(arm, motion)[ids, 1:])
-    error -= error[:, : len(resting)].mean(axis=1, keepdims=True)
-    likely = -np.cumsum(((error * weights(sensors or Sensors())) ** 2).sum(axis=2), axis=1) / 2
-    behind = np.sort(likely, axis=0)[-2]
-    done = likely.max(axis=0) - behind > LIKELY
-    row = int(done.argmax()) if done.any() else len(there) - 1
-    final, names = likely[:, row], ["none", *(arm.joint_names[i] for i in chosen)]
-    remaining = tuple(name for name, value in zip(names, final, strict=True) if final.max() - value <= LIKELY)
-    return Finding(
+    measured = np.zeros((len(pose_rows), 4, 4))
+    measured[:, :3, :3], measured[:, :3, 3] = rotations_of_quaternions(log.quat[pose_rows]), log.x[pose_rows]
+    motion = np.concatenate([log.q_ref[:1], log.q_ref[pose_rows]])
+    hypothesis_indices = [0, *(candidate_index + 1 for candidate_index in chosen)]
+    pose_errors = pose_differences(measured, tool_poses_by_hypothesis(arm, motion)[hypothesis_indices, 1:])
+    pose_errors -= pose_errors[:, : len(resting)].mean(axis=1, keepdims=True)
+    log_likelihoods = -np.cumsum(((pose_errors * pose_weights(sensors or Sensors())) ** 2).sum(axis=2), axis=1) / 2
+    runner_up = np.sort(log_likelihoods, axis=0)[-2]
+    is_decided = log_likelihoods.max(axis=0) - runner_up > LOG_LIKELIHOOD_THRESHOLD
+    row = int(is_decided.argmax()) if is_decided.any() else len(pose_rows) - 1
+    final_likelihoods, names = (
+        log_likelihoods[:, row],
+        ["none", *(arm.joint_names[candidate_index] for candidate_index in chosen)],
+    )
+    remaining = tuple(
+        name
+        for name, value in zip(names, final_likelihoods, strict=True)
+        if final_likelihoods.max() - value <= LOG_LIKELIHOOD_THRESHOLD
+    )
+    return Identification(
         joint=remaining[0] if remaining[1:] == () and remaining[0] != "none" else None,
         remaining=remaining,
-        cleared=tuple(name for name, value in zip(names[1:], final[1:], strict=True) if final[0] - value > LIKELY),
-        time=float(log.t[there[row]]),
-        displacement=float(np.linalg.norm(log.x[there[row]] - log.x[resting].mean(axis=0))),
+        cleared=tuple(
+            name
+            for name, value in zip(names[1:], final_likelihoods[1:], strict=True)
+            if final_likelihoods[0] - value > LOG_LIKELIHOOD_THRESHOLD
+        ),
+        time=float(log.t[pose_rows[row]]),
+        displacement=float(np.linalg.norm(log.x[pose_rows[row]] - log.x[resting].mean(axis=0))),
     )
 
 
-def _score(apart: Array) -> tuple[int, float]:
-    """Pairs that are told apart, and how well."""
-    upper = apart[np.triu_indices(len(apart), 1)]
-    return int((upper > LIKELY).sum()), float(np.minimum(upper, 3 * LIKELY).sum())
+def _score_separation(separation: Array) -> tuple[int, float]:
+    """Return the number of separable pairs of hypotheses, and a measure of how well they are separated."""
+    pair_separations = separation[np.triu_indices(len(separation), 1)]
+    return int((pair_separations > LOG_LIKELIHOOD_THRESHOLD).sum()), float(
+        np.minimum(pair_separations, 3 * LOG_LIKELIHOOD_THRESHOLD).sum()
+    )
 
 
-def _traced(
+def _trace_self_motions(
     arm: Arm, task: Task, start: Array, home: Array, length: float, speed: float, rng: np.random.Generator
 ) -> list[Array]:
-    """Curves (K, n) of the self-motion from ``start``, in steps of 1/100 s at ``speed``, as long as limits let them be."""
-    step = speed / RATE
-    _, null = null_space(arm, task, start[None])
-    if null.shape[2] == 1:
-        directions = np.array([null[0, :, 0], -null[0, :, 0]])
+    """Trace curves (K, n) of the self-motion from ``start``, in steps of 1/100 s at ``speed``, until the joint limits stop
+    them.
+    """
+    step_length = speed / PLAN_RATE_HZ
+    _, null_basis = null_space(arm, task, start[None])
+    if null_basis.shape[2] == 1:
+        directions = np.array([null_basis[0, :, 0], -null_basis[0, :, 0]])
     else:
-        directions = rng.normal(size=(_DIRECTIONS, null.shape[2])) @ null[0].T
-    z = directions / np.linalg.norm(directions, axis=1, keepdims=True)
-    q, pose = np.repeat(start[None], len(z), axis=0), arm.forward_kinematics(home)
-    curves, count, going = [q], np.ones(len(z), dtype=int), np.ones(len(z), dtype=bool)
+        directions = rng.normal(size=(_DIRECTION_COUNT, null_basis.shape[2])) @ null_basis[0].T
+    tangents = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    configurations, tool_pose = np.repeat(start[None], len(tangents), axis=0), arm.forward_kinematics(home)
+    curves, count, is_active = [configurations], np.ones(len(tangents), dtype=int), np.ones(len(tangents), dtype=bool)
     # Where it begins within the room of a limit it may leave that.
-    low, high = np.minimum(arm.lower + _ROOM, start), np.maximum(arm.upper - _ROOM, start)
-    for _ in range(int(length / step)):
-        inverse, null = null_space(arm, task, q)
-        z = np.einsum("bnk,bmk,bm->bn", null, null, z)
-        size = np.linalg.norm(z, axis=1, keepdims=True)
-        z = z / np.maximum(size, 1e-12)
-        off = task_rows(arm, task, q, differences(np.broadcast_to(pose, (len(q), 4, 4)), arm.forward_kinematics(q))[..., None])
-        new = q + step * z + 0.5 * (inverse @ off)[..., 0]
-        going &= (size[:, 0] > 1e-6) & ((new >= low) & (new <= high)).all(axis=1)
-        if not going.any():
+    lower, upper = np.minimum(arm.lower + _LIMIT_MARGIN, start), np.maximum(arm.upper - _LIMIT_MARGIN, start)
+    for _ in range(int(length / step_length)):
+        inverse, null_basis = null_space(arm, task, configurations)
+        tangents = np.einsum("bnk,bmk,bm->bn", null_basis, null_basis, tangents)
+        norms = np.linalg.norm(tangents, axis=1, keepdims=True)
+        tangents = tangents / np.maximum(norms, 1e-12)
+        task_errors = project_to_task(
+            arm,
+            task,
+            configurations,
+            pose_differences(np.broadcast_to(tool_pose, (len(configurations), 4, 4)), arm.forward_kinematics(configurations))[
+                ..., None
+            ],
+        )
+        next_q = configurations + step_length * tangents + 0.5 * (inverse @ task_errors)[..., 0]
+        is_active &= (norms[:, 0] > 1e-6) & ((next_q >= lower) & (next_q <= upper)).all(axis=1)
+        if not is_active.any():
             break
-        q = np.where(going[:, None], new, q)
-        curves.append(q)
-        count += going
-    whole = np.stack(curves, axis=1)
-    return [whole[k, : count[k]] for k in range(len(z))]
+        configurations = np.where(is_active[:, None], next_q, configurations)
+        curves.append(configurations)
+        count += is_active
+    all_curves = np.stack(curves, axis=1)
+    return [all_curves[index, : count[index]] for index in range(len(tangents))]
 
 
-def _timed(curve: Array, speed: float) -> Array:
-    """A curve in steps of 1/100 s at ``speed`` as motion that speeds up and slows down within 0.3 s each."""
-    length = (len(curve) - 1) * speed / RATE
-    ramp = min(RAMP, length / speed)
+def _time_curve(curve: Array, speed: float) -> Array:
+    """Turn a curve in steps of 1/100 s at ``speed`` into a motion that accelerates and decelerates within 0.3 s each."""
+    length = (len(curve) - 1) * speed / PLAN_RATE_HZ
+    ramp = min(RAMP_TIME_S, length / speed)
     total = length / speed + ramp
-    t = np.arange(1, int(np.ceil(total * RATE)) + 1) / RATE
-    rise = np.minimum(t, ramp) ** 2 / (2 * max(ramp, 1e-9)) + np.maximum(t - ramp, 0.0)
-    fall = np.maximum(t - (total - ramp), 0.0) ** 2 / (2 * max(ramp, 1e-9))
-    s = np.clip((rise - fall) * speed, 0.0, length)
-    along = np.arange(len(curve)) * speed / RATE
-    return np.stack([np.interp(s, along, column) for column in curve.T], axis=1)
+    times = np.arange(1, int(np.ceil(total * PLAN_RATE_HZ)) + 1) / PLAN_RATE_HZ
+    accelerated = np.minimum(times, ramp) ** 2 / (2 * max(ramp, 1e-9)) + np.maximum(times - ramp, 0.0)
+    decelerated = np.maximum(times - (total - ramp), 0.0) ** 2 / (2 * max(ramp, 1e-9))
+    arc_length = np.clip((accelerated - decelerated) * speed, 0.0, length)
+    curve_lengths = np.arange(len(curve)) * speed / PLAN_RATE_HZ
+    return np.stack([np.interp(arc_length, curve_lengths, column) for column in curve.T], axis=1)
 
 
-def _clear(arm: Arm, before: Array, leg: Array, suspects: tuple[int, ...], clearance: Clearance | None, margin: float) -> Array:
-    """The part of a leg on which the arm is clear, whichever suspect is locked."""
+def _collision_free_part(
+    arm: Arm, earlier_motion: Array, leg: Array, candidates: tuple[int, ...], clearance: Clearance | None, margin: float
+) -> Array:
+    """Return the part of a leg that is collision-free with any single candidate joint locked."""
     if clearance is None or not len(leg):
         return leg
-    free = np.asarray(clearance(leg)) > margin
-    for i in suspects:
+    is_free = np.asarray(clearance(leg)) > margin
+    for joint in candidates:
         locked = leg.copy()
-        locked[:, i] = before[0, i]
-        free &= np.asarray(clearance(locked)) > margin
-    return leg[: len(leg) if free.all() else int((~free).argmax())]
+        locked[:, joint] = earlier_motion[0, joint]
+        is_free &= np.asarray(clearance(locked)) > margin
+    return leg[: len(leg) if is_free.all() else int((~is_free).argmax())]

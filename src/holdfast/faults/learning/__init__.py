@@ -1,1 +1,1 @@
-"""Faults in environments of Gymnasium, one or many at once, and their episodes as records."""
+"""Faults in environments of Gymnasium, one or many at once, and their recorded episodes."""

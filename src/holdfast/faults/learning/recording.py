@@ -1,4 +1,4 @@
-"""Episodes of an environment as records in a folder, one after the other, and read back."""
+"""Write the episodes of an environment one after the other into a folder, and read them back."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 from holdfast.errors import InputError, StoreError
 from holdfast.faults.events import FaultEvent, FaultEvents
 from holdfast.faults.log import Log
-from holdfast.files.output import guarded, made
+from holdfast.files.output import guard_writing, make_folder
 from holdfast.provenance import versions
 
 Array = NDArray[np.float64]
 
-INDEX = "episodes.jsonl"
+INDEX_FILE_NAME = "episodes.jsonl"
 
 
 @dataclass(frozen=True)
 class Episode:
-    """One recorded episode.
+    """Recorded episode.
 
     Attributes:
         file: ``000000.npz``, with the arrays of a :class:`holdfast.faults.Log` (``q_ref`` is NaN for joints that follow no
@@ -51,7 +51,7 @@ class Episode:
     success: bool | None = None
 
     def log(self) -> Log:
-        """Its record.
+        """Load the log of the episode.
 
         Raises:
             InputError: It cannot be read.
@@ -59,30 +59,30 @@ class Episode:
         return Log.load(self.file)
 
 
-def recorded(folder: str | Path) -> tuple[Episode, ...]:
-    """The episodes that a :class:`holdfast.faults.FaultWrapper` recorded in a folder, in order.
+def read_episodes(folder: str | Path) -> tuple[Episode, ...]:
+    """Read the episodes that a :class:`holdfast.faults.FaultWrapper` recorded in a folder, in order.
 
     Raises:
         InputError: There are none, or a line cannot be read.
     """
-    path = Path(folder) / INDEX
+    path = Path(folder) / INDEX_FILE_NAME
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except OSError as error:
-        raise InputError(f"'{folder}' has no {INDEX}; give a folder that an environment recorded into") from error
-    found = []
+        raise InputError(f"'{folder}' has no {INDEX_FILE_NAME}; give a folder that an environment recorded into") from error
+    episodes = []
     for number, line in enumerate(lines, start=1):
         try:
             data = json.loads(line)
             events = FaultEvents(FaultEvent.from_stored(event) for event in data.pop("events"))
-            found.append(Episode(file=path.parent / data.pop("file"), events=events, **data))
+            episodes.append(Episode(file=path.parent / data.pop("file"), events=events, **data))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise InputError(f"line {number} of '{path}' is not an episode; remove it if it was cut off") from error
-    return tuple(found)
+    return tuple(episodes)
 
 
-class Recorder:
-    """Writes episodes into a folder; what is there already stays.
+class EpisodeRecorder:
+    """Writer of episodes into a folder; existing episodes stay.
 
     Args:
         folder: Made if it is not there.
@@ -92,18 +92,18 @@ class Recorder:
     """
 
     def __init__(self, folder: str | Path) -> None:
-        self._folder = made(Path(folder))
+        self._folder = make_folder(Path(folder))
         try:
-            self._number = len(recorded(folder)) if (self._folder / INDEX).exists() else 0
+            self._next_number = len(read_episodes(folder)) if (self._folder / INDEX_FILE_NAME).exists() else 0
         except InputError as error:
             raise StoreError(f"{error}, or record into another folder") from error
-        self._rows: list[tuple[Any, ...]] = []
+        self._steps: list[tuple[Any, ...]] = []
 
-    def note(self, time: float, reference: Array, q: Array, torque: Array, action: Any, reward: float) -> None:
-        """A step."""
-        self._rows.append((time, reference, q, torque, np.array(action, dtype=np.float64), float(reward)))
+    def record_step(self, time: float, reference: Array, q: Array, torque: Array, action: Any, reward: float) -> None:
+        """Record a step."""
+        self._steps.append((time, reference, q, torque, np.array(action, dtype=np.float64), float(reward)))
 
-    def finish(
+    def finish_episode(
         self, *, seed: int | None, episode: int, events: FaultEvents, feasible: str, outcome: str, success: bool | None = None
     ) -> None:
         """Write the episode, if it had two steps or more.
@@ -111,12 +111,12 @@ class Recorder:
         Raises:
             StoreError: It cannot be written.
         """
-        rows, self._rows = self._rows, []
-        if len(rows) < 2:
+        steps, self._steps = self._steps, []
+        if len(steps) < 2:
             return
-        t, reference, q, torque, action, reward = (np.array(part) for part in zip(*rows, strict=True))
-        file = self._folder / f"{self._number:06}.npz"
-        Log(t=t, q_ref=reference, q=q, tau=torque).save(file, action=action, reward=reward)
+        times, reference, q, torque, action, reward = (np.array(column) for column in zip(*steps, strict=True))
+        file = self._folder / f"{self._next_number:06}.npz"
+        Log(t=times, q_ref=reference, q=q, tau=torque).save(file, action=action, reward=reward)
         entry = {
             "file": file.name,
             "seed": seed,
@@ -128,7 +128,7 @@ class Recorder:
             "success": success,
             "versions": versions("holdfast", "numpy", "mujoco", "gymnasium"),
         }
-        index = self._folder / INDEX
-        with guarded(index, "episode"), index.open("a", encoding="utf-8") as lines:
-            lines.write(json.dumps(entry) + "\n")
-        self._number += 1
+        index = self._folder / INDEX_FILE_NAME
+        with guard_writing(index, "episode"), index.open("a", encoding="utf-8") as index_stream:
+            index_stream.write(json.dumps(entry) + "\n")
+        self._next_number += 1

@@ -12,84 +12,100 @@ from numpy.typing import NDArray
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.faults.batch import FaultBatch
-from holdfast.faults.entry import KINDS, TORQUE
+from holdfast.faults.entry import KINDS, TORQUE_KINDS
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import task_error
 
 Array = NDArray[np.float64]
 
-NEVER = 1e300  # kernels turn infinity into NaN
-EARLY = 1e-9  # s: what begins at a step's time is there
-STATE = ("q", "told", "place", "shown", "command")  # (n,) each, see `step_kernel`
-EPISODE = 12  # numbers of an episode besides 7 n: its goal
+KERNEL_INFINITY = 1e300  # kernels turn infinity into NaN
+TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is there
+STATE_PARTS = ("q", "told", "place", "shown", "command")  # (n,) each, see `step_kernel`
+GOAL_NUMBERS = 12  # numbers of an episode besides 7 n: its goal
 
 
-@recalled
-def step_kernel(law: Law) -> Kernel:
-    """``(state, over, episode, action, noise, limits, setting) -> state, over, observation, reward, terminated, truncated``.
+@cached_kernel
+def build_step_kernel(law: Law) -> Kernel:
+    """Build the kernel ``(state, is_over, episode, action, noise, limits, setting) -> state, is_over, observation, reward,
+    terminated, truncated``.
 
     A state holds where the joints are, what their sensors tell, where each was when its fault began, what the sensor before
     a slipping clutch shows, the command of the last step, and the time. The law sees what is told; the action, (n,) rates in
     units of the velocity limits, is added to its rates. An episode is where it starts, its goal, place before rotation, and its
-    faults; where ``over`` is 1 the row begins that in place of a step. ``limits`` are lower, upper and velocity, (3 n,);
+    faults; where ``is_over`` is 1 the row begins that in place of a step. ``limits`` are lower, upper and velocity, (3 n,);
     ``setting`` is period, horizon and the two tolerances.
     """
     arm, task, n = law.arm, law.task, law.arm.n
-    state, over, episode = ca.SX.sym("state", len(STATE) * n + 1), ca.SX.sym("over"), ca.SX.sym("episode", EPISODE + 7 * n)
+    state, is_over, episode = (
+        ca.SX.sym("state", len(STATE_PARTS) * n + 1),
+        ca.SX.sym("over"),
+        ca.SX.sym("episode", GOAL_NUMBERS + 7 * n),
+    )
     action, noise = ca.SX.sym("action", n), ca.SX.sym("noise", n)
     limits, setting = ca.SX.sym("limits", 3 * n), ca.SX.sym("setting", 4)
-    period, horizon, near, aligned = ca.vertsplit(setting)
-    start, p, r, code, onset, end, parameters = ca.vertsplit(episode, np.cumsum([0, n, 3, 9, n, n, n, 3 * n]).tolist())
-    r = ca.reshape(r, 3, 3).T
-    first, second, third = (parameters[k::3] for k in range(3))
-    lower, upper, most = (limits[k * n : (k + 1) * n] for k in range(3))
-    fresh = over > 0
-    *places, last = (state[k * n : (k + 1) * n] for k in range(len(STATE)))
-    q, told, place, shown = (ca.if_else(fresh, start, x) for x in places)
-    now, last, step = (ca.if_else(fresh, 0.0, x) for x in (state[-1], last, period))
-    after = now + step
+    period, horizon, position_tolerance, orientation_tolerance = ca.vertsplit(setting)
+    q_start, target_position, target_rotation, code, onset, end, parameters = ca.vertsplit(
+        episode, np.cumsum([0, n, 3, 9, n, n, n, 3 * n]).tolist()
+    )
+    target_rotation = ca.reshape(target_rotation, 3, 3).T
+    first_parameter, second_parameter, third_parameter = (parameters[part::3] for part in range(3))
+    lower, upper, max_speeds = (limits[part * n : (part + 1) * n] for part in range(3))
+    is_new = is_over > 0
+    *positions, last_command = (state[part * n : (part + 1) * n] for part in range(len(STATE_PARTS)))
+    q, q_measured, q_onset, q_clutch = (ca.if_else(is_new, q_start, value) for value in positions)
+    time_before, last_command, time_step = (ca.if_else(is_new, 0.0, value) for value in (state[-1], last_command, period))
+    time_after = time_before + time_step
 
-    def there(kind: str, time: SX) -> SX:
-        """(n,) 1 where a fault of the kind is there."""
-        return _all(code == KINDS.index(kind), onset <= time + EARLY, time < end - EARLY)
+    def is_active(kind: str, time: SX) -> SX:
+        """Return (n,) 1 where a fault of the kind is active."""
+        return _all_true(code == KINDS.index(kind), onset <= time + TIME_TOLERANCE_S, time < end - TIME_TOLERANCE_S)
 
-    error, _ = task_error(arm, task, told, p, r)
-    rates = law.inverse(law.jacobian(told), law.scaled(law.command(error)))
-    rates = ca.if_else(ca.sumsqr(rates) < NEVER, rates, ca.SX.zeros(n))  # where the law has no answer: none
-    wanted = _within(rates + _within(action, -1.0, 1.0) * most, -most, most)
-    command = ca.if_else(ca.logic_or(there("command_dropout", now), fresh), last, wanted)
-    slow = ca.if_else(there("reduced_speed", now), _lesser(first, most), most)
-    held = there("locked", now) + there("slipping_clutch", now)
-    moved = q + step * ca.if_else(held > 0, 0.0, _within(command, -slow, slow))
-    reduced = there("reduced_range", now)
-    low = ca.if_else(first < 0, place + first, _lesser(second, place))
-    high = ca.if_else(_all(first > 0, first < NEVER), place + first, _greater(third, place))
-    low, high = (ca.if_else(reduced, a, b) for a, b in ((_greater(low, lower), lower), (_lesser(high, upper), upper)))
-    moved = ca.if_else(fresh, q, _within(moved, low, high))
+    error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
+    rates = law.inverse(law.jacobian(q_measured), law.scaled(law.command(error)))
+    rates = ca.if_else(ca.sumsqr(rates) < KERNEL_INFINITY, rates, ca.SX.zeros(n))  # where the law has no answer: none
+    commanded_rates = _clip(rates + _clip(action, -1.0, 1.0) * max_speeds, -max_speeds, max_speeds)
+    command = ca.if_else(ca.logic_or(is_active("command_dropout", time_before), is_new), last_command, commanded_rates)
+    speed_limits = ca.if_else(is_active("reduced_speed", time_before), _minimum(first_parameter, max_speeds), max_speeds)
+    is_locked = is_active("locked", time_before) + is_active("slipping_clutch", time_before)
+    q_next = q + time_step * ca.if_else(is_locked > 0, 0.0, _clip(command, -speed_limits, speed_limits))
+    is_reduced = is_active("reduced_range", time_before)
+    lower_stop = ca.if_else(first_parameter < 0, q_onset + first_parameter, _minimum(second_parameter, q_onset))
+    upper_stop = ca.if_else(
+        _all_true(first_parameter > 0, first_parameter < KERNEL_INFINITY),
+        q_onset + first_parameter,
+        _maximum(third_parameter, q_onset),
+    )
+    lower_stop, upper_stop = (
+        ca.if_else(is_reduced, stop_with_fault, stop_without_fault)
+        for stop_with_fault, stop_without_fault in ((_maximum(lower_stop, lower), lower), (_minimum(upper_stop, upper), upper))
+    )
+    q_next = ca.if_else(is_new, q, _clip(q_next, lower_stop, upper_stop))
 
-    begins = _all(onset > now + EARLY, onset <= after + EARLY)
-    place = ca.if_else(begins, moved, place)
-    shown = ca.if_else(begins, moved, shown + step * command)
-    told = moved + ca.if_else(there("sensor_bias", after), first, 0.0)
-    told += ca.if_else(there("sensor_drift", after), first * (after - onset), 0.0)
-    told += ca.if_else(there("sensor_noise", after), first * noise, 0.0)
-    told = ca.if_else(there("sensor_freeze", after), place, told)
-    told = ca.if_else(there("slipping_clutch", after), shown, told)
-    seen, _ = task_error(arm, task, told, p, r)
-    true, _ = task_error(arm, task, moved, p, r)
-    miss, turn = (ca.norm_2(ca.SX(ca.DM(task.rows[:, some].T)) @ true) for some in (slice(0, 3), slice(3, 6)))
-    terminated = _all(over <= 0, miss <= near, turn <= aligned)
-    truncated = _all(over <= 0, ca.logic_not(terminated), after >= horizon - EARLY)
-    reward = ca.if_else(fresh, 0.0, -(miss + turn))
+    begins = _all_true(onset > time_before + TIME_TOLERANCE_S, onset <= time_after + TIME_TOLERANCE_S)
+    q_onset = ca.if_else(begins, q_next, q_onset)
+    q_clutch = ca.if_else(begins, q_next, q_clutch + time_step * command)
+    q_measured = q_next + ca.if_else(is_active("sensor_bias", time_after), first_parameter, 0.0)
+    q_measured += ca.if_else(is_active("sensor_drift", time_after), first_parameter * (time_after - onset), 0.0)
+    q_measured += ca.if_else(is_active("sensor_noise", time_after), first_parameter * noise, 0.0)
+    q_measured = ca.if_else(is_active("sensor_freeze", time_after), q_onset, q_measured)
+    q_measured = ca.if_else(is_active("slipping_clutch", time_after), q_clutch, q_measured)
+    measured_error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
+    true_error, _ = task_error(arm, task, q_next, target_position, target_rotation)
+    position_error, orientation_error = (
+        ca.norm_2(ca.SX(ca.DM(task.rows[:, columns].T)) @ true_error) for columns in (slice(0, 3), slice(3, 6))
+    )
+    terminated = _all_true(is_over <= 0, position_error <= position_tolerance, orientation_error <= orientation_tolerance)
+    truncated = _all_true(is_over <= 0, ca.logic_not(terminated), time_after >= horizon - TIME_TOLERANCE_S)
+    reward = ca.if_else(is_new, 0.0, -(position_error + orientation_error))
     return Kernel(
         "step with faults",
-        [state, over, episode, action, noise, limits, setting],
+        [state, is_over, episode, action, noise, limits, setting],
         [
-            ca.vertcat(moved, told, place, shown, command, after),
+            ca.vertcat(q_next, q_measured, q_onset, q_clutch, command, time_after),
             ca.logic_or(terminated, truncated),
-            ca.vertcat(told, seen, command),
+            ca.vertcat(q_measured, measured_error, command),
             reward,
             terminated,
             truncated,
@@ -97,41 +113,41 @@ def step_kernel(law: Law) -> Kernel:
     )
 
 
-def kernel_rows(batch: FaultBatch) -> Array:
-    """(N, 6 n) code, onset, end and parameters of episodes, as the kernel takes them.
+def make_kernel_rows(batch: FaultBatch) -> Array:
+    """Return the kernel's rows (N, 6 n) of episodes: code, onset, end, and parameters.
 
     Raises:
         InputError: A fault of a motor's torque, or a lock at an angle, which a loop of rates alone does not have.
     """
     for events in batch.episodes:
         for event in events:
-            if event.kind in TORQUE or event.parameters.get("at", "here") != "here":
+            if event.kind in TORQUE_KINDS or event.parameters.get("at", "here") != "here":
                 raise InputError(
                     f"'{event.sentence()}' needs bodies and motors, and this loop has rates alone; use "
                     "holdfast.simulate_faults or a FaultWrapper"
                 )
-    parameter = batch.parameter.copy()
-    ranges = batch.kind == KINDS.index("reduced_range")
-    fill = np.array([NEVER, -NEVER, NEVER])  # no travel, no lower, no upper stop
-    parameter = np.where(np.isnan(parameter), np.where(ranges[..., None], fill, 0.0), parameter)
-    onset, end = (np.where(np.isfinite(x), x, NEVER) for x in (batch.onset, batch.end))
-    return np.concatenate([batch.kind, onset, end, parameter.reshape(len(batch), -1)], axis=1)
+    parameters = batch.parameter.copy()
+    is_range = batch.kind == KINDS.index("reduced_range")
+    no_limits = np.array([KERNEL_INFINITY, -KERNEL_INFINITY, KERNEL_INFINITY])  # no travel, no lower, no upper stop
+    parameters = np.where(np.isnan(parameters), np.where(is_range[..., None], no_limits, 0.0), parameters)
+    onsets, ends = (np.where(np.isfinite(times), times, KERNEL_INFINITY) for times in (batch.onset, batch.end))
+    return np.concatenate([batch.kind, onsets, ends, parameters.reshape(len(batch), -1)], axis=1)
 
 
-def _all(*conditions: SX) -> SX:
-    found = conditions[0]
+def _all_true(*conditions: SX) -> SX:
+    conjunction = conditions[0]
     for condition in conditions[1:]:
-        found = ca.logic_and(found, condition)
-    return found
+        conjunction = ca.logic_and(conjunction, condition)
+    return conjunction
 
 
-def _lesser(a: SX, b: SX) -> SX:
+def _minimum(a: SX, b: SX) -> SX:
     return ca.if_else(a < b, a, b)
 
 
-def _greater(a: SX, b: SX) -> SX:
+def _maximum(a: SX, b: SX) -> SX:
     return ca.if_else(a > b, a, b)
 
 
-def _within(value: SX, low: SX, high: SX) -> SX:
-    return _lesser(_greater(value, low), high)
+def _clip(value: SX, lower: SX, upper: SX) -> SX:
+    return _minimum(_maximum(value, lower), upper)

@@ -1,4 +1,4 @@
-"""The rate of success among recorded episodes, apart for those in which the goal was within reach."""
+"""Success rate of recorded episodes, separately for those in which the goal was feasible."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from holdfast.probability import Interval
 
 
 @dataclass(frozen=True)
-class Success:
-    """Success by the feasibility of the goal.
+class SuccessRate:
+    """Success rates by the feasibility of the goal.
 
     Attributes:
         counts: Successes and episodes by ``yes``, ``no``, ``not found`` and ``unknown``.
@@ -25,28 +25,31 @@ class Success:
 
     def rate(self, feasible: str = "yes") -> Interval | None:
         """Compute the rate among the episodes of one feasibility, with its Clopper-Pearson interval; None without episodes."""
-        hits, size = self.counts[feasible]
-        return Interval.of(hits, size, self.confidence) if size else None
+        success_count, episode_count = self.counts[feasible]
+        return Interval.of(success_count, episode_count, self.confidence) if episode_count else None
 
     def __str__(self) -> str:
         lines = []
-        for feasible, (hits, size) in self.counts.items():
+        for feasible, (success_count, episode_count) in self.counts.items():
             rate = self.rate(feasible)
             if rate is not None:
                 interval = f"{self.confidence:.0%} interval {rate.low:.1%} to {rate.high:.1%}"
-                lines.append(f"goal feasible: {feasible}: {hits} of {size} episodes succeeded, {rate.value:.1%} ({interval})")
+                lines.append(
+                    f"goal feasible: {feasible}: {success_count} of {episode_count} episodes succeeded, {rate.value:.1%} "
+                    f"({interval})"
+                )
         return "\n".join(lines)
 
 
-def success(
+def success_rate(
     episodes: Sequence[Episode], reached: Callable[[Episode], bool] | None = None, *, confidence: float = 0.95
-) -> Success:
-    """Count the successes of recorded episodes, apart for each feasibility of the goal.
+) -> SuccessRate:
+    """Count the successes of recorded episodes, separately for each feasibility of the goal.
 
     Report the rate of the feasible episodes: in the others no policy, or none that was found, could have reached the goal.
 
     Args:
-        episodes: Episodes from :func:`holdfast.faults.recorded`.
+        episodes: Episodes from :func:`holdfast.faults.read_episodes`.
         reached: ``reached(episode)``, True for a success; by default the success that the environment reported.
         confidence: Of the intervals, between 0 and 1.
 
@@ -62,6 +65,6 @@ def success(
         result = episode.success if reached is None else bool(reached(episode))
         if result is None:
             raise InputError(f"'{episode.file.name}' has no success, as its environment reports none; give reached(episode)")
-        hits, size = counts[episode.feasible]
-        counts[episode.feasible] = hits + result, size + 1
-    return Success(counts, confidence=confidence)
+        success_count, episode_count = counts[episode.feasible]
+        counts[episode.feasible] = success_count + result, episode_count + 1
+    return SuccessRate(counts, confidence=confidence)

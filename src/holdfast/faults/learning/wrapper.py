@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.arm.model import Arm
 from holdfast.errors import HoldfastError, InputError
-from holdfast.faults.entry import SENSOR
+from holdfast.faults.entry import SENSOR_KINDS
 from holdfast.faults.events import FaultEvent
 from holdfast.faults.feasibility import Feasibility, feasible
 from holdfast.faults.injector import FaultInjector
-from holdfast.faults.learning.physics_calls import PhysicsCalls
-from holdfast.faults.learning.recording import Recorder
-from holdfast.faults.scheme import Faults, Jointed
+from holdfast.faults.learning.physics_calls import PhysicsInterceptor
+from holdfast.faults.learning.recording import EpisodeRecorder
+from holdfast.faults.scheme import FaultModel, HasJointNames
 
 try:
     from gymnasium import Wrapper
@@ -27,31 +27,31 @@ except ImportError:  # said when one is made, so that the rest can be imported
     Wrapper = object
 
 Array = NDArray[np.float64]
-_NUDGE = 0.5  # rad or m: what moves by exactly so much is the joint's value, and no sine of it
-_PLACES = (("model", "data"), ("robot_env.model", "robot_env.data"), ("sim.model._model", "sim.data._data"))
+_PROBE_STEP = 0.5  # rad or m: what moves by exactly so much is the joint's value, and no sine of it
+_MODEL_ATTRIBUTES = (("model", "data"), ("robot_env.model", "robot_env.data"), ("sim.model._model", "sim.data._data"))
 
 
 class FaultInfo(Mapping[str, Any]):
-    """What ``info["fault"]`` tells: ``id``, ``events``, ``active``, ``feasible`` and ``why``.
+    """Content of ``info["fault"]``: ``id``, ``events``, ``active``, ``feasible``, and ``why``.
 
     The last two are looked up when they are first asked for after a fault has begun, never inside a step.
     """
 
-    def __init__(self, injector: FaultInjector, judge: Callable[[], Feasibility]) -> None:
-        self._injector, self._judge = injector, judge
+    def __init__(self, injector: FaultInjector, evaluate_feasibility: Callable[[], Feasibility]) -> None:
+        self._injector, self._evaluate_feasibility = injector, evaluate_feasibility
 
     def __getitem__(self, key: str) -> Any:
         if key in ("feasible", "why"):
-            found = self._judge()
-            return found.answer if key == "feasible" else found.why
+            feasibility = self._evaluate_feasibility()
+            return feasibility.answer if key == "feasible" else feasibility.why
         applied = self._injector.applied
         match key:
             case "id":
                 return self._injector.events.id
             case "events":
-                return [{**e.stored(), "applied": applied.get(e)} for e in self._injector.events]
+                return [{**event.stored(), "applied": applied.get(event)} for event in self._injector.events]
             case "active":
-                return [f"{e.joint}: {e.kind}" for e in self._injector.active]
+                return [f"{event.joint}: {event.kind}" for event in self._injector.active]
         raise KeyError(key)
 
     def __iter__(self) -> Iterator[str]:
@@ -62,12 +62,15 @@ class FaultInfo(Mapping[str, Any]):
 
     def __repr__(self) -> str:
         active = self["active"]
-        parts = [f"  {e.sentence()}{', active' if f'{e.joint}: {e.kind}' in active else ''}" for e in self._injector.events]
+        parts = [
+            f"  {event.sentence()}{', active' if f'{event.joint}: {event.kind}' in active else ''}"
+            for event in self._injector.events
+        ]
         return "\n".join([f"FaultInfo: {len(parts)} {'fault' if len(parts) == 1 else 'faults'} in this episode", *parts])
 
 
 class FaultWrapper(Wrapper):  # type: ignore[misc]
-    """An environment whose joints fail, by its own clock (needs ``holdfast[learn]`` and ``holdfast[physics]``).
+    """Environment whose joints fail, by its own clock (needs ``holdfast[learn]`` and ``holdfast[physics]``).
 
     ``reset`` gives the model every number back before the environment resets, then draws the next episode;
     ``reset(options={"episode": 12})`` chooses one. What begins during a step takes effect with the next one; both times are
@@ -86,8 +89,8 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         observes: Entries of the observation (a vector, or its part ``observation``) that hold a joint's value, by joint. If
             not given they are found by moving each joint.
         reveal: False: ``info`` says nothing, and only ``env.fault`` does, which no policy sees.
-        horizon: s, the end of an episode, see :meth:`holdfast.faults.Faults.draw`.
-        record: A folder for a record of each episode, see :func:`holdfast.faults.recorded`; more are added to it.
+        horizon: s, the end of an episode, see :meth:`holdfast.faults.FaultModel.draw`.
+        record: A folder for a record of each episode, see :func:`holdfast.faults.read_episodes`; more are added to it.
 
     Attributes:
         fault: What ``info["fault"]`` tells.
@@ -101,9 +104,9 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
     def __init__(
         self,
         env: Any,
-        faults: Faults | Sequence[FaultEvent],
+        faults: FaultModel | Sequence[FaultEvent],
         *,
-        joints: Jointed | Sequence[str] | None = None,
+        joints: HasJointNames | Sequence[str] | None = None,
         arm: Arm | None = None,
         goal: Callable[[Any], Any] | None = None,
         within: float | None = None,
@@ -117,192 +120,196 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             raise HoldfastError("Gymnasium is not installed; pip install 'holdfast[learn]'")
         super().__init__(env)
         self._mujoco = import_mujoco()
-        model, data = _found(env.unwrapped)
+        model, data = _find_model(env.unwrapped)
         self.injector = FaultInjector(model, data, arm if joints is None else joints, faults=faults, horizon=horizon)
-        self._physics = PhysicsCalls(self.injector)
+        self._physics = PhysicsInterceptor(self.injector)
         self._arm, self._goal, self._reveal = arm, goal, reveal
         self._tolerance, self._within = tolerance, within
-        self._observes, self._given, self._episode = dict(observes or {}), observes is not None, -1
-        self._rows = model.jnt_qposadr[[model.joint(name).id for name in self.injector.joints]]
-        self._recorder = None if record is None else Recorder(record)
+        self._observes, self._entries_given, self._episode = dict(observes or {}), observes is not None, -1
+        self._qpos_rows = model.jnt_qposadr[[model.joint(name).id for name in self.injector.joints]]
+        self._recorder = None if record is None else EpisodeRecorder(record)
         self._seed: int | None = None
-        self._fresh()
+        self._prepare_episode()
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """The model as it was, the environment's own reset, and the next episode's faults."""
-        self._finish("left")
+        """Restore the model, reset the environment, and draw the faults of the next episode."""
+        self._finish_episode("left")
         self._seed = seed
-        chosen = dict(options or {})
-        self._episode = int(chosen.pop("episode", self._episode + 1))
+        remaining_options = dict(options or {})
+        self._episode = int(remaining_options.pop("episode", self._episode + 1))
         self.injector.restore()
-        observation, info = self.env.reset(seed=seed, options=chosen or None)
+        observation, info = self.env.reset(seed=seed, options=remaining_options or None)
         if not self._has_model():  # some environments load theirs anew
-            model, data = _found(self.env.unwrapped)
+            model, data = _find_model(self.env.unwrapped)
             self.injector = FaultInjector(
                 model, data, self.injector.joints, faults=self.injector.faults, horizon=self.injector.horizon
             )
-            self._physics = PhysicsCalls(self.injector)
+            self._physics = PhysicsInterceptor(self.injector)
         self.injector.reset(self._episode)
-        self._fresh()
-        if self._sensors:
-            self._probe(observation)
-        return self._seen(observation), self._told(info)
+        self._prepare_episode()
+        if self._has_sensor_faults:
+            self._locate_entries(observation)
+        return self._corrupt_observation(observation), self._add_fault_info(info)
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
-        """The environment's step with the faults that have begun."""
+        """Step the environment with the faults that have begun."""
         injector = self.injector
         injector.advance(injector.data.time)
-        if self._dropouts:
-            action = self._held(action)
-        time, count = injector.data.time, self._physics.count
-        with self._physics.watch():
+        if self._has_dropouts:
+            action = self._hold_dropped_commands(action)
+        time_before, call_count = injector.data.time, self._physics.call_count
+        with self._physics.intercept():
             observation, reward, terminated, truncated, info = self.env.step(action)
-        if self._physics.count == count and injector.data.time != time and injector.changes_model:
+        if self._physics.call_count == call_count and injector.data.time != time_before and injector.changes_model:
             raise InputError(
                 f"{type(self.env.unwrapped).__name__} moves its model by other means than mujoco.mj_step, so its faults do not "
                 "act; write the loop with holdfast.faults.FaultInjector"
             )
-        if self._sensors:
+        if self._has_sensor_faults:
             injector.time = injector.data.time
-            observation = self._seen(observation)
+            observation = self._corrupt_observation(observation)
         if self._reveal:
             info["fault"] = self.fault
         if self._recorder is not None:
-            self._note(action, reward)
+            self._record_step(action, reward)
             self._success: bool | None = next((bool(info[key]) for key in ("is_success", "success") if key in info), None)
             if terminated or truncated:
-                self._finish("terminated" if terminated else "truncated")
+                self._finish_episode("terminated" if terminated else "truncated")
         return observation, reward, terminated, truncated, info
 
     def close(self) -> None:
         """Write the record of the last episode, and close the environment."""
-        self._finish("left")
+        self._finish_episode("left")
         self.env.close()
 
     # ---- inside ------------------------------------------------------------------------------------------------------
 
-    def _note(self, action: Any, reward: Any) -> None:
-        """What a robot would have recorded of this step."""
+    def _record_step(self, action: Any, reward: Any) -> None:
+        """Record this step as the log of a robot would."""
         assert self._recorder is not None
         injector, model, data = self.injector, self.injector.model, self.injector.data
         reference = np.full(len(injector.joints), np.nan)
-        for j, name in enumerate(injector.joints):
-            for a in injector.actuators_of(name):
-                if model.actuator_biasprm[a, 1] < 0 and model.actuator_gear[a, 0] == 1:  # a servo of position
-                    reference[j] = data.ctrl[a] * model.actuator_gainprm[a, 0] / -model.actuator_biasprm[a, 1]
+        for index, name in enumerate(injector.joints):
+            for actuator in injector.actuators_of(name):
+                if model.actuator_biasprm[actuator, 1] < 0 and model.actuator_gear[actuator, 0] == 1:  # a servo of position
+                    reference[index] = (
+                        data.ctrl[actuator] * model.actuator_gainprm[actuator, 0] / -model.actuator_biasprm[actuator, 1]
+                    )
         injector.time = data.time
-        q, torque = injector.read(data.qpos[self._rows]), data.qfrc_actuator[injector.dofs]
-        self._recorder.note(data.time, reference, q, torque, action, reward)
+        q, torque = injector.read(data.qpos[self._qpos_rows]), data.qfrc_actuator[injector.dofs]
+        self._recorder.record_step(data.time, reference, q, torque, action, reward)
 
-    def _finish(self, outcome: str) -> None:
+    def _finish_episode(self, outcome: str) -> None:
         if self._recorder is None:
             return
-        events, known = self.injector.events, self._judged().answer
-        self._recorder.finish(
+        events, feasibility = self.injector.events, self._evaluate_feasibility().answer
+        self._recorder.finish_episode(
             seed=self._seed,
             episode=self._episode,
             events=events,
-            feasible=known,
+            feasible=feasibility,
             outcome=outcome,
             success=self._success,
         )
 
     def _has_model(self) -> bool:
-        return _found(self.env.unwrapped)[0] is self.injector.model
+        return _find_model(self.env.unwrapped)[0] is self.injector.model
 
-    def _fresh(self) -> None:
-        """For a new episode."""
+    def _prepare_episode(self) -> None:
+        """Prepare the state of a new episode."""
         kinds = {event.kind for event in self.injector.events}
-        self._sensors, self._dropouts = bool(kinds & SENSOR), "command_dropout" in kinds
-        self._last: Array | None = None
+        self._has_sensor_faults, self._has_dropouts = bool(kinds & SENSOR_KINDS), "command_dropout" in kinds
+        self._last_action: Array | None = None
         self._success = None
-        self._verdict: Feasibility | None = None
-        self.fault: FaultInfo = FaultInfo(self.injector, self._judged)
-        if self._dropouts and self.env.action_space.shape != (self.injector.model.nu,):
+        self._feasibility: Feasibility | None = None
+        self.fault: FaultInfo = FaultInfo(self.injector, self._evaluate_feasibility)
+        if self._has_dropouts and self.env.action_space.shape != (self.injector.model.nu,):
             raise InputError("a dropout needs actions that are the actuators' controls; this environment has others")
 
-    def _told(self, info: dict[str, Any]) -> dict[str, Any]:
+    def _add_fault_info(self, info: dict[str, Any]) -> dict[str, Any]:
         return {**info, "fault": self.fault} if self._reveal else info
 
-    def _judged(self) -> Feasibility:
-        if self._verdict is not None:
-            return self._verdict
+    def _evaluate_feasibility(self) -> Feasibility:
+        if self._feasibility is not None:
+            return self._feasibility
         if self._arm is None or self._goal is None:
             return Feasibility("unknown", "no arm or no goal is given")
         if not self.injector.applied:
             return Feasibility("unknown", "no fault has begun")
-        other = next((e.joint for e in self.injector.places if e.joint not in self._arm.joint_names), None)
-        if other is not None:
-            return Feasibility("unknown", f"'{other}' is not a joint of the arm")
+        unknown_joint = next((event.joint for event in self.injector.places if event.joint not in self._arm.joint_names), None)
+        if unknown_joint is not None:
+            return Feasibility("unknown", f"'{unknown_joint}' is not a joint of the arm")
         goal, places = self._goal(self.env), self.injector.places
-        self._verdict = feasible(self._arm, goal, places, within=self._within, tolerance=self._tolerance)
-        return self._verdict
+        self._feasibility = feasible(self._arm, goal, places, within=self._within, tolerance=self._tolerance)
+        return self._feasibility
 
-    def _held(self, action: Any) -> Any:
-        """The action in which a joint without commands keeps its last one."""
-        last = action if self._last is None else self._last
-        held = np.array(action)
+    def _hold_dropped_commands(self, action: Any) -> Any:
+        """Return the action in which a joint without commands keeps its last one."""
+        last_action = action if self._last_action is None else self._last_action
+        held_action = np.array(action)
         for event in self.injector.active:
             if event.kind == "command_dropout":
-                which = self.injector.actuators_of(event.joint)
-                held[which] = last[which]
-        self._last = held
-        return held
+                actuators = self.injector.actuators_of(event.joint)
+                held_action[actuators] = last_action[actuators]
+        self._last_action = held_action
+        return held_action
 
-    def _seen(self, observation: Any) -> Any:
-        """What sensors that fail make of an observation."""
-        if not self._sensors or not any(e.kind in SENSOR for e in self.injector.active):
+    def _corrupt_observation(self, observation: Any) -> Any:
+        """Return the observation with the readings of the failed sensors."""
+        if not self._has_sensor_faults or not any(sensor_event.kind in SENSOR_KINDS for sensor_event in self.injector.active):
             return observation
-        true = self.injector.data.qpos[self._rows]
-        wrong = self.injector.read(true) - true
-        whole = observation if isinstance(observation, dict) else {"observation": observation}
-        seen = np.array(whole["observation"])
+        true_q = self.injector.data.qpos[self._qpos_rows]
+        reading_errors = self.injector.read(true_q) - true_q
+        observations = observation if isinstance(observation, dict) else {"observation": observation}
+        corrupted = np.array(observations["observation"])
         for event in self.injector.active:
-            if event.kind in SENSOR:
+            if event.kind in SENSOR_KINDS:
                 entries = list(self._observes.get(event.joint, ()))
-                seen[entries] += wrong[self.injector.joints.index(event.joint)]
-        return {**whole, "observation": seen} if isinstance(observation, dict) else seen
+                corrupted[entries] += reading_errors[self.injector.joints.index(event.joint)]
+        return {**observations, "observation": corrupted} if isinstance(observation, dict) else corrupted
 
-    def _probe(self, observation: Any) -> None:
+    def _locate_entries(self, observation: Any) -> None:
         """Find the entries of the joints whose sensors will fail, once."""
-        joints = [e.joint for e in self.injector.events if e.kind in SENSOR and e.joint not in self._observes]
-        if self._given or not joints:
+        joints = [
+            event.joint for event in self.injector.events if event.kind in SENSOR_KINDS and event.joint not in self._observes
+        ]
+        if self._entries_given or not joints:
             return
-        look = getattr(self.env.unwrapped, "_get_obs", None)
-        if look is None:
+        get_observation = getattr(self.env.unwrapped, "_get_obs", None)
+        if get_observation is None:
             raise InputError("the environment does not show where a joint's value is in its observation; give observes")
-        model, data, kind = self.injector.model, self.injector.data, self._mujoco.mjtState.mjSTATE_INTEGRATION
-        state = np.zeros(self._mujoco.mj_stateSize(model, kind))
-        self._mujoco.mj_getState(model, data, state, kind)
-        before = _vector(look())
-        if before.shape != _vector(observation).shape or not np.allclose(before, _vector(observation), atol=1e-4):
+        model, data, state_kind = self.injector.model, self.injector.data, self._mujoco.mjtState.mjSTATE_INTEGRATION
+        state = np.zeros(self._mujoco.mj_stateSize(model, state_kind))
+        self._mujoco.mj_getState(model, data, state, state_kind)
+        before = _to_vector(get_observation())
+        if before.shape != _to_vector(observation).shape or not np.allclose(before, _to_vector(observation), atol=1e-4):
             raise InputError("another wrapper changes the observation; put it around this one, or give observes")
         for joint in joints:
-            data.qpos[self._rows[self.injector.joints.index(joint)]] += _NUDGE
+            data.qpos[self._qpos_rows[self.injector.joints.index(joint)]] += _PROBE_STEP
             self._mujoco.mj_forward(model, data)
-            moved = _vector(look()) - before
-            entries = np.flatnonzero(np.abs(moved - _NUDGE) < 1e-5)
-            self._mujoco.mj_setState(model, data, state, kind)
+            changes = _to_vector(get_observation()) - before
+            entries = np.flatnonzero(np.abs(changes - _PROBE_STEP) < 1e-5)
+            self._mujoco.mj_setState(model, data, state, state_kind)
             if not entries.size:
                 raise InputError(f"no entry of the observation is the value of '{joint}'; give observes, or another fault")
             self._observes[joint] = entries.tolist()
         self._mujoco.mj_forward(model, data)
 
 
-def _vector(observation: Any) -> Array:
+def _to_vector(observation: Any) -> Array:
     return np.asarray(observation["observation"] if isinstance(observation, dict) else observation, dtype=np.float64)
 
 
-def _found(env: Any) -> tuple[Any, Any]:
-    """The MuJoCo model and data of an environment."""
+def _find_model(env: Any) -> tuple[Any, Any]:
+    """Return the MuJoCo model and data of an environment."""
     mujoco = import_mujoco()
-    for places in _PLACES:
-        found = []
-        for place in places:
-            thing = env
-            for name in place.split("."):
-                thing = getattr(thing, name, None)
-            found.append(thing)
-        if isinstance(found[0], mujoco.MjModel) and isinstance(found[1], mujoco.MjData):
-            return found[0], found[1]
+    for attribute_paths in _MODEL_ATTRIBUTES:
+        objects = []
+        for attribute_path in attribute_paths:
+            value = env
+            for name in attribute_path.split("."):
+                value = getattr(value, name, None)
+            objects.append(value)
+        if isinstance(objects[0], mujoco.MjModel) and isinstance(objects[1], mujoco.MjData):
+            return objects[0], objects[1]
     raise InputError(f"{type(env).__name__} has no MuJoCo model that is found; faults are for environments with MuJoCo")

@@ -1,4 +1,4 @@
-"""What a free-swinging failure of each joint would do to an arm at rest: torque, acceleration, swing angle.
+"""Effect of a free-swinging failure of each joint of an arm at rest: torque, acceleration, and swing angle.
 
 Each constructor takes ``(arm, weights=None)`` and returns a :class:`Susceptibility`; smaller is better. Weights combine
 the joints into ``f' W f`` and are None (all alike), n numbers (diagonal), an (n, n) positive semidefinite matrix, and for

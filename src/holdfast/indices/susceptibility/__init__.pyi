@@ -1,7 +1,7 @@
-from holdfast.indices.susceptibility.formulas import Formula as Formula
-from holdfast.indices.susceptibility.measure import Evaluation as Evaluation
+from holdfast.indices.susceptibility.formulas import SusceptibilityFormula as SusceptibilityFormula
 from holdfast.indices.susceptibility.measure import Susceptibility as Susceptibility
-from holdfast.indices.susceptibility.measure import Together as Together
+from holdfast.indices.susceptibility.measure import SusceptibilityBatch as SusceptibilityBatch
+from holdfast.indices.susceptibility.measure import SusceptibilityEvaluation as SusceptibilityEvaluation
 from holdfast.indices.susceptibility.measure import acceleration as acceleration
 from holdfast.indices.susceptibility.measure import by_name as by_name
 from holdfast.indices.susceptibility.measure import swing_angle as swing_angle

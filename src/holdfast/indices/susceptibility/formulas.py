@@ -1,4 +1,4 @@
-"""The three measures of every joint, and the derivatives that English and Maciejewski 1998 give for them, as symbols.
+"""Symbolic formulas of the three measures of every joint and of their derivatives (English and Maciejewski 1998).
 
 A formula takes the arm and q and returns what each joint's failure brings (n,) and which joints are degenerate (n,): 1
 where the measure has no meaning there and is 0 by convention.
@@ -15,17 +15,17 @@ import numpy as np
 from holdfast.arm import statics
 from holdfast.arm.model import Arm
 from holdfast.arm.soundness import require_masses, require_possible_inertia
-from holdfast.arm.statics import Composite
+from holdfast.arm.statics import CompositeBodies
 from holdfast.errors import ArmError
 from holdfast.kernels.program import SX
 
-DEGENERATE = 1e-9
+DEGENERATE_RATIO = 1e-9
 """A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small against the arm."""
 
 
 @dataclass(frozen=True)
-class Formula:
-    """A measure: its symbols, its derivatives as the paper prints them, and its words.
+class SusceptibilityFormula:
+    """Measure of a susceptibility: its symbols, its derivatives as the paper prints them, and its descriptions.
 
     Attributes:
         name: For people.
@@ -51,12 +51,12 @@ class Formula:
 # ---- torque --------------------------------------------------------------------------------------------------------
 
 
-def _torque(arm: Arm, q: SX) -> tuple[SX, SX]:
-    """Eq. (7), (8), (12)."""
-    return statics.gravity_torques(arm, statics.composite(arm, q)), ca.DM.zeros(arm.n)
+def _torque_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+    """Return the holding torques and their status; eq. (7), (8), (12)."""
+    return statics.gravity_torques(arm, statics.composite_bodies(arm, q)), ca.DM.zeros(arm.n)
 
 
-def _torque_slope(arm: Arm, w: Composite, i: int, j: int) -> SX:
+def _torque_derivative(arm: Arm, w: CompositeBodies, i: int, j: int) -> SX:
     """``d tau_i / d q_j``; eq. (11), (13)."""
     z, s, g = w.axes[i], w.moments[i], w.gravity[i]
     dz = statics.axis_derivative(arm, w, i, j)
@@ -67,8 +67,8 @@ def _torque_slope(arm: Arm, w: Composite, i: int, j: int) -> SX:
 
 
 def _torque_jacobian(arm: Arm, q: SX) -> SX:
-    w = statics.in_world(statics.composite(arm, q))
-    return _matrix(arm.n, lambda i, j: _torque_slope(arm, w, i, j))
+    w = statics.express_in_world(statics.composite_bodies(arm, q))
+    return _symbolic_matrix(arm.n, lambda i, j: _torque_derivative(arm, w, i, j))
 
 
 # ---- acceleration --------------------------------------------------------------------------------------------------
@@ -76,8 +76,8 @@ def _torque_jacobian(arm: Arm, q: SX) -> SX:
 
 def _require_inertia(arm: Arm) -> None:
     require_possible_inertia(arm)
-    mass = sum(body.mass for body in statics.bodies(arm))
-    for joint, body in zip(arm.joints, statics.bodies(arm), strict=True):
+    mass = sum(body.mass for body in statics.links_with_payload(arm))
+    for joint, body in zip(arm.joints, statics.links_with_payload(arm), strict=True):
         if mass <= 0 and joint.armature == 0:
             raise ArmError(
                 f"arm '{arm.name}': nothing behind joint '{joint.name}' has mass, so its acceleration after a failure is not "
@@ -86,35 +86,35 @@ def _require_inertia(arm: Arm) -> None:
         mass -= body.mass
 
 
-def _acceleration(arm: Arm, q: SX) -> tuple[SX, SX]:
-    """Eq. (22); NaN for a revolute joint on whose axis all the mass it carries lies."""
-    c = statics.composite(arm, q)
+def _acceleration_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+    """Return the accelerations, eq. (22); NaN for a revolute joint on whose axis all the carried mass lies."""
+    c = statics.composite_bodies(arm, q)
     tau, m = statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
     length = statics.length_scale(arm)
     for i, joint in enumerate(arm.joints):
         if not joint.prismatic:
-            m[i] = ca.if_else(m[i] <= DEGENERATE * c.masses[i] * length**2, np.nan, m[i])
+            m[i] = ca.if_else(m[i] <= DEGENERATE_RATIO * c.masses[i] * length**2, np.nan, m[i])
     return -tau / m, ca.DM.zeros(arm.n)
 
 
 def _acceleration_jacobian(arm: Arm, q: SX) -> SX:
     """Eq. (24)."""
-    c = statics.composite(arm, q)
-    w, tau, m = statics.in_world(c), statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
+    c = statics.composite_bodies(arm, q)
+    w, tau, m = statics.express_in_world(c), statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
 
     def entry(i: int, j: int) -> SX:
-        rise = m[i] * _torque_slope(arm, w, i, j) - tau[i] * statics.inertia_derivative(arm, w, i, j)
+        rise = m[i] * _torque_derivative(arm, w, i, j) - tau[i] * statics.inertia_derivative(arm, w, i, j)
         return -rise / (m[i] * m[i])
 
-    return _matrix(arm.n, entry)
+    return _symbolic_matrix(arm.n, entry)
 
 
 # ---- swing angle ---------------------------------------------------------------------------------------------------
 
 
-def _swing(arm: Arm, q: SX) -> tuple[SX, SX]:
-    """Eq. (36)-(39), (42), (43)."""
-    c = statics.composite(arm, q)
+def _swing_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+    """Return the swing angles; eq. (36)-(39), (42), (43)."""
+    c = statics.composite_bodies(arm, q)
     length, weight = statics.length_scale(arm), float(np.linalg.norm(arm.gravity))
     angles, flags = [], []
     for i, joint in enumerate(arm.joints):
@@ -124,8 +124,8 @@ def _swing(arm: Arm, q: SX) -> tuple[SX, SX]:
             flags.append(ca.SX(1))
             continue
         u, v = ca.cross(s, z), ca.cross(z, g)
-        balanced = ca.sumsqr(u) <= (DEGENERATE * c.masses[i] * length) ** 2
-        upright = ca.sumsqr(v) <= (DEGENERATE * weight) ** 2
+        balanced = ca.sumsqr(u) <= (DEGENERATE_RATIO * c.masses[i] * length) ** 2
+        upright = ca.sumsqr(v) <= (DEGENERATE_RATIO * weight) ** 2
         degenerate = ca.logic_or(balanced, upright)
         # The arguments are replaced rather than the result, so that the derivative is 0 there too and never 0/0.
         angle = ca.atan2(ca.if_else(degenerate, 0, -ca.dot(z, ca.cross(s, g))), ca.if_else(degenerate, 1, ca.dot(u, v)))
@@ -137,7 +137,7 @@ def _swing(arm: Arm, q: SX) -> tuple[SX, SX]:
 
 def _swing_jacobian(arm: Arm, q: SX) -> SX:
     """Eq. (41)-(45)."""
-    w = statics.in_world(statics.composite(arm, q))
+    w = statics.express_in_world(statics.composite_bodies(arm, q))
 
     def entry(i: int, j: int) -> SX:
         if arm.joints[i].prismatic:
@@ -145,45 +145,45 @@ def _swing_jacobian(arm: Arm, q: SX) -> SX:
         z, s, g = w.axes[i], w.moments[i], w.gravity[i]
         dz, ds = statics.axis_derivative(arm, w, i, j), statics.moment_derivative(arm, w, i, j)
         a, b = -ca.dot(z, ca.cross(s, g)), ca.dot(ca.cross(s, z), ca.cross(z, g))
-        da = -_torque_slope(arm, w, i, j)
+        da = -_torque_derivative(arm, w, i, j)
         db = ca.dot(ca.cross(ds, z) + ca.cross(s, dz), ca.cross(z, g)) + ca.dot(ca.cross(s, z), ca.cross(dz, g))
         return (b * da - a * db) / (a * a + b * b)
 
-    return _matrix(arm.n, entry)
+    return _symbolic_matrix(arm.n, entry)
 
 
-def _matrix(n: int, entry: Callable[[int, int], SX]) -> SX:
+def _symbolic_matrix(n: int, entry: Callable[[int, int], SX]) -> SX:
     return ca.vertcat(*[ca.horzcat(*[entry(i, j) for j in range(n)]) for i in range(n)])
 
 
-PAPER = "English and Maciejewski 1998"
-TORQUE = Formula(
+SOURCE_PAPER = "English and Maciejewski 1998"
+TORQUE_FORMULA = SusceptibilityFormula(
     "torque",
-    f"{PAPER}, eq. (7), (8), (12)",
+    f"{SOURCE_PAPER}, eq. (7), (8), (12)",
     "N m",
     sliding="N",
     slides=True,
     check=require_masses,
-    values=_torque,
+    values=_torque_values,
     jacobian=_torque_jacobian,
 )
-ACCELERATION = Formula(
+ACCELERATION_FORMULA = SusceptibilityFormula(
     "acceleration",
-    f"{PAPER}, eq. (22)",
+    f"{SOURCE_PAPER}, eq. (22)",
     "rad/s^2",
     sliding="m/s^2",
     slides=True,
     check=_require_inertia,
-    values=_acceleration,
+    values=_acceleration_values,
     jacobian=_acceleration_jacobian,
 )
-SWING_ANGLE = Formula(
+SWING_ANGLE_FORMULA = SusceptibilityFormula(
     "swing angle",
-    f"{PAPER}, eq. (38), (39)",
+    f"{SOURCE_PAPER}, eq. (38), (39)",
     "rad",
     sliding="rad",
     slides=False,
     check=require_masses,
-    values=_swing,
+    values=_swing_values,
     jacobian=_swing_jacobian,
 )

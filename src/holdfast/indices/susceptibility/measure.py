@@ -1,4 +1,4 @@
-"""A susceptibility: how much a free-swinging failure of each joint would do to an arm at rest, and all in one number."""
+"""Susceptibility of an arm at rest: the effect of a free-swinging failure of each joint, combined into one number."""
 
 from __future__ import annotations
 
@@ -10,28 +10,33 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.frameworks.rows import RowFunction
-from holdfast.indices.objective import Objective, Part
-from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE, Formula
+from holdfast.indices.objective import Objective, ObjectivePart
+from holdfast.indices.susceptibility.formulas import (
+    ACCELERATION_FORMULA,
+    SWING_ANGLE_FORMULA,
+    TORQUE_FORMULA,
+    SusceptibilityFormula,
+)
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import recalled
+from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import HouseholderQR
-from holdfast.registry import SUSCEPTIBILITIES, Labelled, Parameter, constructor
+from holdfast.registry import SUSCEPTIBILITY_REGISTRY, Labelled, Parameter, constructor
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Evaluation:
+class SusceptibilityEvaluation:
     """A susceptibility at N configurations, or at one (then without the leading N).
 
     Attributes:
@@ -46,14 +51,14 @@ class Evaluation:
     status: NDArray[np.uint8]
     joint_status: NDArray[np.uint8]
 
-    def require_ok(self) -> Evaluation:
-        """Itself, or :class:`holdfast.HoldfastError` naming the first row that has no value."""
+    def require_ok(self) -> SusceptibilityEvaluation:
+        """Return the object itself, or raise :class:`holdfast.HoldfastError` that names the first row without a value."""
         require_ok(self.status, "susceptibility")
         return self
 
 
 class Susceptibility(Labelled, Objective):
-    r"""How much the failure of each joint would do, :math:`f`, combined as :math:`F = f^\top W f`; smaller is better.
+    r"""Effects :math:`f` of the failure of each joint, combined as :math:`F = f^\top W f`; smaller is better.
 
     The arm is at rest, its links are rigid, and no joint holds by friction. Joints are signed: the torque that holds the
     joint, and the way it would accelerate or swing, about ``+z`` of its axis; flipping an axis flips its f.
@@ -67,11 +72,11 @@ class Susceptibility(Labelled, Objective):
         better: ``"smaller"``.
     """
 
-    def __init__(self, formula: Formula, arm: Arm, weights: WeightSpec = None) -> None:
+    def __init__(self, formula: SusceptibilityFormula, arm: Arm, weights: WeightSpec = None) -> None:
         formula.check(arm)
         self.formula, self.arm = formula, arm
         self.name, self.better = f"{formula.name} susceptibility", "smaller"
-        self.weights, self._weighting = weight_matrix(arm, weights, formula is TORQUE, formula.name)
+        self.weights, self._weighting = weight_matrix(arm, weights, formula is TORQUE_FORMULA, formula.name)
         self.weights.setflags(write=False)
         self.unit = self._value_unit()
 
@@ -85,8 +90,8 @@ class Susceptibility(Labelled, Objective):
     @property
     def settings(self) -> dict[str, Any]:
         """The weights as given: None for the identity, a word, n numbers, or a matrix."""
-        given = {"identity": None, "diagonal": np.diag(self.weights), "full": self.weights}
-        return {"weights": given.get(self._weighting, self._weighting)}
+        by_word = {"identity": None, "diagonal": np.diag(self.weights), "full": self.weights}
+        return {"weights": by_word.get(self._weighting, self._weighting)}
 
     @property
     def source(self) -> str:
@@ -96,12 +101,12 @@ class Susceptibility(Labelled, Objective):
     @property
     def joint_unit(self) -> tuple[str, ...]:
         """Unit of each joint's measure; the swing angle of a prismatic joint is 0 by convention."""
-        return tuple(self.formula.sliding if p else self.formula.turning for p in self.arm.prismatic)
+        return tuple(self.formula.sliding if is_prismatic else self.formula.turning for is_prismatic in self.arm.prismatic)
 
     def _value_unit(self) -> str:
         if self._weighting in ("effort", "worst-case"):
             return "1"
-        square = ", ".join(f"({u})^2" for u in dict.fromkeys(self.joint_unit))
+        square = ", ".join(f"({unit})^2" for unit in dict.fromkeys(self.joint_unit))
         mixed = " mixed" if len(set(self.joint_unit)) > 1 else ""
         return square + mixed + ("" if self._weighting == "identity" else ", weighted")
 
@@ -120,7 +125,7 @@ class Susceptibility(Labelled, Objective):
 
     def expression(self, q: SX) -> SX:
         """``f' W f`` as a function of the symbols q (n,); smooth but where a joint becomes degenerate or hangs upright."""
-        return self._combined(self.by_joint_expression(q))
+        return self._combine_joints(self.by_joint_expression(q))
 
     def gradient_expression(self, q: SX) -> SX:
         """Gradient (n,) of ``f' W f``, eq. (3), as a function of the symbols q (n,); 0 for a degenerate joint.
@@ -130,39 +135,39 @@ class Susceptibility(Labelled, Objective):
         """
         return ca.densify(ca.gradient(self.expression(q), q))
 
-    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
         """The negative of ``f' W f``, and its slopes; see :meth:`holdfast.indices.Objective.parts`."""
         value = self.expression(q)
-        slope = ca.densify(ca.gradient(value, q))
-        return [Part(1.0, [-value], [[-ca.dot(slope, v) for v in directions]])]
+        derivative = ca.densify(ca.gradient(value, q))
+        return [ObjectivePart(1.0, [-value], [[-ca.dot(derivative, v) for v in directions]])]
 
-    def _combined(self, f: SX) -> SX:
+    def _combine_joints(self, f: SX) -> SX:
         # A joint without weight takes no part, also where its own measure is not a number.
         weights = ca.sparsify(ca.SX(ca.DM(self.weights)))
         return ca.SX(ca.densify(ca.dot(f, weights @ f)))
 
     @cached_property
-    @recalled
-    def _values(self) -> Kernel:
+    @cached_kernel
+    def _values_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         f, degenerate = self.formula.values(self.arm, q)
-        return Kernel(self.name, [q], [self._combined(f), f, degenerate])
+        return Kernel(self.name, [q], [self._combine_joints(f), f, degenerate])
 
     @cached_property
-    @recalled
-    def _gradient(self) -> Kernel:
+    @cached_kernel
+    def _gradient_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel(f"{self.name} gradient", [q], [self.gradient_expression(q)])
 
     @cached_property
-    @recalled
-    def _jacobian(self) -> Kernel:
+    @cached_kernel
+    def _jacobian_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel(f"{self.name} jacobian", [q], [ca.jacobian(self.by_joint_expression(q), q)])
 
     # ---- what a user asks --------------------------------------------------------------------------------------
 
-    def evaluate(self, q: ArrayLike) -> Evaluation:
+    def evaluate(self, q: ArrayLike) -> SusceptibilityEvaluation:
         """Value, measure of each joint and what both stand for, in one pass.
 
         Args:
@@ -173,40 +178,42 @@ class Susceptibility(Labelled, Objective):
         """
         rows, single = as_configurations(self.arm, q)
         n = self.arm.n
-        out = self._values.rows(rows)
-        value, by_joint = out[:, 0].copy(), out[:, 1 : n + 1].copy()
-        joint_status = np.where(out[:, n + 1 :] > 0, Status.DEGENERATE, Status.OK).astype(np.uint8)
+        outputs = self._values_kernel.rows(rows)
+        value, by_joint = outputs[:, 0].copy(), outputs[:, 1 : n + 1].copy()
+        joint_status = np.where(outputs[:, n + 1 :] > 0, Status.DEGENERATE, Status.OK).astype(np.uint8)
         if not self.formula.slides:
             joint_status[:, self.arm.prismatic] = Status.NOT_DEFINED
         joint_status[np.isnan(by_joint)] = Status.NO_INERTIA
-        bad = ~np.isfinite(rows).all(axis=1)
-        joint_status[bad] = Status.BAD_INPUT
+        is_invalid = ~np.isfinite(rows).all(axis=1)
+        joint_status[is_invalid] = Status.BAD_INPUT
         status = np.where(np.isnan(value), Status.NO_INERTIA, Status.OK).astype(np.uint8)
-        status[bad] = Status.BAD_INPUT
-        one = 0 if single else slice(None)
-        return Evaluation(value=value[one], by_joint=by_joint[one], status=status[one], joint_status=joint_status[one])
+        status[is_invalid] = Status.BAD_INPUT
+        selection = 0 if single else slice(None)
+        return SusceptibilityEvaluation(
+            value=value[selection], by_joint=by_joint[selection], status=status[selection], joint_status=joint_status[selection]
+        )
 
     def __call__(self, q: ArrayLike) -> Array:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
         rows, single = as_configurations(self.arm, q)
-        value = self._values.rows(rows, first=1)[:, 0]
+        value = self._values_kernel.rows(rows, first=1)[:, 0]
         return value[0] if single else value
 
     def by_joint(self, q: ArrayLike) -> Array:
         """The measure f of each joint, signed, (N, n) or (n,), in :attr:`joint_unit`."""
         rows, single = as_configurations(self.arm, q)
-        f = self._values.rows(rows)[:, 1 : self.arm.n + 1].copy()
+        f = self._values_kernel.rows(rows)[:, 1 : self.arm.n + 1].copy()
         return f[0] if single else f
 
     def gradient(self, q: ArrayLike) -> Array:
         """Exact gradient of ``f' W f``, (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""
         rows, single = as_configurations(self.arm, q)
-        g = self._gradient.rows(rows)
-        return g[0] if single else g
+        gradient = self._gradient_kernel.rows(rows)
+        return gradient[0] if single else gradient
 
     def row_function(self) -> RowFunction:
         """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
-        return replace(super().row_function(), kernels=(self._values, self._gradient))
+        return replace(super().row_function(), kernels=(self._values_kernel, self._gradient_kernel))
 
     def jacobian(self, q: ArrayLike) -> Array:
         """Exact derivatives of the joints' measures, ``out[..., i, j] = d f_i / d q_j``, (N, n, n) or (n, n); eq. (4).
@@ -214,12 +221,12 @@ class Susceptibility(Labelled, Objective):
         The row of a degenerate joint is 0.
         """
         rows, single = as_configurations(self.arm, q)
-        slopes = self._jacobian.rows(rows).reshape(-1, self.arm.n, self.arm.n)
-        return slopes[0] if single else slopes
+        derivatives = self._jacobian_kernel.rows(rows).reshape(-1, self.arm.n, self.arm.n)
+        return derivatives[0] if single else derivatives
 
 
-class Together:
-    """Several susceptibilities of one arm, with their gradients, from one kernel that computes what they share once.
+class SusceptibilityBatch:
+    """Several susceptibilities of one arm with their gradients, from one kernel that computes shared terms once.
 
     Args:
         measures: At least one, all of the same arm.
@@ -235,7 +242,7 @@ class Together:
         self.arm = self.measures[0].arm
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         values = [m.expression(q) for m in self.measures]
@@ -254,10 +261,10 @@ class Together:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
-        out = self._kernel.rows(rows)
-        k = len(self.measures)
-        values = np.ascontiguousarray(out[:, :k])
-        gradients = np.ascontiguousarray(out[:, k:]).reshape(-1, k, self.arm.n)
+        outputs = self._kernel.rows(rows)
+        count = len(self.measures)
+        values = np.ascontiguousarray(outputs[:, :count])
+        gradients = np.ascontiguousarray(outputs[:, count:]).reshape(-1, count, self.arm.n)
         return (values[0], gradients[0]) if single else (values, gradients)
 
 
@@ -282,12 +289,12 @@ def torque(
         ArmError: A link of which nothing is known.
         InputError: Weights that are not positive semidefinite or do not fit the arm.
     """
-    return Susceptibility(TORQUE, arm, weights)
+    return Susceptibility(TORQUE_FORMULA, arm, weights)
 
 
 @constructor(needs=("inertia",))
 def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
-    """How fast each joint would accelerate as it fails, the others held; English and Maciejewski 1998, eq. (22).
+    """The acceleration of each joint as it fails with the others fixed; English and Maciejewski 1998, eq. (22).
 
     Armature counts as inertia. Where all the mass that a revolute joint carries lies on its axis it is NaN.
 
@@ -295,12 +302,13 @@ def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
         ArmError: A link of which nothing is known or whose inertia no body has, or a joint that carries no mass.
         InputError: Weights that are not positive semidefinite or do not fit the arm; weights named after torques.
     """
-    return Susceptibility(ACCELERATION, arm, weights)
+    return Susceptibility(ACCELERATION_FORMULA, arm, weights)
 
 
 @constructor(needs=("inertia",))
 def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
-    """How far each revolute joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
+    """The angle through which each revolute joint swings with the others fixed until it hangs; English and Maciejewski 1998,
+    eq. (36)-(39).
 
     In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a prismatic joint, for a balanced one and
     where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.
@@ -309,10 +317,10 @@ def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
         ArmError: A link of which nothing is known.
         InputError: Weights that are not positive semidefinite or do not fit the arm; weights named after torques.
     """
-    return Susceptibility(SWING_ANGLE, arm, weights)
+    return Susceptibility(SWING_ANGLE_FORMULA, arm, weights)
 
 
-@checked
+@check_arguments
 def by_name(name: str, arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     """A susceptibility by its label: ``torque``, or ``torque:effort``; weights may be given beside the name.
 
@@ -320,5 +328,5 @@ def by_name(name: str, arm: Arm, weights: WeightSpec = None) -> Susceptibility:
         InputError: There is no such measure; the message has the nearest, and all.
     """
     options: dict[str, Any] = {} if weights is None else {"weights": weights}
-    made: Susceptibility = SUSCEPTIBILITIES.make(name, arm, **options)
-    return made
+    susceptibility: Susceptibility = SUSCEPTIBILITY_REGISTRY.make(name, arm, **options)
+    return susceptibility

@@ -1,4 +1,4 @@
-"""How the joints of a susceptibility are combined into one number: the matrix W of ``f' W f``."""
+"""Weights that combine the joints of a susceptibility into one number: the matrix W of ``f' W f``."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from holdfast.arm import statics
 from holdfast.arm.model import Arm
 from holdfast.arm.soundness import require_masses
 from holdfast.errors import InputError
-from holdfast.probability.sobol_sequence import sobol
+from holdfast.probability.sobol_sequence import sobol_points
 
 Array = NDArray[np.float64]
 WeightSpec = ArrayLike | Literal["effort", "worst-case"] | None
 
-NEGATIVE = -1e-12
+EIGENVALUE_TOLERANCE = -1e-12
 """An eigenvalue below this times the largest magnitude is negative, not rounding noise."""
 
-_SAMPLES = 4096
-_KEPT = 16  # starts for each joint and sign
-_SWEEPS = 200
-_STILL = 1e-13  # gain of a sweep that ends the search, against the weight carried times the arm's length
-_NOTHING = 1e-12  # a torque this small against the same is rounding noise
+_SAMPLE_COUNT = 4096
+_STARTS_PER_SIGN = 16  # starts for each joint and sign
+_MAX_SWEEPS = 200
+_CONVERGED_GAIN = 1e-13  # gain of a sweep that ends the search, against the weight carried times the arm's length
+_ZERO_TORQUE_RATIO = 1e-12  # a torque this small against the same is rounding noise
 
 
 def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tuple[Array, str]:
-    """W (n, n), symmetric, and a word for it.
+    """Return W (n, n), symmetric, and a word for its kind.
 
     Args:
         arm: The arm.
@@ -45,7 +45,7 @@ def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tup
             raise InputError(f"weights '{weights}' are not known; use 'effort', 'worst-case', or numbers")
         if not torque:
             raise InputError(f"weights '{weights}' are of torques and the measure is the {name}; give numbers, or none")
-        return _named(arm, weights), weights
+        return _named_weights(arm, weights), weights
     try:
         w = np.array(weights, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -56,18 +56,18 @@ def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tup
         raise InputError(f"weights have shape {w.shape}; '{arm.name}' has {arm.n} joints, so ({arm.n},) or ({arm.n}, {arm.n})")
     if not np.isfinite(w).all():
         raise InputError("weights hold NaN or infinity; they must be finite numbers")
-    word = "full" if w.ndim == 2 else "diagonal"
+    kind = "full" if w.ndim == 2 else "diagonal"
     w = np.diag(w) if w.ndim == 1 else (w + w.T) / 2
     eigenvalues = np.linalg.eigvalsh(w)
-    if eigenvalues[0] < NEGATIVE * np.abs(eigenvalues).max():
+    if eigenvalues[0] < EIGENVALUE_TOLERANCE * np.abs(eigenvalues).max():
         raise InputError(
             f"weights are not positive semidefinite: their smallest eigenvalue is {eigenvalues[0]:.4g}; "
             "with it a failure could count as a gain, so all must be 0 or more"
         )
-    return w, word
+    return w, kind
 
 
-def _named(arm: Arm, weights: str) -> Array:
+def _named_weights(arm: Arm, weights: str) -> Array:
     if weights == "effort":
         for joint in arm.joints:
             if not 0 < joint.effort < np.inf:
@@ -82,7 +82,7 @@ def _named(arm: Arm, weights: str) -> Array:
 
 
 def largest_static_torque(arm: Arm) -> Array:
-    """The largest magnitude of each joint's holding torque or force over the joint limits, (n,), N m and N.
+    """Return the largest magnitude of each joint's holding torque or force over the joint limits, (n,), N m and N.
 
     As English and Maciejewski 1998, eq. (46), take for their planar arm, computed for any. Revolute joints without limits
     take every angle. It is 0 for a joint that gravity never loads.
@@ -102,51 +102,53 @@ def largest_static_torque(arm: Arm) -> Array:
                 f"joint '{arm.joint_names[k]}' of '{arm.name}' slides without limits, so no static torque is the largest; "
                 "give it a lower and an upper limit"
             )
-    spread = sobol(_SAMPLES, arm.n)
+    spread = sobol_points(_SAMPLE_COUNT, arm.n)
     q = low + spread * (high - low)
     tau = arm.gravity_torque(q)
     signed = np.concatenate([tau, -tau], axis=1)
-    best = np.argsort(-signed, axis=0, kind="stable")[:_KEPT]
-    starts = q[best.T.ravel()]
-    joint = np.repeat(np.tile(np.arange(arm.n), 2), _KEPT)
-    sign = np.repeat([1.0, -1.0], arm.n * _KEPT)
-    carried = np.cumsum([body.mass for body in statics.bodies(arm)][::-1])[::-1]
+    order = np.argsort(-signed, axis=0, kind="stable")[:_STARTS_PER_SIGN]
+    starts = q[order.T.ravel()]
+    joint = np.repeat(np.tile(np.arange(arm.n), 2), _STARTS_PER_SIGN)
+    sign = np.repeat([1.0, -1.0], arm.n * _STARTS_PER_SIGN)
+    carried = np.cumsum([body.mass for body in statics.links_with_payload(arm)][::-1])[::-1]
     scale = carried * float(np.linalg.norm(arm.gravity)) * np.where(arm.prismatic, 1.0, statics.length_scale(arm))
-    reached = _climb(arm, starts, joint, sign, low, high, _STILL * scale[joint])
+    reached = _maximise_by_coordinates(arm, starts, joint, sign, low, high, _CONVERGED_GAIN * scale[joint])
     largest = np.array([reached[joint == k].max() for k in range(arm.n)])
-    return np.where(largest > _NOTHING * scale, largest, 0.0)
+    return np.where(largest > _ZERO_TORQUE_RATIO * scale, largest, 0.0)
 
 
-def _climb(arm: Arm, q: Array, joint: NDArray[np.int64], sign: Array, low: Array, high: Array, still: Array) -> Array:
-    """``sign * tau[joint]`` (R,) where every row of q (R, n) ends, one coordinate after the other at its best."""
+def _maximise_by_coordinates(
+    arm: Arm, q: Array, joint: NDArray[np.int64], sign: Array, low: Array, high: Array, still: Array
+) -> Array:
+    """Return ``sign * tau[joint]`` (R,) at the end of a coordinate ascent from every row of q (R, n)."""
     rows = np.arange(len(q))
 
-    def height(x: Array) -> Array:
+    def signed_torque(x: Array) -> Array:
         return np.asarray(sign * arm.gravity_torque(x)[rows, joint])
 
-    value = height(q)
-    for _ in range(_SWEEPS):
+    value = signed_torque(q)
+    for _ in range(_MAX_SWEEPS):
         before = value
         for k in range(arm.n):
             best = q[:, k]
             choices = [np.full(len(q), low[k]), np.full(len(q), high[k])]
             if not arm.prismatic[k]:
-                quarter = [height(_with(q, k, np.full(len(q), a))) for a in (0.0, np.pi / 2, np.pi)]
+                quarter = [signed_torque(_replace_joint(q, k, np.full(len(q), a))) for a in (0.0, np.pi / 2, np.pi)]
                 # a + b cos x + c sin x at 0, a quarter and half a turn
                 a, b = (quarter[0] + quarter[2]) / 2, (quarter[0] - quarter[2]) / 2
                 top = np.arctan2(quarter[1] - a, b)
                 choices.append(np.clip(top + 2 * np.pi * np.ceil((low[k] - top) / (2 * np.pi)), low[k], high[k]))
             for choice in choices:
-                tried = height(_with(q, k, choice))
-                best = np.where(tried > value, choice, best)
-                value = np.maximum(value, tried)
-            q = _with(q, k, best)
+                new_value = signed_torque(_replace_joint(q, k, choice))
+                best = np.where(new_value > value, choice, best)
+                value = np.maximum(value, new_value)
+            q = _replace_joint(q, k, best)
         if (value - before <= still).all():
             break
     return value
 
 
-def _with(q: Array, k: int, x: Array) -> Array:
-    out = q.copy()
-    out[:, k] = x
-    return out
+def _replace_joint(q: Array, k: int, x: Array) -> Array:
+    changed = q.copy()
+    changed[:, k] = x
+    return changed

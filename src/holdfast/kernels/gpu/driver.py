@@ -1,4 +1,4 @@
-"""NVIDIA's driver through ``cuda-bindings``: devices, memory, modules, launches. Nothing else of CUDA is needed."""
+"""NVIDIA's driver through ``cuda-bindings``: devices, memory, modules, and launches; nothing else of CUDA is needed."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from holdfast.errors import KernelError
 
 LEGACY_STREAM = 1  # the stream that waits for all others: the handle of the driver, and the number in DLPack
-_BLOCK = 128  # threads: enough blocks for every multiprocessor from some ten thousand rows on
+_BLOCK_THREADS = 128  # threads: enough blocks for every multiprocessor from some ten thousand rows on
 
 
 @lru_cache(maxsize=1)
-def _bindings() -> Any:
-    """The driver's functions, once it is started.
+def _driver_functions() -> Any:
+    """Return the driver's functions after starting the driver.
 
     Raises:
         KernelError: The bindings are not installed, or there is no driver.
@@ -38,16 +38,16 @@ def _bindings() -> Any:
     return driver
 
 
-def _checked(what: str, answer: tuple[Any, ...]) -> Any:
+def _check_answer(action: str, answer: tuple[Any, ...]) -> Any:
     status, *values = answer
     if int(status):
-        name = _bindings().cuGetErrorName(status)[1]
-        raise KernelError(f"the GPU could not {what}: {name.decode() if name else status}")
+        name = _driver_functions().cuGetErrorName(status)[1]
+        raise KernelError(f"the GPU could not {action}: {name.decode() if name else status}")
     return values[0] if len(values) == 1 else tuple(values)
 
 
 class Device:
-    """One GPU, by its primary context, which PyTorch, CuPy, JAX and Warp use too.
+    """GPU with its primary context, which PyTorch, CuPy, JAX, and Warp use too.
 
     Args:
         ordinal: Its number from 0, as the driver counts.
@@ -61,60 +61,60 @@ class Device:
     """
 
     def __init__(self, ordinal: int) -> None:
-        driver = _bindings()
-        count = _checked("be counted", driver.cuDeviceGetCount())
+        driver = _driver_functions()
+        count = _check_answer("be counted", driver.cuDeviceGetCount())
         if not 0 <= ordinal < count:
             raise KernelError(f"there is no GPU {ordinal}: the driver has {count}, counted from 0")
         self.ordinal = ordinal
-        found = _checked("be found", driver.cuDeviceGet(ordinal))
+        handle = _check_answer("be found", driver.cuDeviceGet(ordinal))
         kinds = (f"CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_{part}" for part in ("MAJOR", "MINOR"))
-        asked = [driver.cuDeviceGetAttribute(getattr(driver.CUdevice_attribute, kind), found) for kind in kinds]
-        major, minor = (int(_checked("tell its capability", answer)) for answer in asked)
+        answers = [driver.cuDeviceGetAttribute(getattr(driver.CUdevice_attribute, kind), handle) for kind in kinds]
+        major, minor = (int(_check_answer("tell its capability", answer)) for answer in answers)
         self.capability = 10 * major + minor
-        self._context = _checked("be used", driver.cuDevicePrimaryCtxRetain(found))
+        self._context = _check_answer("be used", driver.cuDevicePrimaryCtxRetain(handle))
 
-    def do(self, what: str, name: str, *arguments: Any) -> Any:
-        """Call a function of the driver for this device; ``what`` it could not do is said where it fails.
+    def call_driver(self, action: str, name: str, *arguments: Any) -> Any:
+        """Call a function of the driver for this device; the error names the failed action.
 
         Raises:
             KernelError: It failed, or a kernel before it did.
         """
-        driver = _bindings()
-        _checked("be used", driver.cuCtxPushCurrent(self._context))
+        driver = _driver_functions()
+        _check_answer("be used", driver.cuCtxPushCurrent(self._context))
         try:
-            return _checked(what, getattr(driver, name)(*arguments))
+            return _check_answer(action, getattr(driver, name)(*arguments))
         finally:
             driver.cuCtxPopCurrent()
 
-    def function(self, ptx: bytes, name: str) -> Any:
-        """A kernel of a module; the driver translates it for the device and keeps that for the next time."""
-        module = self.do("load a kernel", "cuModuleLoadData", ptx + b"\0")
-        return self.do("find a kernel", "cuModuleGetFunction", module, name.encode())
+    def load_function(self, ptx: bytes, name: str) -> Any:
+        """Return a kernel of a module; the driver translates it for the device and caches the translation."""
+        module = self.call_driver("load a kernel", "cuModuleLoadData", ptx + b"\0")
+        return self.call_driver("find a kernel", "cuModuleGetFunction", module, name.encode())
 
     def launch(self, function: Any, arguments: Sequence[Any], rows: int, stream: int) -> None:
-        """Start a kernel on a stream, a thread for each row.
+        """Start a kernel on a stream with one thread per row.
 
         Args:
-            function: See :meth:`function`.
+            function: See :meth:`load_function`.
             arguments: ctypes numbers.
             rows: At least 1.
             stream: Handle.
         """
-        given = tuple(a.value for a in arguments), tuple(type(a) for a in arguments)
-        grid = -(-rows // _BLOCK), 1, 1, _BLOCK, 1, 1
-        self.do("start a kernel", "cuLaunchKernel", function, *grid, 0, _handle(stream), given, 0)
+        values_and_types = tuple(a.value for a in arguments), tuple(type(a) for a in arguments)
+        grid = -(-rows // _BLOCK_THREADS), 1, 1, _BLOCK_THREADS, 1, 1
+        self.call_driver("start a kernel", "cuLaunchKernel", function, *grid, 0, _stream_handle(stream), values_and_types, 0)
 
-    def wait(self, stream: int) -> None:
-        """Until all that was put on a stream is done; an error of a kernel shows here."""
-        self.do("finish", "cuStreamSynchronize", _handle(stream))
-
-
-def _handle(stream: int) -> Any:
-    return _bindings().CUstream(stream)
+    def wait_for_stream(self, stream: int) -> None:
+        """Wait until the stream is empty; an error of a kernel is raised here."""
+        self.call_driver("finish", "cuStreamSynchronize", _stream_handle(stream))
 
 
-class Memory:
-    """Doubles on a device, given back when nobody has them any more.
+def _stream_handle(stream: int) -> Any:
+    return _driver_functions().CUstream(stream)
+
+
+class DeviceMemory:
+    """Memory for doubles on a device, released when it is no longer used.
 
     Args:
         device: Where.
@@ -127,23 +127,27 @@ class Memory:
 
     def __init__(self, device: Device, count: int) -> None:
         self.device, size = device, max(8 * count, 8)
-        self.pointer = int(device.do(f"give {size / 2**20:.0f} MB", "cuMemAlloc", size))
-        end = weakref.finalize(self, device.do, "give memory back", "cuMemFree", self.pointer)
-        end.atexit = False  # the driver ends before Python does
+        self.pointer = int(device.call_driver(f"give {size / 2**20:.0f} MB", "cuMemAlloc", size))
+        finalizer = weakref.finalize(self, device.call_driver, "give memory back", "cuMemFree", self.pointer)
+        finalizer.atexit = False  # the driver ends before Python does
 
-    def put(self, array: NDArray[np.float64], stream: int, at: int = 0) -> None:
-        """Copy a contiguous array there, from number ``at`` on."""
-        start = self.pointer + 8 * at
-        self.device.do("take data", "cuMemcpyHtoDAsync", start, array.ctypes.data, array.nbytes, _handle(stream))
+    def copy_to_device(self, array: NDArray[np.float64], stream: int, offset: int = 0) -> None:
+        """Copy a contiguous array to the device, from element ``at`` on."""
+        start = self.pointer + 8 * offset
+        self.device.call_driver(
+            "take data", "cuMemcpyHtoDAsync", start, array.ctypes.data, array.nbytes, _stream_handle(stream)
+        )
 
-    def get(self, array: NDArray[np.float64], stream: int, at: int = 0) -> None:
-        """Copy what is there from number ``at`` on into a contiguous array, and wait for that."""
-        start = self.pointer + 8 * at
-        self.device.do("give data", "cuMemcpyDtoHAsync", array.ctypes.data, start, array.nbytes, _handle(stream))
-        self.device.wait(stream)
+    def copy_to_host(self, array: NDArray[np.float64], stream: int, offset: int = 0) -> None:
+        """Copy the content from element ``at`` on into a contiguous array and wait for it."""
+        start = self.pointer + 8 * offset
+        self.device.call_driver(
+            "give data", "cuMemcpyDtoHAsync", array.ctypes.data, start, array.nbytes, _stream_handle(stream)
+        )
+        self.device.wait_for_stream(stream)
 
 
 @lru_cache
-def device(ordinal: int) -> Device:
-    """The device of a number, found once."""
+def get_device(ordinal: int) -> Device:
+    """Return the device of a number, opened once."""
     return Device(ordinal)

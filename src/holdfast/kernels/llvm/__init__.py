@@ -1,1 +1,1 @@
-"""Program -> LLVM: arithmetic, functions, translation, machine code of this processor."""
+"""Translate a program to LLVM: arithmetic, functions, translation, and machine code of this processor."""

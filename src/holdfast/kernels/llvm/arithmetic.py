@@ -1,4 +1,4 @@
-"""Arithmetic as LLVM instructions; sine and cosine together, without branches.
+"""Arithmetic as LLVM instructions, with sine and cosine together and without branches.
 
 A library's functions switch to another method for very large angles, and a vector library's do so for a whole group of rows
 when one of them is large, infinite or NaN: its neighbours then differ in the last digit. These do the same operations in
@@ -15,8 +15,8 @@ import struct
 from dataclasses import dataclass
 
 # pi in three parts; the first two have zeros at their end, so that products with whole numbers are exact.
-_PI = (2 * 1.57079632673412561417e00, 2 * 6.07710050630396597660e-11, 2 * 2.02226624879595063154e-21)
-_SINE = (
+_PI_PARTS = (2 * 1.57079632673412561417e00, 2 * 6.07710050630396597660e-11, 2 * 2.02226624879595063154e-21)
+_SINE_COEFFICIENTS = (
     1.58969099521155010221e-10,
     -2.50507602534068634195e-08,
     2.75573137070700676789e-06,
@@ -24,7 +24,7 @@ _SINE = (
     8.33333333332248946124e-03,
     -1.66666666666666324348e-01,
 )
-_COSINE = (
+_COSINE_COEFFICIENTS = (
     -1.13596475577881948265e-11,
     2.08757232129817482790e-09,
     -2.75573143513906633035e-07,
@@ -32,13 +32,13 @@ _COSINE = (
     -1.38888888888741095749e-03,
     4.16666666666666019037e-02,
 )
-ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and taking it away rounds to a whole number
-_LARGEST = 1e15
+ROUNDING_SHIFT = 6755399441055744.0  # 1.5 * 2^52: adding and taking it away rounds to a whole number
+_LARGEST_ANGLE_RAD = 1e15
 
 
 @dataclass(frozen=True)
-class Machine:
-    """What the text depends on.
+class TargetMachine:
+    """Properties of the processor on which the text depends.
 
     Attributes:
         lanes: Rows handled at once.
@@ -52,7 +52,7 @@ class Machine:
 class Arithmetic:
     """Values of ``lanes`` doubles by their names in the text; a method adds an instruction and returns its name."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: TargetMachine) -> None:
         self.machine = machine
         self.lines: list[str] = []
         self.type = f"<{machine.lanes} x double>"
@@ -60,18 +60,18 @@ class Arithmetic:
         self.whole_type = f"<{machine.lanes} x i64>"
         self.declared: set[str] = set()  # functions that are not defined here
 
-    def _new(self, text: str) -> str:
+    def _add_instruction(self, text: str) -> str:
         name = f"%v{len(self.lines)}"
         self.lines.append(f"{name} = {text}")
         return name
 
-    def number(self, value: float) -> str:
+    def constant(self, value: float) -> str:
         """A constant, bit for bit."""
         return f"splat (double 0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X})"
 
     def binary(self, operation: str, a: str, b: str) -> str:
         """``fadd``, ``fsub``, ``fmul`` or ``fdiv``."""
-        return self._new(f"{operation} {self.type} {a}, {b}")
+        return self._add_instruction(f"{operation} {self.type} {a}, {b}")
 
     def add(self, a: str, b: str) -> str:
         """Sum."""
@@ -85,9 +85,9 @@ class Arithmetic:
         """Product."""
         return self.binary("fmul", a, b)
 
-    def negative(self, a: str) -> str:
+    def negate(self, a: str) -> str:
         """Negative."""
-        return self._new(f"fneg {self.type} {a}")
+        return self._add_instruction(f"fneg {self.type} {a}")
 
     def fma(self, a: str, b: str, c: str) -> str:
         """Product of a and b plus c, rounded once where the machine can."""
@@ -99,75 +99,81 @@ class Arithmetic:
         """An LLVM intrinsic that every machine rounds alike: ``fma``, ``sqrt``, ``fabs``, ``copysign``."""
         name = f"@llvm.{name}.v{self.machine.lanes}f64"
         self.declared.add(f"declare {self.type} {name}({', '.join([self.type] * len(arguments))})")
-        return self._new(f"call {self.type} {name}({', '.join(f'{self.type} {a}' for a in arguments)})")
+        return self._add_instruction(f"call {self.type} {name}({', '.join(f'{self.type} {a}' for a in arguments)})")
 
-    def less(self, a: str, b: str) -> str:
+    def compare_less(self, a: str, b: str) -> str:
         """The mask of a < b."""
         return self.compare("olt", a, b)
 
     def compare(self, how: str, a: str, b: str) -> str:
         """A mask."""
-        return self._new(f"fcmp {how} {self.type} {a}, {b}")
+        return self._add_instruction(f"fcmp {how} {self.type} {a}, {b}")
 
     def select(self, mask: str, a: str, b: str) -> str:
         """``mask ? a : b``."""
-        return self._new(f"select {self.mask} {mask}, {self.type} {a}, {self.type} {b}")
+        return self._add_instruction(f"select {self.mask} {mask}, {self.type} {a}, {self.type} {b}")
 
-    def both(self, a: str, b: str) -> str:
+    def mask_and(self, a: str, b: str) -> str:
         """The mask where both are true."""
-        return self._new(f"and {self.mask} {a}, {b}")
+        return self._add_instruction(f"and {self.mask} {a}, {b}")
 
-    def either(self, a: str, b: str) -> str:
+    def mask_or(self, a: str, b: str) -> str:
         """The mask where one is true, or both."""
-        return self._new(f"or {self.mask} {a}, {b}")
+        return self._add_instruction(f"or {self.mask} {a}, {b}")
 
-    def opposite(self, a: str) -> str:
+    def mask_not(self, a: str) -> str:
         """The mask where this one is false."""
-        return self._new(f"xor {self.mask} {a}, splat (i1 true)")
+        return self._add_instruction(f"xor {self.mask} {a}, splat (i1 true)")
 
-    def bits(self, a: str) -> str:
+    def to_bits(self, a: str) -> str:
         """The 64 bits of a value."""
-        return self._new(f"bitcast {self.type} {a} to {self.whole_type}")
+        return self._add_instruction(f"bitcast {self.type} {a} to {self.whole_type}")
 
-    def of_bits(self, a: str) -> str:
+    def from_bits(self, a: str) -> str:
         """The value of 64 bits."""
-        return self._new(f"bitcast {self.whole_type} {a} to {self.type}")
+        return self._add_instruction(f"bitcast {self.whole_type} {a} to {self.type}")
 
-    def whole(self, operation: str, a: str, constant: int) -> str:
+    def integer_operation(self, operation: str, a: str, constant: int) -> str:
         """``add``, ``and``, ``or``, ``shl`` or ``lshr`` of 64 bits and a constant."""
-        return self._new(f"{operation} {self.whole_type} {a}, splat (i64 {constant})")
+        return self._add_instruction(f"{operation} {self.whole_type} {a}, splat (i64 {constant})")
 
     def negative_sign(self, a: str) -> str:
         """The mask of what has a minus sign, -0 too."""
-        return self._new(f"icmp slt {self.whole_type} {self.bits(a)}, zeroinitializer")
+        return self._add_instruction(f"icmp slt {self.whole_type} {self.to_bits(a)}, zeroinitializer")
 
 
-def sincos(e: Arithmetic, x: str) -> tuple[str, str]:
-    """Sine and cosine of ``x``, rad; NaN beyond 1e15, where an angle in double precision means nothing.
+def emit_sine_and_cosine(e: Arithmetic, x: str) -> tuple[str, str]:
+    """Return sine and cosine of ``x``, rad; NaN beyond 1e15, where an angle in double precision has no meaning.
 
     Args:
         e: Where the instructions go.
         x: Name of the angle.
     """
-    x = e.select(e.less(e.mul(x, x), e.number(_LARGEST**2)), x, e.number(float("nan")))
-    shift = e.number(ROUND)
-    turns = e.sub(e.fma(x, e.number(0.31830988618379067154), shift), shift)  # nearest whole number of x / pi
+    x = e.select(e.compare_less(e.mul(x, x), e.constant(_LARGEST_ANGLE_RAD**2)), x, e.constant(float("nan")))
+    rounding_shift = e.constant(ROUNDING_SHIFT)
+    turns = e.sub(
+        e.fma(x, e.constant(0.31830988618379067154), rounding_shift), rounding_shift
+    )  # nearest whole number of x / pi
     reduced = x
-    for part in _PI:
-        reduced = e.fma(turns, e.number(-part), reduced)
-    half = e.mul(e.number(0.5), reduced)
+    for part in _PI_PARTS:
+        reduced = e.fma(turns, e.constant(-part), reduced)
+    half = e.mul(e.constant(0.5), reduced)
     square = e.mul(half, half)
-    sine = e.fma(half, e.mul(square, polynomial(e, _SINE, square)), half)
-    cosine = e.fma(e.mul(square, square), polynomial(e, _COSINE, square), e.fma(e.number(-0.5), square, e.number(1.0)))
-    pairs = e.sub(e.fma(turns, e.number(0.5), shift), shift)
-    odd = e.fma(pairs, e.number(-2.0), turns)  # -1, 0 or 1
-    sign = e.fma(e.mul(odd, odd), e.number(-2.0), e.number(1.0))
+    sine = e.fma(half, e.mul(square, emit_polynomial(e, _SINE_COEFFICIENTS, square)), half)
+    cosine = e.fma(
+        e.mul(square, square),
+        emit_polynomial(e, _COSINE_COEFFICIENTS, square),
+        e.fma(e.constant(-0.5), square, e.constant(1.0)),
+    )
+    pairs = e.sub(e.fma(turns, e.constant(0.5), rounding_shift), rounding_shift)
+    odd_turns = e.fma(pairs, e.constant(-2.0), turns)  # -1, 0 or 1
+    sign = e.fma(e.mul(odd_turns, odd_turns), e.constant(-2.0), e.constant(1.0))
     return e.mul(sign, e.mul(e.add(sine, sine), cosine)), e.mul(sign, e.mul(e.sub(cosine, sine), e.add(cosine, sine)))
 
 
-def polynomial(e: Arithmetic, coefficients: tuple[float, ...], x: str) -> str:
-    """Its value, highest degree first."""
-    value = e.number(coefficients[0])
+def emit_polynomial(e: Arithmetic, coefficients: tuple[float, ...], x: str) -> str:
+    """Return the value of a polynomial, coefficients of the highest degree first."""
+    value = e.constant(coefficients[0])
     for c in coefficients[1:]:
-        value = e.fma(value, x, e.number(c))
+        value = e.fma(value, x, e.constant(c))
     return value

@@ -1,4 +1,4 @@
-"""Program -> machine code by LLVM, for the processor at hand.
+"""Compile a program to machine code by LLVM for this processor.
 
 Level 0 compiles some 4 times as fast as level 1 and its code takes some 1.8 times as long; both give the same bits
 (:mod:`holdfast.kernels.llvm.translation`).
@@ -15,18 +15,18 @@ from functools import lru_cache
 from typing import Any
 
 from holdfast.errors import KernelError
-from holdfast.kernels.llvm.arithmetic import Machine
+from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.llvm.translation import NAME, emit
 from holdfast.kernels.program import Program
 
-LEVELS = (0, 1)
+COMPILE_LEVELS = (0, 1)
 # Seconds per operation and level, measured; for telling how long something will take, and which level is worth it.
-COMPILING = (11e-6, 43e-6)
+COMPILE_SECONDS_PER_OPERATION = (11e-6, 43e-6)
 
 
 @dataclass(frozen=True)
-class Host:
-    """The processor that code is made for.
+class HostProcessor:
+    """Processor for which code is compiled.
 
     Attributes:
         cpu: LLVM's name of it.
@@ -36,17 +36,17 @@ class Host:
 
     cpu: str
     features: str
-    machine: Machine
+    machine: TargetMachine
 
 
 @lru_cache(maxsize=1)
-def host() -> Host:
-    """This machine. Two registers of rows at once hide the latency of divisions and roots (measured: 18 % on AVX2)."""
+def detect_host() -> HostProcessor:
+    """Detect this machine; two registers of rows at once hide the latency of divisions and roots (measured: 18 % on AVX2)."""
     llvm = _llvm()
-    found = llvm.get_host_cpu_features()
-    wide = 8 if found.get("avx512f") else 4 if found.get("avx") else 2
-    fused = bool(found.get("fma")) or not any(name in found for name in ("sse2", "avx"))  # all 64-bit ARM has it
-    return Host(llvm.get_host_cpu_name(), found.flatten(), Machine(2 * wide, fused))
+    features = llvm.get_host_cpu_features()
+    lanes_per_register = 8 if features.get("avx512f") else 4 if features.get("avx") else 2
+    has_fma = bool(features.get("fma")) or not any(name in features for name in ("sse2", "avx"))  # all 64-bit ARM has it
+    return HostProcessor(llvm.get_host_cpu_name(), features.flatten(), TargetMachine(2 * lanes_per_register, has_fma))
 
 
 @lru_cache(maxsize=1)
@@ -58,37 +58,39 @@ def _llvm() -> Any:
     return binding
 
 
-def lock() -> AbstractContextManager[Any]:
-    """What the one thread that uses LLVM holds: in a fork none may be in the middle of it, as the child does not have it."""
+def llvm_lock() -> AbstractContextManager[Any]:
+    """Return the lock of the one thread that uses LLVM, so that no fork happens in the middle of its work."""
     library = getattr(sys.modules.get("llvmlite.binding.ffi"), "lib", None)
     return nullcontext() if library is None else library._lock
 
 
-def version() -> str:
-    """Of llvmlite."""
+def llvm_version() -> str:
+    """Return the version of llvmlite."""
     from importlib.metadata import version
 
     return version("llvmlite")
 
 
-def _target(level: int) -> Any:
-    llvm, here = _llvm(), host()
+def _target_machine(level: int) -> Any:
+    llvm, processor = _llvm(), detect_host()
     target = llvm.Target.from_default_triple()
-    return target.create_target_machine(cpu=here.cpu, features=here.features, opt=level, jit=True, codemodel="jitdefault")
+    return target.create_target_machine(
+        cpu=processor.cpu, features=processor.features, opt=level, jit=True, codemodel="jitdefault"
+    )
 
 
-def compile_program(program: Program, level: int, machine: Machine | None = None) -> bytes:
+def compile_program(program: Program, level: int, machine: TargetMachine | None = None) -> bytes:
     """Object code of the function that :func:`holdfast.kernels.llvm.translation.emit` writes.
 
     Raises:
         KernelError: An operation without translation.
     """
-    return object_code(emit(program, machine or host().machine), level)
+    return object_code(emit(program, machine or detect_host().machine), level)
 
 
 def object_code(text: str, level: int) -> bytes:
     """Object code of a module in LLVM's language."""
-    return bytes(_target(level).emit_object(_llvm().parse_assembly(text)))
+    return bytes(_target_machine(level).emit_object(_llvm().parse_assembly(text)))
 
 
 class Code:
@@ -97,7 +99,7 @@ class Code:
     def __init__(self, data: bytes) -> None:
         llvm = _llvm()
         try:
-            self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target(0))
+            self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine(0))
             self._engine.add_object_file(llvm.object_file.ObjectFileRef.from_data(data))
             self._engine.finalize_object()
             self.address: int = self._engine.get_function_address(NAME)

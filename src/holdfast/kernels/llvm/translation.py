@@ -14,8 +14,8 @@ from collections.abc import Callable
 import casadi as ca
 
 from holdfast.errors import KernelError
-from holdfast.kernels.llvm.arithmetic import Arithmetic, Machine, sincos
-from holdfast.kernels.llvm.functions import FUNCTIONS
+from holdfast.kernels.llvm.arithmetic import Arithmetic, TargetMachine, emit_sine_and_cosine
+from holdfast.kernels.llvm.functions import EMITTED_FUNCTIONS
 from holdfast.kernels.program import OP_NAMES, Program
 
 NAME = "rows"  # of the function
@@ -24,7 +24,7 @@ NAME = "rows"  # of the function
 _COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
 
 
-def emit(program: Program, machine: Machine) -> str:
+def emit(program: Program, machine: TargetMachine) -> str:
     """The function ``void rows(in, out, stride, n)`` as text.
 
     Input k of row i is ``in[k * stride + i]``, output k ``out[k * stride + i]``; n is a multiple of the lanes.
@@ -32,13 +32,13 @@ def emit(program: Program, machine: Machine) -> str:
     Raises:
         KernelError: The program uses an operation that has no translation; the message names it.
     """
-    return Emitter(program, machine).text()
+    return Emitter(program, machine).module_text()
 
 
 class Emitter(Arithmetic):
     """One program on its way."""
 
-    def __init__(self, program: Program, machine: Machine) -> None:
+    def __init__(self, program: Program, machine: TargetMachine) -> None:
         super().__init__(machine)
         self.program = program
         self._angles: dict[str, tuple[str, str]] = {}
@@ -49,10 +49,10 @@ class Emitter(Arithmetic):
 
     # ---- frame -------------------------------------------------------------------------------------------------
 
-    def text(self) -> str:
+    def module_text(self) -> str:
         """The whole function."""
-        guard = self.guard()
-        self.body(guard)
+        guard = self.emit_guard()
+        self.emit_body(guard)
         lanes = self.machine.lanes
         head, body = "\n".join(sorted(self.declared)), "\n".join(self.lines)
         return f"""{head}
@@ -72,35 +72,35 @@ ret void
 """
 
     def _place(self, base: str, k: int) -> str:
-        row = self._new(f"mul i64 %stride, {k}")
-        at = self._new(f"add i64 {row}, %i")
-        return self._new(f"getelementptr double, ptr {base}, i64 {at}")
+        row = self._add_instruction(f"mul i64 %stride, {k}")
+        at = self._add_instruction(f"add i64 {row}, %i")
+        return self._add_instruction(f"getelementptr double, ptr {base}, i64 {at}")
 
     def _load(self, k: int) -> str:
-        return self._new(f"load {self.type}, ptr {self._place('%in', k)}, align 8")
+        return self._add_instruction(f"load {self.type}, ptr {self._place('%in', k)}, align 8")
 
     def _store(self, k: int, value: str) -> None:
         self.lines.append(f"store {self.type} {value}, ptr {self._place('%out', k)}, align 8")
 
-    def guard(self) -> str:
-        """Zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
-        total = zero = self.number(0.0)
+    def emit_guard(self) -> str:
+        """Emit zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
+        total = zero = self.constant(0.0)
         for k in range(self.program.n_in):
             total = self.add(self.mul(self._load(k), zero), total)
         return total
 
     # ---- instructions ------------------------------------------------------------------------------------------
 
-    def body(self, guard: str) -> None:
-        """All instructions; ``guard`` is added to each output."""
+    def emit_body(self, guard: str) -> None:
+        """Emit all instructions; ``guard`` is added to each output."""
         work: dict[int, str] = {}
-        alone = _used_once_in_a_sum(self.program)
+        fusible = _find_fusible_products(self.program)
         divisors = self.program.shared_divisors()
         reciprocals: dict[int, str] = {}
         for k, row in enumerate(self.program.instructions):
             op = row.op
             if op == ca.OP_CONST:
-                work[row.output] = self.number(row.constant)
+                work[row.output] = self.constant(row.constant)
                 continue
             if op == ca.OP_INPUT:
                 work[row.output] = self._load(row.inputs[0])
@@ -112,48 +112,48 @@ ret void
             b = others[0] if others else a
             if k in divisors:
                 # CasADi writes x (1/y) as x / y. One division serves all.
-                made = divisors[k]
-                if made not in reciprocals:
-                    reciprocals[made] = self.binary("fdiv", self.number(1.0), b)
-                shared = reciprocals[made]
-                result = shared if op == ca.OP_INV else self._product(k in alone, a, shared)
+                divisor_result = divisors[k]
+                if divisor_result not in reciprocals:
+                    reciprocals[divisor_result] = self.binary("fdiv", self.constant(1.0), b)
+                shared = reciprocals[divisor_result]
+                result = shared if op == ca.OP_INV else self._emit_product(k in fusible, a, shared)
             elif op == ca.OP_ADD:
-                result = self._choice(a, b) or self._sum(a, b)
+                result = self._merge_choice(a, b) or self._emit_sum(a, b)
             elif op == ca.OP_SUB:
-                result = self._difference(a, b)
+                result = self._emit_difference(a, b)
             elif op in (ca.OP_MUL, ca.OP_SQ):
-                result = self._product(k in alone, a, b)
+                result = self._emit_product(k in fusible, a, b)
             else:
-                result = self._other(k, op, a, b)
+                result = self._emit_operation(k, op, a, b)
             work[row.output] = result
 
-    def _product(self, waits: bool, a: str, b: str) -> str:
-        if not waits or not self.machine.fused:
+    def _emit_product(self, is_deferred: bool, a: str, b: str) -> str:
+        if not is_deferred or not self.machine.fused:
             return self.mul(a, b)
         name = f"%p{len(self._products)}"
         self._products[name] = a, b
         return name
 
-    def _known(self, a: str) -> str:
-        """The value of a product that waited for a sum which takes another one."""
+    def _emit_deferred(self, a: str) -> str:
+        """Return the value of a product that was deferred for a sum which takes another one."""
         return self.mul(*self._products[a]) if a in self._products else a
 
-    def _sum(self, a: str, b: str) -> str:
+    def _emit_sum(self, a: str, b: str) -> str:
         if a in self._products:
-            return self.fma(*self._products[a], self._known(b))
+            return self.fma(*self._products[a], self._emit_deferred(b))
         if b in self._products:
             return self.fma(*self._products[b], a)
         return self.add(a, b)
 
-    def _difference(self, a: str, b: str) -> str:
+    def _emit_difference(self, a: str, b: str) -> str:
         if b in self._products:
             x, y = self._products[b]
-            return self.fma(self.negative(x), y, self._known(a))
+            return self.fma(self.negate(x), y, self._emit_deferred(a))
         if a in self._products:
-            return self.fma(*self._products[a], self.negative(b))
+            return self.fma(*self._products[a], self.negate(b))
         return self.sub(a, b)
 
-    def _choice(self, a: str, b: str) -> str | None:
+    def _merge_choice(self, a: str, b: str) -> str | None:
         """CasADi writes ``c ? x : y`` as ``(c ? x : 0) + (!c ? y : 0)``; one select instead of four operations."""
         if a not in self._choices or b not in self._choices:
             return None
@@ -164,17 +164,17 @@ ret void
             return self.select(d, y, x)
         return None
 
-    def _other(self, k: int, op: int, a: str, b: str) -> str:
+    def _emit_operation(self, k: int, op: int, a: str, b: str) -> str:
         if op in _COMPARISONS:
-            return self.truth(self.compare(_COMPARISONS[op], a, b))
-        if op in FUNCTIONS:
-            return FUNCTIONS[op](self, a, b)
+            return self.mask_to_number(self.compare(_COMPARISONS[op], a, b))
+        if op in EMITTED_FUNCTIONS:
+            return EMITTED_FUNCTIONS[op](self, a, b)
         if op in (ca.OP_SIN, ca.OP_COS, ca.OP_TAN):
             if a not in self._angles:
-                self._angles[a] = sincos(self, a)
+                self._angles[a] = emit_sine_and_cosine(self, a)
             sine, cosine = self._angles[a]
             return {ca.OP_SIN: sine, ca.OP_COS: cosine}.get(op) or self.binary("fdiv", sine, cosine)
-        one = _TABLE.get(op)
+        one = _EMITTERS_BY_OPERATION.get(op)
         if one is None:
             raise KernelError(
                 f"kernel '{self.program.name}': instruction {k} is CasADi operation {OP_NAMES[op]}, which the llvm "
@@ -184,79 +184,79 @@ ret void
 
     # ---- conditions --------------------------------------------------------------------------------------------
 
-    def truth(self, mask: str) -> str:
-        """1 where a mask is true, else 0."""
-        value = self.select(mask, self.number(1.0), self.number(0.0))
+    def mask_to_number(self, mask: str) -> str:
+        """Return 1 where a mask is true, else 0."""
+        value = self.select(mask, self.constant(1.0), self.constant(0.0))
         self._masks[value] = mask
         return value
 
-    def condition(self, a: str) -> str:
-        """The mask of a value: true where it is not 0, and where it is NaN."""
+    def number_to_mask(self, a: str) -> str:
+        """Return the mask of a value: true where it is not 0, and where it is NaN."""
         if a not in self._masks:
-            self._masks[a] = self.compare("une", a, self.number(0.0))
+            self._masks[a] = self.compare("une", a, self.constant(0.0))
         return self._masks[a]
 
-    def no(self, a: str) -> str:
-        """1 where a is 0, else 0."""
+    def logical_not(self, a: str) -> str:
+        """Return 1 where a is 0, else 0."""
         if a in self._masks:
-            mask = self.opposite(self._masks[a])
+            mask = self.mask_not(self._masks[a])
             self._nots[mask] = self._masks[a]
         else:
-            mask = self.compare("oeq", a, self.number(0.0))
-            self._nots[mask] = self.condition(a)
-        return self.truth(mask)
+            mask = self.compare("oeq", a, self.constant(0.0))
+            self._nots[mask] = self.number_to_mask(a)
+        return self.mask_to_number(mask)
 
-    def or_zero(self, c: str, a: str) -> str:
+    def select_or_zero(self, c: str, a: str) -> str:
         """``c ? a : 0``."""
-        mask = self.condition(c)
-        value = self.select(mask, a, self.number(0.0))
+        mask = self.number_to_mask(c)
+        value = self.select(mask, a, self.constant(0.0))
         self._choices[value] = mask, a
         return value
 
 
 # What takes one instruction or few. CasADi differentiates |x| into sign(x).
-_TABLE: dict[int, Callable[[Emitter, str, str], str]] = {
+_EMITTERS_BY_OPERATION: dict[int, Callable[[Emitter, str, str], str]] = {
     ca.OP_ASSIGN: lambda e, a, b: a,
     ca.OP_DIV: lambda e, a, b: e.binary("fdiv", a, b),
-    ca.OP_NEG: lambda e, a, b: e.negative(a),
+    ca.OP_NEG: lambda e, a, b: e.negate(a),
     ca.OP_SQRT: lambda e, a, b: e.intrinsic("sqrt", a),
     ca.OP_FABS: lambda e, a, b: e.intrinsic("fabs", a),
     ca.OP_TWICE: lambda e, a, b: e.add(a, a),
-    ca.OP_INV: lambda e, a, b: e.binary("fdiv", e.number(1.0), a),
-    ca.OP_NOT: lambda e, a, b: e.no(a),
-    ca.OP_AND: lambda e, a, b: e.truth(e.both(e.condition(a), e.condition(b))),
-    ca.OP_OR: lambda e, a, b: e.truth(e.either(e.condition(a), e.condition(b))),
-    ca.OP_IF_ELSE_ZERO: lambda e, a, b: e.or_zero(a, b),
+    ca.OP_INV: lambda e, a, b: e.binary("fdiv", e.constant(1.0), a),
+    ca.OP_NOT: lambda e, a, b: e.logical_not(a),
+    ca.OP_AND: lambda e, a, b: e.mask_to_number(e.mask_and(e.number_to_mask(a), e.number_to_mask(b))),
+    ca.OP_OR: lambda e, a, b: e.mask_to_number(e.mask_or(e.number_to_mask(a), e.number_to_mask(b))),
+    ca.OP_IF_ELSE_ZERO: lambda e, a, b: e.select_or_zero(a, b),
     ca.OP_SIGN: lambda e, a, b: e.select(
-        e.compare("ogt", a, e.number(0.0)),
-        e.number(1.0),
-        e.select(e.less(a, e.number(0.0)), e.number(-1.0), e.number(0.0)),
+        e.compare("ogt", a, e.constant(0.0)),
+        e.constant(1.0),
+        e.select(e.compare_less(a, e.constant(0.0)), e.constant(-1.0), e.constant(0.0)),
     ),
     ca.OP_FMIN: lambda e, a, b: e.select(e.compare("ole", a, b), a, b),
     ca.OP_FMAX: lambda e, a, b: e.select(e.compare("oge", a, b), a, b),
     ca.OP_HYPOT: lambda e, a, b: e.intrinsic("sqrt", e.fma(a, a, e.mul(b, b))),
 }
 
-OPERATIONS = frozenset(
+SUPPORTED_OPERATIONS = frozenset(
     {ca.OP_CONST, ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_SQ, ca.OP_SIN, ca.OP_COS, ca.OP_TAN}
-    | FUNCTIONS.keys()
+    | EMITTED_FUNCTIONS.keys()
     | _COMPARISONS.keys()
-    | _TABLE.keys()
+    | _EMITTERS_BY_OPERATION.keys()
 )
 
 
-def _used_once_in_a_sum(program: Program) -> set[int]:
-    """Instructions whose result goes into one sum or difference and nowhere else."""
-    made: dict[int, int] = {}
+def _find_fusible_products(program: Program) -> set[int]:
+    """Return the instructions whose result goes into one sum or difference and nowhere else."""
+    producers: dict[int, int] = {}
     uses: dict[int, int] = {}
     sums: set[int] = set()
     for k, row in enumerate(program.instructions):
         if row.op not in (ca.OP_INPUT, ca.OP_CONST):
             for slot in row.inputs:
-                source = made[slot]
+                source = producers[slot]
                 uses[source] = uses.get(source, 0) + 1
                 if row.op in (ca.OP_ADD, ca.OP_SUB):
                     sums.add(source)
         if row.op != ca.OP_OUTPUT:
-            made[row.output] = k
+            producers[row.output] = k
     return {k for k in sums if uses[k] == 1}

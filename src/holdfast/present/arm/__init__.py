@@ -1,1 +1,1 @@
-"""Arms, as people read them."""
+"""Reports and views of arms."""

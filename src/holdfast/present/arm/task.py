@@ -1,19 +1,21 @@
-"""A task, as a notebook shows it."""
+"""Notebook view of a task."""
 
 from __future__ import annotations
 
 from holdfast.arm.task import Task
-from holdfast.grammar import ROWS
-from holdfast.present.printing import Rows, number
+from holdfast.grammar import TASK_ROW_NAMES
+from holdfast.present.printing import TextTable, format_significant
 
 
-def key_table(task: Task) -> Rows:
-    """The twist of each row."""
-    return Rows(
-        ["row", *ROWS], [[str(k), *map(number, row)] for k, row in enumerate(task.rows, 1)], f"in the {task.frame} frame"
+def key_table(task: Task) -> TextTable:
+    """Tabulate the twist of each task row."""
+    return TextTable(
+        ["row", *TASK_ROW_NAMES],
+        [[str(row_number), *map(format_significant, row)] for row_number, row in enumerate(task.rows, 1)],
+        f"in the {task.frame} frame",
     )
 
 
 def next_steps(task: Task, name: str) -> list[str]:
-    """An index of it."""
+    """Suggest an index of the task."""
     return [f'hf.indices.relative_manipulability(hf.arms.load("pa10-9dof"), {name})'] if task.m < 9 else []

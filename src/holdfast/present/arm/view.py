@@ -1,4 +1,4 @@
-"""An arm in a small 3-D view: what is shown of it, and around it."""
+"""Small 3-D view of an arm and of its surroundings."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task, plane_normal
@@ -18,25 +18,25 @@ from holdfast.cell.cell import Cell
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
 from holdfast.files.html import Html
-from holdfast.indices.lost_directions import losses
-from holdfast.present.arm.body import LINK, Part, stick_parts, stretched
-from holdfast.present.arm.visuals import body_of
+from holdfast.indices.lost_directions import find_losses
+from holdfast.present.arm.body import LINK_COLOR_RGB, MeshPart, build_stick_parts, stretched_length
+from holdfast.present.arm.visuals import build_body
 from holdfast.present.cell import bodies
 from holdfast.regions.region import Region
 from holdfast.report import viewer
-from holdfast.report.viewer import Scene, numbers
+from holdfast.report.viewer import ViewerScene, round_to_seven_digits
 
 __all__ = ["page", "picture", "save", "scene"]
 
 Array = NDArray[np.float64]
 
-TRIANGLES = 16_000  # of a view, about 250 kB of its page
-FRAMES = 240  # of a motion: the view draws what lies between
-_FROM = 65.0  # degrees from the direction in which the arm reaches to that from which it is seen
-_KEPT = 0.99  # a direction in which at least this is left is not marked
+MAX_VIEW_TRIANGLES = 16_000  # of a view, about 250 kB of its page
+MAX_MOTION_FRAMES = 240  # of a motion: the view draws what lies between
+_VIEW_ANGLE_DEG = 65.0  # degrees from the direction in which the arm reaches to that from which it is seen
+_MARKED_SPEED_FRACTION = 0.99  # a direction in which at least this is left is not marked
 
 
-@checked
+@check_arguments
 def scene(
     arm: Arm,
     q: ArrayLike | None = None,
@@ -56,8 +56,8 @@ def scene(
     joints: bool = False,
     meshes: bool = True,
     cell: Cell | None = None,
-) -> Scene:
-    """What a view shows of an arm.
+) -> ViewerScene:
+    """Build the scene of a view: arms, motion, locked joints, lost directions, targets, region, path, points, and cell.
 
     Args:
         arm: The arm; its links are the shapes of its URDF file where that has some, else round bars.
@@ -84,199 +84,251 @@ def scene(
         InputError: Shapes that do not fit.
     """
     moving = time is not None
-    rows = _motions(arm, generic_configuration(arm) if q is None else q, moving)
-    seconds = np.zeros(0) if time is None else real_numbers(time, "time").reshape(-1)
-    if moving and (rows.shape[1] != len(seconds) or len(seconds) < 2):
-        raise InputError(f"time has {len(seconds)} moments and the motion {rows.shape[1]}; give as many, 2 or more")
-    if (labels and len(labels) != len(rows)) or (readings and len(readings) != len(seconds)):
-        raise InputError(f"labels must be {len(rows)}, one for each arm, and readings {len(seconds)}, one for each moment")
-    few = (
-        np.unique(np.linspace(0, len(seconds) - 1, min(FRAMES, len(seconds))).astype(int)) if moving else np.zeros(1, dtype=int)
+    motions = _read_motions(arm, generic_configuration(arm) if q is None else q, moving)
+    seconds = np.zeros(0) if time is None else require_real_numbers(time, "time").reshape(-1)
+    if moving and (motions.shape[1] != len(seconds) or len(seconds) < 2):
+        raise InputError(f"time has {len(seconds)} moments and the motion {motions.shape[1]}; give as many, 2 or more")
+    if (labels and len(labels) != len(motions)) or (readings and len(readings) != len(seconds)):
+        raise InputError(f"labels must be {len(motions)}, one for each arm, and readings {len(seconds)}, one for each moment")
+    frame_indices = (
+        np.unique(np.linspace(0, len(seconds) - 1, min(MAX_MOTION_FRAMES, len(seconds))).astype(int))
+        if moving
+        else np.zeros(1, dtype=int)
     )
-    rows = rows[:, few]
-    frames = arm.frames(rows.reshape(-1, arm.n)).reshape(*rows.shape[:2], arm.n + 2, 4, 4)
-    since = _since(arm, locked)
-    poses = [_pose(target) for target in targets]
-    boxes = _boxes(region)
-    path_ = np.zeros((0, 3)) if path is None else real_numbers(path, "path").reshape(-1, 3)
-    places = np.zeros((0, 3)) if points is None else real_numbers(points, "points").reshape(-1, 3)
-    paints = np.tile([10.0, 92, 158], (len(places), 1)) if colors is None else real_numbers(colors, "colors").reshape(-1, 3)
-    if len(paints) != len(places):
-        raise InputError(f"colors are {len(paints)} and points {len(places)}; give as many")
-    size = stretched(arm)
-    body, note = body_of(arm, size) if meshes else (stick_parts(arm, size), "")
-    up = _up(arm)
-    taken = [] if moving or not lost else _lost(arm, rows[0, 0], [k for k, t in enumerate(since) if t is not None], task)
-    seen = [frames[..., :3, 3].reshape(-1, 3), path_, places, *(pose[None, :3, 3] for pose in poses), *boxes]
-    seen += [frames[0, 0, -1, :3, 3] + 0.26 * size * s * np.array(loss["twist"][:3]) for loss in taken for s in (-1, 1)]
-    seen += [_swept(p, frames[:, :: max(len(few) // 8, 1), p.frame]) for p in body if p.frame]
-    objects = [] if cell is None else bodies.parts(cell, arm.base, size)
-    around = tuple(part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects)
+    motions = motions[:, frame_indices]
+    frames = arm.frames(motions.reshape(-1, arm.n)).reshape(*motions.shape[:2], arm.n + 2, 4, 4)
+    lock_times = _read_lock_times(arm, locked)
+    poses = [_read_pose(target) for target in targets]
+    boxes = _read_boxes(region)
+    path_points = np.zeros((0, 3)) if path is None else require_real_numbers(path, "path").reshape(-1, 3)
+    point_array = np.zeros((0, 3)) if points is None else require_real_numbers(points, "points").reshape(-1, 3)
+    point_colors = (
+        np.tile([10.0, 92, 158], (len(point_array), 1))
+        if colors is None
+        else require_real_numbers(colors, "colors").reshape(-1, 3)
+    )
+    if len(point_colors) != len(point_array):
+        raise InputError(f"colors are {len(point_colors)} and points {len(point_array)}; give as many")
+    size = stretched_length(arm)
+    body_parts, mesh_note = build_body(arm, size) if meshes else (build_stick_parts(arm, size), "")
+    up = _up_direction(arm)
+    lost_directions = (
+        []
+        if moving or not lost
+        else _find_lost_directions(
+            arm, motions[0, 0], [index for index, lock_time in enumerate(lock_times) if lock_time is not None], task
+        )
+    )
+    visible_points = [
+        frames[..., :3, 3].reshape(-1, 3),
+        path_points,
+        point_array,
+        *(pose[None, :3, 3] for pose in poses),
+        *boxes,
+    ]
+    visible_points += [
+        frames[0, 0, -1, :3, 3] + 0.26 * size * sign * np.array(loss["twist"][:3])
+        for loss in lost_directions
+        for sign in (-1, 1)
+    ]
+    visible_points += [
+        _swept_corners(mesh_part, frames[:, :: max(len(frame_indices) // 8, 1), mesh_part.frame])
+        for mesh_part in body_parts
+        if mesh_part.frame
+    ]
+    objects = [] if cell is None else bodies.build_cell_parts(cell, arm.base, size)
+    object_vertices = tuple(part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects)
     # A floor or a wall goes on where nothing is to be seen.
-    seen += [x[np.linalg.norm(x - arm.base[:3, 3], axis=1) < size] for x in around]
-    parts, notes = _parts(arm, size, [*body, *objects])
-    notes += [note[:1].upper() + note[1:] + "."] if note else []
+    visible_points += [item[np.linalg.norm(item - arm.base[:3, 3], axis=1) < size] for item in object_vertices]
+    parts, notes = _encode_parts(arm, size, [*body_parts, *objects])
+    notes += [mesh_note[:1].upper() + mesh_note[1:] + "."] if mesh_note else []
     data = {
-        "up": numbers(up),
-        "size": numbers([size])[0],
-        "base": _rows(arm.base),
+        "up": round_to_seven_digits(up),
+        "size": round_to_seven_digits([size])[0],
+        "base": _flatten_pose(arm.base),
         "joints": [
             {
                 "name": joint.name,
-                "origin": _rows(joint.origin),
-                "axis": numbers(joint.axis),
+                "origin": _flatten_pose(joint.origin),
+                "axis": round_to_seven_digits(joint.axis),
                 "slides": joint.prismatic,
                 "low": joint.lower if np.isfinite(joint.lower) else None,
                 "high": joint.upper if np.isfinite(joint.upper) else None,
             }
             for joint in arm.joints
         ],
-        "tool": _rows(arm.tool),
+        "tool": _flatten_pose(arm.tool),
         "parts": parts,
-        "arms": [{"label": labels[k] if labels else "", "q": numbers(motion)} for k, motion in enumerate(rows)],
-        "locked": since,
+        "arms": [
+            {"label": labels[index] if labels else "", "q": round_to_seven_digits(motion)}
+            for index, motion in enumerate(motions)
+        ],
+        "locked": lock_times,
         "free": list(arm.joint_indices(free)),
-        "time": numbers(seconds[few]) if moving else [],
+        "time": round_to_seven_digits(seconds[frame_indices]) if moving else [],
         "seconds": float(np.clip(seconds[-1] - seconds[0], 3.0, 20.0)) if moving else 0.0,
-        "readings": [readings[k] for k in few] if readings else [],
-        "path": numbers(path_),
-        "targets": [_rows(pose) for pose in poses],
-        "boxes": [{"low": numbers(low), "high": numbers(high)} for low, high in boxes],
-        "points": numbers(places),
-        "colors": [[round(x) for x in row] for row in paints.tolist()],
-        "objects": [] if cell is None else [{"name": x.name, "at": numbers(x.pose[:3, 3])} for x in cell],
-        "lost": taken,
+        "readings": [readings[index] for index in frame_indices] if readings else [],
+        "path": round_to_seven_digits(path_points),
+        "targets": [_flatten_pose(pose) for pose in poses],
+        "boxes": [{"low": round_to_seven_digits(lower), "high": round_to_seven_digits(upper)} for lower, upper in boxes],
+        "points": round_to_seven_digits(point_array),
+        "colors": [[round(item) for item in color] for color in point_colors.tolist()],
+        "objects": []
+        if cell is None
+        else [{"name": item.name, "at": round_to_seven_digits(item.pose[:3, 3])} for item in cell],
+        "lost": lost_directions,
         "sliders": joints and not moving,
-        "camera": _camera(arm, up, np.vstack(seen), frames, 0.45 * size),
+        "camera": _place_camera(arm, up, np.vstack(visible_points), frames, 0.45 * size),
     }
-    return Scene(data, frames, tuple(notes), around)
+    return ViewerScene(data, frames, tuple(notes), object_vertices)
 
 
 def picture(arm: Arm, about: str, region: Region | None = None) -> str:
-    """A still drawing of the arm, with a region, as SVG; seen on light and dark ground."""
-    drawn = viewer.drawing(scene(arm, region=region, meshes=False), about)
-    return f'<div style="max-width:30em">{drawn}</div>'
+    """Return a still drawing of the arm, with a region, as SVG that is legible on light and dark ground."""
+    drawing = viewer.draw_scene_svg(scene(arm, region=region, meshes=False), about)
+    return f'<div style="max-width:30em">{drawing}</div>'
 
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
-    """A page of the arm alone, its joints on sliders where nothing moves."""
+    """Build a page of the arm alone, with its joints on sliders where nothing moves."""
     from markupsafe import Markup
 
-    drawn = scene(arm, q, **({"joints": True} | options))
-    about = f"{arm.name} in three dimensions"
-    view: Markup = drawn.html("arm", about)
-    return Html(viewer.page(view, arm.title))
+    arm_scene = scene(arm, q, **({"joints": True} | options))
+    caption = f"{arm.name} in three dimensions"
+    view: Markup = arm_scene.to_html("arm", caption)
+    return Html(viewer.build_view_page(view, arm.title))
 
 
-def _motions(arm: Arm, q: ArrayLike, moving: bool) -> Array:
-    """(A, F, n) configurations."""
-    a = real_numbers(q, f"q for '{arm.name}'")
-    wanted = "(F, n) or (A, F, n)" if moving else "(n,) or (A, n)"
-    if a.ndim not in ((2, 3) if moving else (1, 2)) or a.shape[-1] != arm.n or not a.size or not np.isfinite(a).all():
-        raise InputError(f"q for '{arm.name}' has shape {a.shape}; it must be {wanted} of finite numbers with n = {arm.n}")
+def _read_motions(arm: Arm, q: ArrayLike, moving: bool) -> Array:
+    """Return the configurations as motions (A, F, n)."""
+    values = require_real_numbers(q, f"q for '{arm.name}'")
+    expected_shape = "(F, n) or (A, F, n)" if moving else "(n,) or (A, n)"
+    if (
+        values.ndim not in ((2, 3) if moving else (1, 2))
+        or values.shape[-1] != arm.n
+        or not values.size
+        or not np.isfinite(values).all()
+    ):
+        raise InputError(
+            f"q for '{arm.name}' has shape {values.shape}; it must be {expected_shape} of finite numbers with n = {arm.n}"
+        )
     if moving:
-        return a if a.ndim == 3 else a[None]
-    return np.atleast_2d(a)[:, None]
+        return values if values.ndim == 3 else values[None]
+    return np.atleast_2d(values)[:, None]
 
 
-def _since(arm: Arm, locked: Sequence[str | int] | Mapping[Any, float] | Degraded) -> list[float | None]:
-    """For each joint the time from which it is locked, s; None: it is not."""
+def _read_lock_times(arm: Arm, locked: Sequence[str | int] | Mapping[Any, float] | Degraded) -> list[float | None]:
+    """Return for each joint the time from which it is locked, s; None if it is not locked."""
     if isinstance(locked, Degraded):
         locked = list(locked.locked)
-    when = dict(locked) if isinstance(locked, Mapping) else dict.fromkeys(locked, 0.0)
-    out: list[float | None] = [None] * arm.n
-    for joint, t in when.items():
-        if np.isfinite(t):
-            out[arm.joint_index(joint)] = float(t)
-    return out
+    times_by_joint = dict(locked) if isinstance(locked, Mapping) else dict.fromkeys(locked, 0.0)
+    lock_times: list[float | None] = [None] * arm.n
+    for joint, lock_time in times_by_joint.items():
+        if np.isfinite(lock_time):
+            lock_times[arm.joint_index(joint)] = float(lock_time)
+    return lock_times
 
 
-def _pose(target: ArrayLike) -> Array:
-    a = real_numbers(target, "a target")
-    if a.shape == (4, 4):
-        return a
-    if a.shape != (3,):
-        raise InputError(f"a target has shape {a.shape}; give a pose (4, 4) or a point (3,)")
+def _read_pose(target: ArrayLike) -> Array:
+    values = require_real_numbers(target, "a target")
+    if values.shape == (4, 4):
+        return values
+    if values.shape != (3,):
+        raise InputError(f"a target has shape {values.shape}; give a pose (4, 4) or a point (3,)")
     pose = np.eye(4)
-    pose[:3, 3] = a
+    pose[:3, 3] = values
     return pose
 
 
-def _boxes(region: Region | ArrayLike | None) -> list[Array]:
-    """Lowest and highest corners (2, 3)."""
+def _read_boxes(region: Region | ArrayLike | None) -> list[Array]:
+    """Return the lowest and the highest corner (2, 3) of the region, if it is a box."""
     if region is None:
         return []
     if not isinstance(region, Region):
-        return [real_numbers(region, "region").reshape(2, 3)]
+        return [require_real_numbers(region, "region").reshape(2, 3)]
     if region.kind != "box":
         return []
-    center, half = np.array(region.center[:3]), np.array(region.size[:3]) / 2
-    return [np.array([center - half, center + half])]
+    center, half_size = np.array(region.center[:3]), np.array(region.size[:3]) / 2
+    return [np.array([center - half_size, center + half_size])]
 
 
-def _rows(pose: Array) -> list[float]:
-    return numbers(pose[:3].reshape(-1))
+def _flatten_pose(pose: Array) -> list[float]:
+    return round_to_seven_digits(pose[:3].reshape(-1))
 
 
-def _up(arm: Arm) -> Array:
-    size = float(np.linalg.norm(arm.gravity))
-    return np.array([0.0, 0.0, 1.0]) if size == 0 else -arm.gravity / size + 0.0
+def _up_direction(arm: Arm) -> Array:
+    gravity_norm = float(np.linalg.norm(arm.gravity))
+    return np.array([0.0, 0.0, 1.0]) if gravity_norm == 0 else -arm.gravity / gravity_norm + 0.0
 
 
-def _swept(part: Part, poses: Array) -> Array:
-    """Corners (N, 3) of the boxes about a part where poses (..., 4, 4) of its frame put it."""
-    ends = np.array([part.vertices.min(axis=0), part.vertices.max(axis=0)])
-    corners = np.array([[ends[i, 0], ends[j, 1], ends[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+def _swept_corners(part: MeshPart, poses: Array) -> Array:
+    """Return the corners (N, 3) of the boxes about a part at the poses (..., 4, 4) of its frame."""
+    extremes = np.array([part.vertices.min(axis=0), part.vertices.max(axis=0)])
+    corners = np.array(
+        [
+            [extremes[x_end, 0], extremes[y_end, 1], extremes[z_end, 2]]
+            for x_end in (0, 1)
+            for y_end in (0, 1)
+            for z_end in (0, 1)
+        ]
+    )
     return np.asarray(corners @ poses[..., :3, :3].swapaxes(-1, -2) + poses[..., None, :3, 3]).reshape(-1, 3)
 
 
-def _parts(arm: Arm, size: float, body: Sequence[Part]) -> tuple[list[dict[str, Any]], list[str]]:
-    """What is drawn of the arm, and what is to be said of it."""
-    notes, sticks, parts = [], stick_parts(arm, size), body
-    whole = sum(len(p.faces) for p in parts if p.tube is None)
-    if whole > TRIANGLES:
-        notes.append(f"The meshes have {whole:,} triangles; about {TRIANGLES:,} are drawn, so that the page stays small.")
-    out = []
+def _encode_parts(arm: Arm, size: float, body: Sequence[MeshPart]) -> tuple[list[dict[str, Any]], list[str]]:
+    """Encode the meshes of the arm for the view, and collect the notes about them."""
+    notes, sticks, parts = [], build_stick_parts(arm, size), body
+    triangle_count = sum(len(mesh_part.faces) for mesh_part in parts if mesh_part.tube is None)
+    if triangle_count > MAX_VIEW_TRIANGLES:
+        notes.append(
+            f"The meshes have {triangle_count:,} triangles; about {MAX_VIEW_TRIANGLES:,} are drawn, so that the page "
+            f"stays small."
+        )
+    encoded = []
     for part in parts:
-        most = max(TRIANGLES * len(part.faces) // max(whole, TRIANGLES), 40)
-        out.append(_part(part, most))
+        max_triangles = max(MAX_VIEW_TRIANGLES * len(part.faces) // max(triangle_count, MAX_VIEW_TRIANGLES), 40)
+        encoded.append(_encode_part(part, max_triangles))
     # Meshes hide the joints: those that are locked are shown through them.
-    hidden = {p.joint for p in sticks if p.joint is not None} - {p.joint for p in parts}
-    return out + [_part(p, TRIANGLES) | {"mark": True} for p in sticks if p.joint in hidden], notes
+    hidden = {mesh_part.joint for mesh_part in sticks if mesh_part.joint is not None} - {mesh_part.joint for mesh_part in parts}
+    return encoded + [
+        _encode_part(mesh_part, MAX_VIEW_TRIANGLES) | {"mark": True} for mesh_part in sticks if mesh_part.joint in hidden
+    ], notes
 
 
-def _part(part: Part, most: int) -> dict[str, Any]:
-    shown: dict[str, Any] = {"frame": part.frame, "color": part.color}
+def _encode_part(part: MeshPart, max_triangles: int) -> dict[str, Any]:
+    encoded: dict[str, Any] = {"frame": part.frame, "color": part.color}
     if part.joint is not None:
-        shown["joint"] = part.joint
+        encoded["joint"] = part.joint
     if part.tube is not None:
         start, end, radius = part.tube
-        return shown | {"tube": numbers([*start, *end, radius]), "round": part.color == LINK}
-    return shown | {"mesh": viewer.packed(*viewer.thinned(part.vertices, part.faces, most))}
+        return encoded | {"tube": round_to_seven_digits([*start, *end, radius]), "round": part.color == LINK_COLOR_RGB}
+    return encoded | {"mesh": viewer.pack_mesh(*viewer.simplify_mesh(part.vertices, part.faces, max_triangles))}
 
 
-def _lost(arm: Arm, q: Array, failed: Sequence[int], task: str | Task | None) -> list[dict[str, Any]]:
-    """The directions in which locking joints takes speed away, as twists in the world, with what is left in words."""
+def _find_lost_directions(arm: Arm, q: Array, failed: Sequence[int], task: str | Task | None) -> list[dict[str, Any]]:
+    """Return the directions in which locked joints reduce the speed, as twists in the world, each with the remaining speed in
+    words.
+    """
     if not failed:
         return []
-    t = as_task(arm, task or default_task(arm.name, arm))
-    turn = np.kron(np.eye(2), arm.frames(q)[-1][:3, :3].T if t.frame == "tool" else np.eye(3))
-    rows = t.rows @ turn
-    scale = np.array([1 / t.length] * 3 + [1.0] * 3)
-    out = []
-    for loss in losses(t.rows @ (scale[:, None] * (turn @ arm.jacobian(q))), failed):
-        if loss.kept <= _KEPT:
-            words = "lost" if loss.lost else f"{100 * loss.kept:.2g} % of the speed left"
-            out.append({"twist": numbers(rows.T @ loss.direction), "words": words})
-    return out
+    task_rows = as_task(arm, task or default_task(arm.name, arm))
+    rotation = np.kron(np.eye(2), arm.frames(q)[-1][:3, :3].T if task_rows.frame == "tool" else np.eye(3))
+    world_rows = task_rows.rows @ rotation
+    scale = np.array([1 / task_rows.length] * 3 + [1.0] * 3)
+    directions = []
+    for loss in find_losses(task_rows.rows @ (scale[:, None] * (rotation @ arm.jacobian(q))), failed):
+        if loss.kept <= _MARKED_SPEED_FRACTION:
+            label = "lost" if loss.lost else f"{100 * loss.kept:.2g} % of the speed left"
+            directions.append({"twist": round_to_seven_digits(world_rows.T @ loss.direction), "words": label})
+    return directions
 
 
-def _camera(arm: Arm, up: Array, seen: Array, frames: Array, least: float) -> dict[str, Any]:
-    """From where everything is seen: an arm that moves in a plane from before it, another aslant."""
-    low, high = seen.min(axis=0), seen.max(axis=0)
-    center = (low + high) / 2
-    right, top, back, _ = viewer.eye({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)
-    del top
+def _place_camera(arm: Arm, up: Array, visible_points: Array, frames: Array, min_radius: float) -> dict[str, Any]:
+    """Return a camera that sees everything: an arm that moves in a plane is seen face on, any other obliquely."""
+    lower, upper = visible_points.min(axis=0), visible_points.max(axis=0)
+    center = (lower + upper) / 2
+    right, upward, toward_viewer, _ = viewer.camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)
+    del upward
     azimuth, elevation = np.radians(-40.0), np.radians(18.0)
     normal = plane_normal(arm)
     if normal is not None:
@@ -284,15 +336,15 @@ def _camera(arm: Arm, up: Array, seen: Array, frames: Array, least: float) -> di
             azimuth, elevation = -np.pi / 2, np.radians(65.0)
         else:
             normal = normal * (-1.0 if normal @ right > 1e-9 else 1.0)
-            azimuth, elevation = np.arctan2(normal @ right, normal @ back), np.radians(12.0)
+            azimuth, elevation = np.arctan2(normal @ right, normal @ toward_viewer), np.radians(12.0)
     else:
-        ahead = frames[0, 0, -1, :3, 3] - frames[0, 0, 0, :3, 3]
-        if np.hypot(ahead @ right, ahead @ back) > 0.1 * least:
-            azimuth = np.arctan2(ahead @ right, ahead @ back) - np.radians(_FROM)
-    radius = max(float(np.linalg.norm(seen - center, axis=1).max()) * 1.08, least)
+        reach_direction = frames[0, 0, -1, :3, 3] - frames[0, 0, 0, :3, 3]
+        if np.hypot(reach_direction @ right, reach_direction @ toward_viewer) > 0.1 * min_radius:
+            azimuth = np.arctan2(reach_direction @ right, reach_direction @ toward_viewer) - np.radians(_VIEW_ANGLE_DEG)
+    radius = max(float(np.linalg.norm(visible_points - center, axis=1).max()) * 1.08, min_radius)
     return {
-        "azimuth": numbers([azimuth])[0],
-        "elevation": numbers([elevation])[0],
-        "center": numbers(center),
-        "radius": numbers([radius])[0],
+        "azimuth": round_to_seven_digits([azimuth])[0],
+        "elevation": round_to_seven_digits([elevation])[0],
+        "center": round_to_seven_digits(center),
+        "radius": round_to_seven_digits([radius])[0],
     }

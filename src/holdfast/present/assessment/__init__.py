@@ -1,1 +1,1 @@
-"""Pages and figures of assessments."""
+"""Reports and figures of assessments."""

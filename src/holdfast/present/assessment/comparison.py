@@ -1,4 +1,4 @@
-"""The report of a comparison: one HTML file that begins with the table."""
+"""HTML report of a comparison: one file that begins with the table of the candidates."""
 
 from __future__ import annotations
 
@@ -12,132 +12,171 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arms.tool import attachment_text
+from holdfast.arms.tool import format_tool_pose
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
-from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
-from holdfast.notice import says
+from holdfast.assessment.upgrade import MAX_REOPTIMISED_POSES
+from holdfast.notice import reports_progress
 from holdfast.present.assessment import thresholds
-from holdfast.present.assessment.console import best_upgrades
-from holdfast.present.assessment.facts import Facts
-from holdfast.present.assessment.sections.upgrades import paired
-from holdfast.present.clearance.shape import cell_text
-from holdfast.present.commands import capsule_files, command_line, region_files
+from holdfast.present.assessment.console import rank_optimised_upgrades
+from holdfast.present.assessment.facts import AssessmentFacts
+from holdfast.present.assessment.sections.upgrades import format_gain
+from holdfast.present.clearance.shape import describe_cell
+from holdfast.present.commands import build_command_line, list_capsule_files, list_region_files
 from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import article, as_given, counted, fixed, half_width, interval, number, percent
+from holdfast.words import (
+    format_as_given,
+    format_count,
+    format_decimals,
+    format_half_width,
+    format_interval,
+    format_number,
+    format_percent,
+    indefinite_article,
+)
 
-_MOST_UPGRADES = 3  # joints per candidate; its own report has all
+_MAX_UPGRADES = 3  # joints per candidate; its own report has all
 
 
-@says("drawing the report")
+@reports_progress("drawing the report")
 def write(comparison: Comparison, path: Path) -> Path:
-    """The comparison as a page, which begins with the table."""
+    """Write the comparison as an HTML report, which begins with the table of the candidates."""
     return page.write(build(comparison), path)
 
 
 def build(comparison: Comparison) -> Page:
-    """The comparison as blocks, before it becomes HTML."""
+    """Build the comparison report as blocks, before it becomes HTML."""
     c = comparison
-    first = Facts(c.assessments[0], c.threshold)
-    unfinished = [n for n, a in zip(c.names, c.assessments, strict=True) if not a.complete]
+    first = AssessmentFacts(c.assessments[0], c.threshold)
+    unfinished = [name for name, assessment in zip(c.names, c.assessments, strict=True) if not assessment.complete]
     alerts = []
     if unfinished:
         names = ", ".join(unfinished)
         alerts.append(Callout("Run the same command again to resume.", "bad", f"Not complete: {names}."))
     sections = [
         Section("", [Callout(" ".join(c.notes), title="Before comparing")] if c.notes else []),
-        Section("The candidates", [_table(c, first)]),
-        Section("How the index is distributed", _distributions(c, first)),
-        Section("Which joint deserves a redundant motor or brake", _upgrades(c, first)),
-        Section("About each candidate", [_candidates(c)]),
+        Section("The candidates", [_tabulate_candidates(c, first)]),
+        Section("How the index is distributed", _build_distribution_blocks(c, first)),
+        Section("Which joint deserves a redundant motor or brake", _build_upgrade_blocks(c, first)),
+        Section("About each candidate", [_tabulate_candidate_details(c)]),
     ]
     return Page(
         f"Fault tolerance of {len(c.names)} candidates",
-        _headline(c, first),
+        _compose_headline(c, first),
         sections,
-        subtitle=first.a.region.name,
+        subtitle=first.assessment.region.name,
         warnings=alerts,
-        method=_method(c, first),
-        again=_again(c),
+        method=_build_method_blocks(c, first),
+        again=_build_rerun_blocks(c),
     )
 
 
-def _headline(c: Comparison, f: Facts) -> str:
-    wanted = (
-        f"{f.index.name} of at {'least' if f.larger else 'most'} {as_given(c.threshold)}{f.unit} after any failure considered"
+def _compose_headline(comparison: Comparison, facts: AssessmentFacts) -> str:
+    target = (
+        f"{facts.index.name} of at {'least' if facts.larger_is_better else 'most'} "
+        f"{format_as_given(comparison.threshold)}{facts.unit_suffix} after any failure considered"
     )
-    tasks = list(dict.fromkeys(a.index.task.name for a in c.assessments))
-    if len(tasks) > 1:
-        verdicts = [f"{task}, {_leader(c, task)}" for task in tasks]
-        return f"Probability of keeping {article(wanted)} {wanted}, the best candidate of each task: {'; '.join(verdicts)}."
-    ranked = c.ranking()
-    best, second = (c.interval(name) for name in ranked[:2])
+    task_names = list(dict.fromkeys(assessment.index.task.name for assessment in comparison.assessments))
+    if len(task_names) > 1:
+        verdicts = [f"{task}, {_describe_task_leader(comparison, task)}" for task in task_names]
+        return (
+            f"Probability of keeping {indefinite_article(target)} {target}, the best candidate of each task: "
+            f"{'; '.join(verdicts)}."
+        )
+    ranked = comparison.ranking()
+    best, runner_up = (comparison.interval(name) for name in ranked[:2])
     if best.value == 0:
-        text = f"No candidate keeps {article(wanted)} {wanted} at any {f.noun} of the region."
-        text += _nearest(c)
+        text = f"No candidate keeps {indefinite_article(target)} {target} at any {facts.noun} of the region."
+        text += _describe_nearest_candidate(comparison)
     else:
-        text = f"{ranked[0]} keeps {article(wanted)} {wanted} with the largest probability, {interval(best)}; next is "
-        text += f"{ranked[1]} with {interval(second)}."
-        if second.value < best.value and not _apart(c):
-            text += f" Their intervals overlap: more {f.noun}s would tell them apart."
-    if all(a.optimised is not None for a in c.assessments):
-        chosen = _ahead(c, optimised=True)
-        p = c.interval(chosen[0], optimised=True)
-        if p.value > 0:
-            text += f" After optimisation the largest probability is that of {' and '.join(chosen)}, {interval(p)}."
+        text = (
+            f"{ranked[0]} keeps {indefinite_article(target)} {target} with the largest probability, "
+            f"{format_interval(best)}; next is "
+        )
+        text += f"{ranked[1]} with {format_interval(runner_up)}."
+        if runner_up.value < best.value and not _best_intervals_are_disjoint(comparison):
+            text += f" Their intervals overlap: more {facts.noun}s would tell them apart."
+    if all(assessment.optimised is not None for assessment in comparison.assessments):
+        leaders = _find_leaders(comparison, optimised=True)
+        probability = comparison.interval(leaders[0], optimised=True)
+        if probability.value > 0:
+            text += (
+                f" After optimisation the largest probability is that of {' and '.join(leaders)}, "
+                f"{format_interval(probability)}."
+            )
     return text
 
 
-def _ahead(c: Comparison, optimised: bool = False) -> list[str]:
-    """The candidates with the largest probability."""
-    values = {name: c.interval(name, optimised).value for name in c.names}
-    return [name for name, value in values.items() if value == max(values.values())]
+def _find_leaders(comparison: Comparison, optimised: bool = False) -> list[str]:
+    """List the candidates with the largest probability of meeting the threshold."""
+    probabilities = {name: comparison.interval(name, optimised).value for name in comparison.names}
+    return [name for name, value in probabilities.items() if value == max(probabilities.values())]
 
 
-def _apart(c: Comparison) -> bool:
-    """The intervals of the two best candidates do not overlap."""
-    best, second = (c.interval(name) for name in c.ranking()[:2])
-    return second.high < best.low
+def _best_intervals_are_disjoint(comparison: Comparison) -> bool:
+    """Return whether the intervals of the two best candidates do not overlap."""
+    best_interval, runner_up = (comparison.interval(name) for name in comparison.ranking()[:2])
+    return runner_up.high < best_interval.low
 
 
-def _nearest(c: Comparison) -> str:
-    """Of several that keep nothing the one with the best median: why it is so, and what it has."""
-    there = [(r["median"], r["name"], a) for r, a in zip(c.table, c.assessments, strict=True) if r["median"] is not None]
-    if not there:
+def _describe_nearest_candidate(comparison: Comparison) -> str:
+    """Name the candidate with the best median where no candidate meets the threshold, and the reason; empty without medians."""
+    medians = [
+        (row["median"], row["name"], assessment)
+        for row, assessment in zip(comparison.table, comparison.assessments, strict=True)
+        if row["median"] is not None
+    ]
+    if not medians:
         return ""
-    sign = 1.0 if c.assessments[0].index.better == "larger" else -1.0
-    _, name, a = max(there, key=lambda entry: sign * entry[0])
-    return f" Nearest is {name}. {Facts(a, c.threshold).why}"
+    sign = 1.0 if comparison.assessments[0].index.better == "larger" else -1.0
+    _, name, assessment = max(medians, key=lambda entry: sign * entry[0])
+    return f" Nearest is {name}. {AssessmentFacts(assessment, comparison.threshold).explanation}"
 
 
-def _leader(c: Comparison, task: str) -> str:
-    name = c.best(task)
-    p = c.interval(name)
-    return f"{name} with {interval(p)}" if p.value > 0 else "none"
+def _describe_task_leader(comparison: Comparison, task: str) -> str:
+    name = comparison.best(task)
+    probability = comparison.interval(name)
+    return f"{name} with {format_interval(probability)}" if probability.value > 0 else "none"
 
 
-def _table(c: Comparison, f: Facts) -> Table:
-    """One row per candidate."""
-    optimised = any(a.optimised is not None for a in c.assessments)
-    survival = any(a.survivors is not None for a in c.assessments)
-    head: list[Cell] = ["Candidate", "task", "redundancy", "reached", f"P({'≥' if f.larger else '≤'} {as_given(c.threshold)})"]
-    head += [*["optimised"] * optimised, "median", *["left after a lock"] * survival, "worst failure"]
-    rows = []
-    for r, a in zip(c.table, c.assessments, strict=True):
-        cells: list[Cell] = [r["name"], r["task"], str(r["redundancy"])]
-        cells += [_with_interval(r, "reached"), _with_interval(r, "probability")]
-        cells += [_with_interval(r, "optimised_probability")] * optimised
-        cells.append(_stacked([_value(r["median"]), *[f"{_value(r['optimised_median'])} opt."] * optimised]))
-        cells += [_value(r["expected_survival"])] * survival
-        cells.append(_stacked([_worst(r, a, ""), *[f"{_worst(r, a, 'optimised_')} opt."] * optimised]))
-        points = [str(a.arm.joint_index(name) + 1) for name in r["single_points_of_failure"]]
-        cells.append("every joint" if len(points) == a.arm.n else ", ".join(points) or "none")
-        rows.append(cells)
+def _tabulate_candidates(comparison: Comparison, facts: AssessmentFacts) -> Table:
+    """Build the main table with one row per candidate."""
+    optimised = any(assessment.optimised is not None for assessment in comparison.assessments)
+    survival = any(assessment.survivors is not None for assessment in comparison.assessments)
+    header: list[Cell] = [
+        "Candidate",
+        "task",
+        "redundancy",
+        "reached",
+        f"P({'≥' if facts.larger_is_better else '≤'} {format_as_given(comparison.threshold)})",
+    ]
+    header += [*["optimised"] * optimised, "median", *["left after a lock"] * survival, "worst failure"]
+    table_rows = []
+    for row, assessment in zip(comparison.table, comparison.assessments, strict=True):
+        cells: list[Cell] = [row["name"], row["task"], str(row["redundancy"])]
+        cells += [_format_with_interval(row, "reached"), _format_with_interval(row, "probability")]
+        cells += [_format_with_interval(row, "optimised_probability")] * optimised
+        cells.append(
+            _stack_lines([_format_value(row["median"]), *[f"{_format_value(row['optimised_median'])} opt."] * optimised])
+        )
+        cells += [_format_value(row["expected_survival"])] * survival
+        cells.append(
+            _stack_lines(
+                [
+                    _format_worst_failure(row, assessment, ""),
+                    *[f"{_format_worst_failure(row, assessment, 'optimised_')} opt."] * optimised,
+                ]
+            )
+        )
+        joint_numbers = [str(assessment.arm.joint_index(name) + 1) for name in row["single_points_of_failure"]]
+        cells.append("every joint" if len(joint_numbers) == assessment.arm.n else ", ".join(joint_numbers) or "none")
+        table_rows.append(cells)
     caption = (
-        f"P: fraction of the {counted(f.d.samples, f.noun)} whose {f.condition}, with 95 % intervals; medians are over the "
+        f"P: fraction of the {format_count(facts.distribution.samples, facts.noun)} whose {facts.condition}, with 95 % "
+        f"intervals; medians are over the "
         "reached ones. Redundancy: joints minus rows of the task. Joints are numbered from the "
         "base. Single point of failure: a joint whose lock ends the task "
         "in every configuration."
@@ -146,222 +185,290 @@ def _table(c: Comparison, f: Facts) -> Table:
         caption += " Optimised (opt.): at the best configurations."
     if survival:
         caption += " Left after a lock: fraction of the poses still reached, every joint equally likely to fail."
-    numbers = frozenset(range(2, 6 + optimised + survival))
-    return Table(rows, [*head, "single point of failure"], numbers, caption=caption, wide=True)
+    numeric_columns = frozenset(range(2, 6 + optimised + survival))
+    return Table(table_rows, [*header, "single point of failure"], numeric_columns, caption=caption, wide=True)
 
 
-def _with_interval(row: dict[str, Any], name: str) -> Cell:
+def _format_with_interval(row: dict[str, Any], name: str) -> Cell:
     if row[name] is None:
         return "–"
-    low, high = (fixed(row[f"{name}_{end}"], 3) for end in ("low", "high"))
-    return _stacked([fixed(row[name], 3), f"{low} to {high}"])
+    lower, upper = (format_decimals(row[f"{name}_{bound_name}"], 3) for bound_name in ("low", "high"))
+    return _stack_lines([format_decimals(row[name], 3), f"{lower} to {upper}"])
 
 
-def _stacked(lines: list[str]) -> Cell:
-    """The first line, and the others quiet below it."""
-    more = [Markup('<br><span class="quiet">{}</span>').format(x) for x in lines[1:]]
-    return Markup("").join([Markup("{}").format(lines[0]), *more])
+def _stack_lines(lines: list[str]) -> Cell:
+    """Stack lines in one cell: the first one normal, the others in quiet type below it."""
+    quiet_lines = [Markup('<br><span class="quiet">{}</span>').format(line) for line in lines[1:]]
+    return Markup("").join([Markup("{}").format(lines[0]), *quiet_lines])
 
 
-def _value(x: float | None) -> str:
-    return "–" if x is None else number(x)
+def _format_value(value: float | None) -> str:
+    return "–" if value is None else format_number(value)
 
 
-def _worst(row: dict[str, Any], a: Assessment, before: str) -> str:
-    """Numbers of the joints that fail, from 1: names are too long for this table."""
-    name = row[f"{before}worst_joint"]
-    if name is None:
+def _format_worst_failure(row: dict[str, Any], assessment: Assessment, key_prefix: str) -> str:
+    """Format the worst failure as joint numbers from 1, because joint names are too long for this table, with its frequency."""
+    failure_name = row[f"{key_prefix}worst_joint"]
+    if failure_name is None:
         return "–"
-    failed = a.index.failures[a.index.failure_names.index(name)]
-    return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_fraction'])})"
+    failed_joints = assessment.index.failures[assessment.index.failure_names.index(failure_name)]
+    return f"{'+'.join(str(joint + 1) for joint in failed_joints)} ({format_percent(row[f'{key_prefix}worst_fraction'])})"
 
 
-def figures(c: Comparison) -> dict[str, Figure]:
-    """The cumulative distributions of all candidates; nothing where there is no finite value."""
-    f = Facts(c.assessments[0], c.threshold)
-    pairs = list(zip(c.names, c.assessments, strict=True))
-    samples = [("As inverse kinematics found them" if f.a.region.kind != "joints" else "Cumulative (CDF)", pairs, False)]
-    if any(a.optimised is not None for a in c.assessments):
-        samples.append(("After optimisation", [(n, a) for n, a in pairs if a.optimised is not None], True))
-    axis, log = _axis(c, f)
+def figures(comparison: Comparison) -> dict[str, Figure]:
+    """Draw the cumulative distributions of all candidates; empty where no value is finite."""
+    f = AssessmentFacts(comparison.assessments[0], comparison.threshold)
+    candidates = list(zip(comparison.names, comparison.assessments, strict=True))
+    samples = [
+        ("As inverse kinematics found them" if f.assessment.region.kind != "joints" else "Cumulative (CDF)", candidates, False)
+    ]
+    if any(assessment.optimised is not None for assessment in comparison.assessments):
+        samples.append(
+            (
+                "After optimisation",
+                [(name, assessment) for name, assessment in candidates if assessment.optimised is not None],
+                True,
+            )
+        )
+    axis, log = _choose_index_axis(comparison, f)
     if axis is None:
         return {}
-    marks = [Mark(c.threshold, f"threshold {as_given(c.threshold)}{f.unit}")]
-    if (bound := _bound(c)) is not None:
+    marks = [Mark(comparison.threshold, f"threshold {format_as_given(comparison.threshold)}{f.unit_suffix}")]
+    if (bound := _find_common_bound(comparison)) is not None:
         marks.append(Mark(bound, f"no configuration can exceed {bound:.3f}", "bound"))
-    panels = [(title, [Curve(axis, a.cdf(axis, optimised=o), n) for n, a in some]) for title, some, o in samples]
+    panels = [
+        (title, [Curve(axis, assessment.cdf(axis, optimised=optimised), name) for name, assessment in group])
+        for title, group, optimised in samples
+    ]
     return {
         "compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
     }
 
 
-def _bound(c: Comparison) -> float | None:
-    """What no configuration of any candidate can exceed, where that is one number."""
-    bounds = {a.index.bound for a in c.assessments}
+def _find_common_bound(comparison: Comparison) -> float | None:
+    """Return the upper bound of the index if all candidates share one number, else None."""
+    bounds = {assessment.index.bound for assessment in comparison.assessments}
     return bounds.pop() if len(bounds) == 1 else None
 
 
-def _axis(c: Comparison, f: Facts) -> tuple[NDArray[np.float64] | None, bool]:
-    """Values of the index over which all distributions are drawn, and whether evenly by ratio; none where none is finite."""
-    every = [a.of(o) for a in c.assessments for o in (False, True)[: 1 + (a.optimised is not None)]]
-    ends = [x for d in every for x in (d.lowest, d.highest) if np.isfinite(x)]
-    if not ends:
+def _choose_index_axis(comparison: Comparison, facts: AssessmentFacts) -> tuple[NDArray[np.float64] | None, bool]:
+    """Return the index values at which all distributions are drawn, None if no value is finite, and whether they are
+    logarithmic.
+    """
+    distributions = [
+        assessment.distribution_of(optimised)
+        for assessment in comparison.assessments
+        for optimised in (False, True)[: 1 + (assessment.optimised is not None)]
+    ]
+    extremes = [
+        value for distribution in distributions for value in (distribution.lowest, distribution.highest) if np.isfinite(value)
+    ]
+    if not extremes:
         return None, False
-    log = not f.larger and min(ends) > 0 and max(ends) > 20 * min(ends)
-    ends += [x for x in (c.threshold, _bound(c)) if x is not None]
+    log = not facts.larger_is_better and min(extremes) > 0 and max(extremes) > 20 * min(extremes)
+    extremes += [value for value in (comparison.threshold, _find_common_bound(comparison)) if value is not None]
     if log:
-        return np.geomspace(min(ends), max(ends), 801), True
-    return np.linspace(min(0.0, *ends), 1.04 * max(0.0, *ends), 801), False
+        return np.geomspace(min(extremes), max(extremes), 801), True
+    return np.linspace(min(0.0, *extremes), 1.04 * max(0.0, *extremes), 801), False
 
 
-def _asked(c: Comparison, f: Facts, figure: Figure, band: float) -> Block:
-    """A threshold to move, with the probability of each candidate and who leads there."""
-    axis, log = _axis(c, f)
+def _build_threshold_slider(comparison: Comparison, facts: AssessmentFacts, figure: Figure, band: float) -> Block:
+    """Build a movable threshold with the probability of each candidate and the leader at every step."""
+    axis, log = _choose_index_axis(comparison, facts)
     assert axis is not None
-    asked = thresholds.steps(axis, log, c.threshold)
-    there = [replace(c, threshold=x) for x in asked.tolist()]
+    threshold_values = thresholds.choose_thresholds(axis, log, comparison.threshold)
+    comparisons = [replace(comparison, threshold=moved) for moved in threshold_values.tolist()]
     answers: dict[str, list[str]] = {}
-    if len({a.index.task.name for a in c.assessments}) == 1:
-        answers["Largest probability"] = [_leading(x) for x in there]
-    for name, a in zip(c.names, c.assessments, strict=True):
-        answers[name] = [interval(x.interval(name)) for x in there]
-        if a.optimised is not None:
-            answers[f"{name}, best configurations"] = [interval(x.interval(name, optimised=True)) for x in there]
-    return thresholds.slider(f, asked, answers, figure, "each curve", band)
+    if len({assessment.index.task.name for assessment in comparison.assessments}) == 1:
+        answers["Largest probability"] = [_describe_leader(moved) for moved in comparisons]
+    for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
+        answers[name] = [format_interval(moved.interval(name)) for moved in comparisons]
+        if assessment.optimised is not None:
+            answers[f"{name}, best configurations"] = [
+                format_interval(moved.interval(name, optimised=True)) for moved in comparisons
+            ]
+    return thresholds.build_slider(facts, threshold_values, answers, figure, "each curve", band)
 
 
-def _leading(c: Comparison) -> str:
-    """The candidate that is ahead, and whether that is sure; those that are where several have the same."""
-    ahead = _ahead(c)
-    if len(ahead) > 1:
-        return "all alike" if len(ahead) == len(c.names) else f"{' and '.join(ahead)} alike"
-    return ahead[0] if _apart(c) else f"{ahead[0]}; its interval overlaps with the next"
+def _describe_leader(comparison: Comparison) -> str:
+    """Name the leading candidate and whether its lead is significant; of several leaders all names."""
+    leaders = _find_leaders(comparison)
+    if len(leaders) > 1:
+        return "all alike" if len(leaders) == len(comparison.names) else f"{' and '.join(leaders)} alike"
+    return leaders[0] if _best_intervals_are_disjoint(comparison) else f"{leaders[0]}; its interval overlaps with the next"
 
 
-def _distributions(c: Comparison, f: Facts) -> list[Block]:
-    """What the figure shows, and a threshold to move over it."""
-    drawn = c.figures()
-    if not drawn:
+def _build_distribution_blocks(comparison: Comparison, facts: AssessmentFacts) -> list[Block]:
+    """Build the figure of the distributions, its explanation, and a threshold to move over it."""
+    drawn_figures = comparison.figures()
+    if not drawn_figures:
         return []
-    meets = "1 − F" if f.larger else "F"
+    term = "1 − F" if facts.larger_is_better else "F"
     text = (
-        f"Over all {counted(f.d.samples, f.noun)} of each candidate; the probability of meeting a threshold is {meets} there. "
+        f"Over all {format_count(facts.distribution.samples, facts.noun)} of each candidate; the probability of "
+        f"meeting a threshold is {term} there. "
     )
-    if any(a.distribution.unreached for a in c.assessments):
-        text += f"A pose without a configuration counts as {'0' if f.larger else 'infinite'}. "
-    width = max(a.distribution.band() for a in c.assessments)
-    text += f"The 95 % band of each curve is {half_width(width)}."
-    picture = Picture(drawing.svg(drawn["compare"], "compare", "Cumulative distributions of all candidates"), text)
-    return [picture, _asked(c, f, drawn["compare"], width)]
+    if any(assessment.distribution.unreached for assessment in comparison.assessments):
+        text += f"A pose without a configuration counts as {'0' if facts.larger_is_better else 'infinite'}. "
+    band_width = max(assessment.distribution.band() for assessment in comparison.assessments)
+    text += f"The 95 % band of each curve is {format_half_width(band_width)}."
+    picture = Picture(drawing.svg(drawn_figures["compare"], "compare", "Cumulative distributions of all candidates"), text)
+    return [picture, _build_threshold_slider(comparison, facts, drawn_figures["compare"], band_width)]
 
 
-def _upgrades(c: Comparison, f: Facts) -> list[Block]:
-    """The joints of each candidate that gain most if they never fail."""
-    rows: list[list[Cell]] = []
-    missing = [n for n, a in zip(c.names, c.assessments, strict=True) if not a.kept]
-    optimised = any(a.optimised is not None for a in c.assessments)
-    for name, a in zip(c.names, c.assessments, strict=True):
-        ranked = c.upgrades(name) if a.kept else []
-        best = {u.joint: u for u in best_upgrades(a, c.threshold)} if a.kept else {}
-        for place, u in enumerate(ranked[:_MOST_UPGRADES]):
-            row: list[Cell] = ["" if place else name, u.joint, f"{u.before:.3f}", f"{u.after:.3f}", paired(u)]
+def _build_upgrade_blocks(comparison: Comparison, facts: AssessmentFacts) -> list[Block]:
+    """Build the table of the joints of each candidate whose protection from failure gains most."""
+    table_rows: list[list[Cell]] = []
+    candidates_without_rows = [
+        candidate for candidate, assessment in zip(comparison.names, comparison.assessments, strict=True) if not assessment.kept
+    ]
+    optimised = any(assessment.optimised is not None for assessment in comparison.assessments)
+    for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
+        ranked = comparison.upgrades(name) if assessment.kept else []
+        upgrades_by_joint = (
+            {upgrade.joint: upgrade for upgrade in rank_optimised_upgrades(assessment, comparison.threshold)}
+            if assessment.kept
+            else {}
+        )
+        for rank, upgrade in enumerate(ranked[:_MAX_UPGRADES]):
+            cells: list[Cell] = [
+                "" if rank else name,
+                upgrade.joint,
+                f"{upgrade.before:.3f}",
+                f"{upgrade.after:.3f}",
+                format_gain(upgrade),
+            ]
             if optimised:
-                row += [f"{best[u.joint].after:.3f}", paired(best[u.joint])] if best else ["–", "–"]
-            rows.append(row)
+                cells += (
+                    [f"{upgrades_by_joint[upgrade.joint].after:.3f}", format_gain(upgrades_by_joint[upgrade.joint])]
+                    if upgrades_by_joint
+                    else ["–", "–"]
+                )
+            table_rows.append(cells)
     blocks: list[Block] = []
-    if rows:
-        head = ["Candidate", "if this never fails", "P now", "P then", "gain, 95 % interval"]
-        head += ["after optimisation", "gain, 95 % interval"] * optimised
-        caption = f"P({f.condition}). The {_MOST_UPGRADES} joints of each candidate that gain most; its own report has all."
-        blocks.append(Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True))
-        text = (
+    if table_rows:
+        header = ["Candidate", "if this never fails", "P now", "P then", "gain, 95 % interval"]
+        header += ["after optimisation", "gain, 95 % interval"] * optimised
+        caption = f"P({facts.condition}). The {_MAX_UPGRADES} joints of each candidate that gain most; its own report has all."
+        blocks.append(Table(table_rows, header, frozenset(range(2, len(header))), caption=caption, wide=True))
+        explanation = (
             "Suppose that a redundant motor or brake keeps one joint from failing: the worst case is then over the "
-            f"failures in which it has no part, at the same {f.noun}s and configurations. The intervals are paired: a gain is "
-            f"the fraction of the {f.noun}s that fail now and would not then."
+            f"failures in which it has no part, at the same {facts.noun}s and configurations. The intervals are "
+            f"paired: a gain is "
+            f"the fraction of the {facts.noun}s that fail now and would not then."
         )
         if optimised:
-            text += f" After optimisation: configurations of up to {MOST_OPTIMISED_AGAIN} {f.noun}s optimised again without it."
-        blocks.append(Text(text, quiet=True))
-    if missing:
-        blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so they are not in this table."))
+            explanation += (
+                f" After optimisation: configurations of up to {MAX_REOPTIMISED_POSES} {facts.noun}s optimised "
+                f"again without it."
+            )
+        blocks.append(Text(explanation, quiet=True))
+    if candidates_without_rows:
+        blocks.append(
+            Text(f"The {facts.noun}s of {', '.join(candidates_without_rows)} were not kept, so they are not in this table.")
+        )
     return blocks
 
 
-def _candidates(c: Comparison) -> Table:
-    rows: list[list[Cell]] = []
-    for name, a in zip(c.names, c.assessments, strict=True):
+def _tabulate_candidate_details(comparison: Comparison) -> Table:
+    table_rows: list[list[Cell]] = []
+    for name, a in zip(comparison.names, comparison.assessments, strict=True):
         bound = "not known" if a.index.bound is None else f"{a.index.bound:.3f}"
-        gaps = [number(x) for x in (a.gap(), a.gap(True) if a.optimised is not None else None) if x is not None]
-        code = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
+        median_gaps = [
+            format_number(gap) for gap in (a.gap(), a.gap(True) if a.optimised is not None else None) if gap is not None
+        ]
+        fingerprint = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
         source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
-        ends = "" if a.arm.chain is None else f"; {a.arm.chain}"
-        rows.append(
-            [name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", (source or "no source given") + ends, code]
+        chain_suffix = "" if a.arm.chain is None else f"; {a.arm.chain}"
+        table_rows.append(
+            [
+                name,
+                a.arm.name,
+                _format_tool_pose(a.arm),
+                bound,
+                " → ".join(median_gaps) or "–",
+                (source or "no source given") + chain_suffix,
+                fingerprint,
+            ]
         )
-    head = ["Candidate", "arm", "tool", "bound of the index", "gap of the median", "source", "fingerprint"]
+    header = ["Candidate", "arm", "tool", "bound of the index", "gap of the median", "source", "fingerprint"]
     caption = (
         "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
         "Gap: by how much the median of the reached poses falls short of it"
     )
-    caption += ", before → after optimisation." if any(a.optimised is not None for a in c.assessments) else "."
-    return Table(rows, head, frozenset({3, 4}), caption=caption, wide=True)
+    caption += ", before → after optimisation." if any(a.optimised is not None for a in comparison.assessments) else "."
+    return Table(table_rows, header, frozenset({3, 4}), caption=caption, wide=True)
 
 
-def _tool(arm: Arm) -> str:
-    x, y, z, *angles = (as_given(float(v)) for v in attachment_text(arm).split(","))
+def _format_tool_pose(arm: Arm) -> str:
+    x, y, z, *angles = (format_as_given(float(value)) for value in format_tool_pose(arm).split(","))
     return f"{x}, {y}, {z} m; {', '.join(angles)} deg"
 
 
-def _method(c: Comparison, f: Facts) -> list[Block]:
-    a = f.a
-    why = "it was given"
-    if not c.chosen:
-        bounded = all(x.index.bound is not None for x in c.assessments)
-        why = (
+def _build_method_blocks(comparison: Comparison, facts: AssessmentFacts) -> list[Block]:
+    assessment = facts.assessment
+    threshold_reason = "it was given"
+    if not comparison.chosen:
+        bounded = all(candidate.index.bound is not None for candidate in comparison.assessments)
+        threshold_reason = (
             "half of the smallest bound"
             if bounded
             else "about the middle of the candidates' medians, because this index has no bound"
         )
-    seeds = sorted({x.seed for x in c.assessments})
-    facts: list[tuple[str, str]] = [
-        ("Region", f"{a.region.name}: {a.region.describe()}"),
-        ("Samples", f"{counted(f.d.samples, f.noun)} of each candidate, {a.sampling}, seed {', '.join(map(str, seeds))}"),
-        ("Index", f"worst-case {f.index.name}{f.unit and f', unit{f.unit}'}; {'larger' if f.larger else 'smaller'} is better"),
-        ("Threshold", f"{as_given(c.threshold)}{f.unit}: {why}"),
-        ("Not found", f"a pose without a configuration counts as {'0' if f.larger else 'infinite'}"),
+    seeds = sorted({candidate.seed for candidate in comparison.assessments})
+    entries: list[tuple[str, str]] = [
+        ("Region", f"{assessment.region.name}: {assessment.region.describe()}"),
+        (
+            "Samples",
+            f"{format_count(facts.distribution.samples, facts.noun)} of each candidate, {assessment.sampling}, seed "
+            f"{', '.join(map(str, seeds))}",
+        ),
+        (
+            "Index",
+            f"worst-case {facts.index.name}{facts.unit_suffix and f', unit{facts.unit_suffix}'}; "
+            f"{'larger' if facts.larger_is_better else 'smaller'} is better",
+        ),
+        ("Threshold", f"{format_as_given(comparison.threshold)}{facts.unit_suffix}: {threshold_reason}"),
+        ("Not found", f"a pose without a configuration counts as {'0' if facts.larger_is_better else 'infinite'}"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         (
             "Ranking",
             "by the probability of meeting the threshold as inverse kinematics found the configurations; then the median",
         ),
     ]
-    if len(seeds) == 1 and len({x.sampling for x in c.assessments}) == 1:
-        facts.append(("Same poses", "every candidate was tried at the same poses of the region"))
-    shapes = [
-        (n, x.plan.clearance.capsules.describe(x.arm)) for n, x in zip(c.names, c.assessments, strict=True) if x.plan.clearance
+    if len(seeds) == 1 and len({candidate.sampling for candidate in comparison.assessments}) == 1:
+        entries.append(("Same poses", "every candidate was tried at the same poses of the region"))
+    collision_models = [
+        (candidate_name, candidate.plan.clearance.capsules.describe(candidate.arm))
+        for candidate_name, candidate in zip(comparison.names, comparison.assessments, strict=True)
+        if candidate.plan.clearance
     ]
-    around = {x.plan.cell.digest: cell_text(x.plan.cell) for x in c.assessments if x.plan.cell is not None}
-    if around:
-        facts.append(("Cell", "; ".join(around.values())))
-    if shapes and any(x.optimised is not None for x in c.assessments):
-        what = "; ".join(f"{name}: {shape}" for name, shape in shapes)
-        facts.append(
+    cell_texts = {
+        candidate.plan.cell.digest: describe_cell(candidate.plan.cell)
+        for candidate in comparison.assessments
+        if candidate.plan.cell is not None
+    }
+    if cell_texts:
+        entries.append(("Cell", "; ".join(cell_texts.values())))
+    if collision_models and any(candidate.optimised is not None for candidate in comparison.assessments):
+        models = "; ".join(f"{name}: {shape}" for name, shape in collision_models)
+        entries.append(
             (
                 "Clearance",
-                f"best configurations keep the arm clear of itself{' and the cell' * bool(around)}, by capsules ({what})",
+                f"best configurations keep the arm clear of itself{' and the cell' * bool(cell_texts)}, by capsules ({models})",
             )
         )
-    return [Table([[k, v] for k, v in facts])]
+    return [Table([[label, value] for label, value in entries])]
 
 
-def _again(c: Comparison) -> list[Block]:
-    """The command of each candidate, and the files they need."""
+def _build_rerun_blocks(comparison: Comparison) -> list[Block]:
+    """Build the command of each candidate and the files that it needs."""
     blocks: list[Block] = []
-    for name, run in zip(c.names, c.assessments, strict=True):
-        command, note = command_line(run)
+    for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
+        command, remark = build_command_line(assessment)
         blocks.append(
-            Text(f"{name}: {note}") if command is None else Code(command, f"{name} alone{f' ({note})' if note else ''}:")
+            Text(f"{name}: {remark}") if command is None else Code(command, f"{name} alone{f' ({remark})' if remark else ''}:")
         )
-        blocks += capsule_files(run)
-    region = c.assessments[0].region
-    return [*blocks, *(region_files(region) if region.storable else [])]
+        blocks += list_capsule_files(assessment)
+    region = comparison.assessments[0].region
+    return [*blocks, *(list_region_files(region) if region.storable else [])]

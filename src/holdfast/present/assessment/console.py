@@ -1,4 +1,4 @@
-"""An assessment in numbers and words."""
+"""Numbers and console text of an assessment."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.assessment.answer import ZERO, Answer
-from holdfast.assessment.upgrade import MOST_OPTIMISED_AGAIN
+from holdfast.assessment.answer import ZERO_INDEX, ThresholdAnswer
+from holdfast.assessment.upgrade import MAX_REOPTIMISED_POSES
 from holdfast.errors import InputError
 from holdfast.present.assessment.explanations import explain_index
-from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import Rows, number, plain
-from holdfast.words import counted
+from holdfast.present.clearance.shape import describe_shape, summarize_shape
+from holdfast.present.printing import TextTable, format_significant, to_json_types
+from holdfast.words import format_count
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -29,33 +29,33 @@ Thresholds = Sequence[float] | None
 _USUAL_THRESHOLDS = (0.05, 0.1, 0.2, 0.3)  # of an index with a bound
 
 
-def key_table(result: Assessment) -> Rows:
-    """How many poses are reached, how the index is distributed over them, and which failure is most often the worst."""
-    d, counts = result.distribution, result.worst_counts
-    rows = [["poses reached", f"{d.reached:,} of {d.samples:,}"]]
-    for which, when in ((d, "as found"), (result.optimised, "at the best configurations")):
-        if which is not None and which.reached:
-            low, middle, high = map(number, which.quantile([0.05, 0.5, 0.95]).tolist())
-            rows.append([f"{result.index.name} {when}: median (5 to 95 %)", f"{middle} ({low} to {high})"])
+def key_table(result: Assessment) -> TextTable:
+    """Return the numbers of poses reached, the distribution of the index over them, and the most frequent worst failure."""
+    distribution, counts = result.distribution, result.worst_counts
+    table_rows = [["poses reached", f"{distribution.reached:,} of {distribution.samples:,}"]]
+    for sampled, label in ((distribution, "as found"), (result.optimised, "at the best configurations")):
+        if sampled is not None and sampled.reached:
+            lower, median, upper = map(format_significant, sampled.quantile([0.05, 0.5, 0.95]).tolist())
+            table_rows.append([f"{result.index.name} {label}: median (5 to 95 %)", f"{median} ({lower} to {upper})"])
     if result.index.bound is not None:
-        rows.append(["no configuration can exceed", number(result.index.bound)])
+        table_rows.append(["no configuration can exceed", format_significant(result.index.bound)])
     if counts.sum() > 0:
-        k = int(counts.argmax())
-        rows.append(
+        failure = int(counts.argmax())
+        table_rows.append(
             [
                 "most often the worst failure",
-                f"{result.index.failure_names[k]} ({100 * counts[k] / counts.sum():.0f} % of them)",
+                f"{result.index.failure_names[failure]} ({100 * counts[failure] / counts.sum():.0f} % of them)",
             ]
         )
-    return Rows(["", ""], rows)
+    return TextTable(["", ""], table_rows)
 
 
 def next_steps(result: Assessment, name: str) -> list[str]:
-    """What would help most, and the whole report."""
+    """Suggest the most useful upgrade, choosing configurations, a certificate where one is possible, and the full report."""
     steps = [f"{name}.upgrades()[0]  # the joint that deserves a redundant motor or brake"] if result.kept else []
     if result.optimised is None and result.region.kind != "joints":
-        again = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
-        steps.append(f"{again}  # what choosing configurations gains")
+        command = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
+        steps.append(f"{command}  # what choosing configurations gains")
     if result.region.kind == "box" and result.index.task.name in ("position", "pose") and not result.distribution.unreached:
         steps.append(f"hf.certify({name}.claim())  # that every pose of the region is reached, not only a sample")
     return [*steps, f'{name}.report("report.html")']
@@ -67,15 +67,17 @@ def to_dict(
     rates: Mapping[str | int, float] | None = None,
     report: Path | None = None,
 ) -> dict[str, Any]:
-    """See :meth:`Assessment.to_dict`."""
-    return {**numbers(result, thresholds, rates), "report": None if report is None else str(report)}
+    """Return the assessment as JSON data. See :meth:`Assessment.to_dict`."""
+    return {**collect_numbers(result, thresholds, rates), "report": None if report is None else str(report)}
 
 
-def numbers(result: Assessment, thresholds: Thresholds, rates: Mapping[str | int, float] | None = None) -> dict[str, Any]:
-    """All of it but where its report is."""
-    d = result.distribution
-    reached = d.reached > 0
-    found: dict[str, Any] = plain(
+def collect_numbers(
+    result: Assessment, thresholds: Thresholds, rates: Mapping[str | int, float] | None = None
+) -> dict[str, Any]:
+    """Collect all numbers of an assessment as JSON data, without the path of its report."""
+    distribution = result.distribution
+    reached = distribution.reached > 0
+    data: dict[str, Any] = to_json_types(
         {
             **result.arm.entry(),
             "fingerprint": result.arm.fingerprint,
@@ -93,111 +95,140 @@ def numbers(result: Assessment, thresholds: Thresholds, rates: Mapping[str | int
             "sampling": result.sampling,
             "restarts": result.restarts,
             "complete": result.complete,
-            "evaluated": d.samples,
-            "reached": d.reached,
-            "not_found": d.unreached,
-            "singular": d.singular,
-            "effective_sample_size": d.effective() if d.weighted and d.samples else None,
-            "mean": d.mean if reached else None,
-            "quantiles": _quantiles(d) if reached else None,
-            "band_95": d.band() if d.samples else None,
-            "probability": [_probability(result, h) for h in _thresholds(result, thresholds)] if d.samples else [],
+            "evaluated": distribution.samples,
+            "reached": distribution.reached,
+            "not_found": distribution.unreached,
+            "singular": distribution.singular,
+            "effective_sample_size": distribution.effective() if distribution.weighted and distribution.samples else None,
+            "mean": distribution.mean if reached else None,
+            "quantiles": _collect_quantiles(distribution) if reached else None,
+            "band_95": distribution.band() if distribution.samples else None,
+            "probability": [_collect_probability(result, threshold) for threshold in _choose_thresholds(result, thresholds)]
+            if distribution.samples
+            else [],
             "gap": result.gap(),
             "worst_counts": dict(zip(result.index.failure_names, result.worst_counts.tolist(), strict=True)),
-            "upgrades": _upgrades(result, thresholds),
-            "optimised": _optimised(result, thresholds),
-            "clearance": _clearance(result),
-            "after_lock": _after_lock(result),
-            "expected_survival": result.expected_survival(rates) if rates and d.samples else None,
+            "upgrades": _collect_upgrades(result, thresholds),
+            "optimised": _collect_optimised_numbers(result, thresholds),
+            "clearance": _collect_collision_numbers(result),
+            "after_lock": _collect_survival(result),
+            "expected_survival": result.expected_survival(rates) if rates and distribution.samples else None,
             "seconds": result.seconds,
         }
     )
-    return found
+    return data
 
 
-def _quantiles(d: Distribution) -> dict[str, float]:
-    return dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True))
+def _collect_quantiles(distribution: Distribution) -> dict[str, float]:
+    return dict(zip(["0.05", "0.5", "0.95"], distribution.quantile([0.05, 0.5, 0.95]).tolist(), strict=True))
 
 
-def _optimised(result: Assessment, thresholds: Thresholds) -> dict[str, Any] | None:
-    d, counts = result.optimised, result.optimised_worst_counts
-    if d is None or counts is None or not d.reached:
+def _collect_optimised_numbers(result: Assessment, thresholds: Thresholds) -> dict[str, Any] | None:
+    distribution, counts = result.optimised, result.optimised_worst_counts
+    if distribution is None or counts is None or not distribution.reached:
         return None
     return {
-        "mean": d.mean,
-        "quantiles": _quantiles(d),
-        "probability": [_probability(result, h, optimised=True) for h in _thresholds(result, thresholds)],
+        "mean": distribution.mean,
+        "quantiles": _collect_quantiles(distribution),
+        "probability": [
+            _collect_probability(result, threshold, optimised=True) for threshold in _choose_thresholds(result, thresholds)
+        ],
         "gap": result.gap(optimised=True),
         "worst_counts": dict(zip(result.index.failure_names, counts.tolist(), strict=True)),
-        "upgrades": _upgrades(result, thresholds, optimised=True),
+        "upgrades": _collect_upgrades(result, thresholds, optimised=True),
     }
 
 
-def _clearance(result: Assessment) -> dict[str, Any] | None:
-    """How often the arm collides with itself or its cell; None if that was not looked at."""
-    found, clearance = result.collisions, result.plan.clearance
-    if found is None or clearance is None:
+def _collect_collision_numbers(result: Assessment) -> dict[str, Any] | None:
+    """Collect how often the arm collides with itself or its cell; None if collisions were not checked."""
+    collisions, clearance = result.collisions, result.plan.clearance
+    if collisions is None or clearance is None:
         return None
-    chosen = result.optimised is not None
+    is_optimised = result.optimised is not None
     counts = {
-        "found": found.found,
-        "best_without_regard": found.blocked if chosen else None,
-        "none_clear": found.hopeless if chosen else None,
+        "found": collisions.found,
+        "best_without_regard": collisions.blocked if is_optimised else None,
+        "none_clear": collisions.hopeless if is_optimised else None,
     }
-    shares = {f"{name}_fraction": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
-    clear = None if result.clear is None or not result.distribution.samples else result.reached_clear()
-    around = {
-        "found_with": found.with_each or None,
-        "best_barred_by": found.blocked_by if found.blocked_by and chosen else None,
-        "reached_clear": None if clear is None else {"value": clear.value, "low": clear.low, "high": clear.high},
+    fractions = {
+        f"{name}_fraction": count / collisions.reached if count is not None and collisions.reached else None
+        for name, count in counts.items()
     }
-    return {"reached": found.reached, **counts, **shares, **around, **shape_summary(clearance, found.margin)}
+    collision_free = None if result.clear is None or not result.distribution.samples else result.reached_clear()
+    cell_entries = {
+        "found_with": collisions.with_each or None,
+        "best_barred_by": collisions.blocked_by if collisions.blocked_by and is_optimised else None,
+        "reached_clear": None
+        if collision_free is None
+        else {"value": collision_free.value, "low": collision_free.low, "high": collision_free.high},
+    }
+    return {
+        "reached": collisions.reached,
+        **counts,
+        **fractions,
+        **cell_entries,
+        **summarize_shape(clearance, collisions.margin),
+    }
 
 
-def _upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = False) -> dict[str, Any] | None:
-    """What joints that never fail would gain at the first threshold; None if the rows were not kept."""
+def _collect_upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = False) -> dict[str, Any] | None:
+    """Collect the gains of joints that never fail, at the first threshold; None if the poses were not kept."""
     if not result.kept or not result.distribution.samples:
         return None
     threshold = thresholds[0] if thresholds else result.default_threshold()
-    found = best_upgrades(result, threshold) if optimised else result.upgrades(threshold)
-    return {"threshold": threshold, "joints": [asdict(u) for u in found]}
+    upgrades = rank_optimised_upgrades(result, threshold) if optimised else result.upgrades(threshold)
+    return {"threshold": threshold, "joints": [asdict(upgrade) for upgrade in upgrades]}
 
 
-def best_upgrades(result: Assessment, threshold: float) -> list[Upgrade]:
-    """Gains at configurations optimised again without each joint; none where the run or its index does not allow that."""
+def rank_optimised_upgrades(result: Assessment, threshold: float) -> list[Upgrade]:
+    """Return the gains at configurations optimised again without each joint; empty if the run or its index does not
+    allow it.
+    """
     try:
         return [] if result.optimised is None else result.upgrades(threshold, optimised=True)
     except InputError:  # an index of a class of the user's own cannot be built again for fewer failures
         return []
 
 
-def _after_lock(result: Assessment) -> dict[str, Any] | None:
+def _collect_survival(result: Assessment) -> dict[str, Any] | None:
     if result.survivors is None or not result.distribution.samples:
         return None
     locks = result.locks
     return {
-        name: {"value": p.value, "low": p.low, "high": p.high, "locked_at": locks[name]}
-        for name, p in result.survival().items()
+        name: {"value": fraction.value, "low": fraction.low, "high": fraction.high, "locked_at": locks[name]}
+        for name, fraction in result.survival().items()
     }
 
 
-def _thresholds(result: Assessment, given: Thresholds) -> Sequence[float]:
-    if given:
-        return given
-    samples = [d for d in (result.distribution, result.optimised) if d is not None and d.reached]
-    highest = max((d.highest for d in samples), default=np.inf)
+def _choose_thresholds(result: Assessment, requested: Thresholds) -> Sequence[float]:
+    if requested:
+        return requested
+    samples = [
+        distribution
+        for distribution in (result.distribution, result.optimised)
+        if distribution is not None and distribution.reached
+    ]
+    highest = max((distribution.highest for distribution in samples), default=np.inf)
     if result.index.bound is not None:
-        usual = [h for h in _USUAL_THRESHOLDS if h < result.index.bound]
-        some = [h for h in usual if h <= highest]
-        if len(some) > 1 or highest <= ZERO or not samples:
-            return some or usual
-    return sorted({float(f"{x:.3g}") for d in samples for x in d.quantile([0.25, 0.5, 0.75]).tolist()})
+        usual = [threshold for threshold in _USUAL_THRESHOLDS if threshold < result.index.bound]
+        attained = [threshold for threshold in usual if threshold <= highest]
+        if len(attained) > 1 or highest <= ZERO_INDEX or not samples:
+            return attained or usual
+    return sorted(
+        {float(f"{value:.3g}") for distribution in samples for value in distribution.quantile([0.25, 0.5, 0.75]).tolist()}
+    )
 
 
-def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[str, Any]:
+def _collect_probability(result: Assessment, threshold: float, optimised: bool = False) -> dict[str, Any]:
     key = "at_least" if result.index.better == "larger" else "at_most"
-    p = result.interval(optimised=optimised, **{key: h})  # type: ignore[arg-type]
-    return {key: h, "value": p.value, "low": p.low, "high": p.high, "confidence": p.confidence}
+    probability = result.interval(optimised=optimised, **{key: threshold})  # type: ignore[arg-type]
+    return {
+        key: threshold,
+        "value": probability.value,
+        "low": probability.low,
+        "high": probability.high,
+        "confidence": probability.confidence,
+    }
 
 
 def show(
@@ -207,15 +238,17 @@ def show(
     rates: Mapping[str | int, float] | None = None,
     report: Path | None = None,
 ) -> None:
-    """What was asked, how the index is distributed, which failure is the worst, and what a lock leaves."""
+    """Print the question, the distribution of the index, the most frequent worst failure, and the poses reached
+    after a lock.
+    """
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
     del report  # is named with the files that were written
-    d = result.distribution
-    if d.samples:
-        out.print(f"[bold]{escape(Answer(result, thresholds[0] if thresholds else None).headline)}[/]", soft_wrap=True)
+    distribution = result.distribution
+    if distribution.samples:
+        out.print(f"[bold]{escape(ThresholdAnswer(result, thresholds[0] if thresholds else None).headline)}[/]", soft_wrap=True)
     out.print(f"{escape(result.arm.title)}: {escape(result.index.describe())}", soft_wrap=True)
     explanation = explain_index(result.index)
     if explanation:
@@ -223,130 +256,159 @@ def show(
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
     if not result.complete:
         out.print(
-            f"[yellow]not finished: {d.samples} of {result.poses} poses; the same 'holdfast assess' command resumes[/]",
+            f"[yellow]not finished: {distribution.samples} of {result.poses} poses; the same 'holdfast assess' "
+            f"command resumes[/]",
             soft_wrap=True,
         )
-    lost = f"{d.unreached_share if d.samples else 0:.1%}{' of the weight' if d.weighted else ''}"
+    unreached_text = (
+        f"{distribution.unreached_share if distribution.samples else 0:.1%}{' of the weight' if distribution.weighted else ''}"
+    )
     out.print(
-        f"{d.samples} poses, seed {result.seed}: {d.reached} reached, {d.unreached} not found within the limits "
-        f"({lost}, counted as failed), {d.singular} singular",
+        f"{distribution.samples} poses, seed {result.seed}: {distribution.reached} reached, {distribution.unreached} not "
+        f"found within the limits "
+        f"({unreached_text}, counted as failed), {distribution.singular} singular",
         soft_wrap=True,
     )
-    if not d.samples:
+    if not distribution.samples:
         return
-    if d.weighted:
-        text = f"poses count by weight: effective sample size {d.effective():.4g} (total over largest), which intervals go by"
-        out.print(text, soft_wrap=True)
-    both = [(result.distribution, "as inverse kinematics found them")]
+    if distribution.weighted:
+        weight_text = (
+            f"poses count by weight: effective sample size {distribution.effective():.4g} (total over largest), "
+            f"which intervals go by"
+        )
+        out.print(weight_text, soft_wrap=True)
+    samples = [(result.distribution, "as inverse kinematics found them")]
     if result.optimised is not None:
-        both.append((result.optimised, "best configurations found"))
-    if d.reached:
-        some = [(which, name) for which, name in both if which.reached]
-        for which, name in some:
-            low, middle, high = which.quantile([0.05, 0.5, 0.95]).tolist()
-            spread = f"median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(which.mean)}"
+        samples.append((result.optimised, "best configurations found"))
+    if distribution.reached:
+        reached_samples = [(sampled, name) for sampled, name in samples if sampled.reached]
+        for sampled, name in reached_samples:
+            lower, median, upper = sampled.quantile([0.05, 0.5, 0.95]).tolist()
+            spread = (
+                f"median {format_significant(median)}, 5 % {format_significant(lower)}, 95 % "
+                f"{format_significant(upper)}, mean {format_significant(sampled.mean)}"
+            )
             out.print(f"over reached poses, {name}: {spread}", soft_wrap=True)
         if result.index.bound is not None:
-            gaps = [f"{number(result.index.bound - float(which.quantile(0.5)))} ({name})" for which, name in some]
-            below = f"the median is below that by {', '.join(gaps)}"
-            note = f" ({result.index.bound_note})" if result.index.bound_note else ""
-            out.print(f"no configuration can beat {number(result.index.bound)}{note}; {below}", soft_wrap=True)
-    _show_clearance(result, out)
-    sign = "at least" if result.index.better == "larger" else "at most"
-    after = ["optimised", "95 % interval"] if result.optimised is not None else []
-    table = Grid(result.index.name, "probability", "95 % interval", *after)
-    for h in _thresholds(result, thresholds):
+            gap_texts = [
+                f"{format_significant(result.index.bound - float(sampled.quantile(0.5)))} ({name})"
+                for sampled, name in reached_samples
+            ]
+            gap_text = f"the median is below that by {', '.join(gap_texts)}"
+            remark = f" ({result.index.bound_note})" if result.index.bound_note else ""
+            out.print(f"no configuration can beat {format_significant(result.index.bound)}{remark}; {gap_text}", soft_wrap=True)
+    _show_collisions(result, out)
+    relation = "at least" if result.index.better == "larger" else "at most"
+    optimised_header = ["optimised", "95 % interval"] if result.optimised is not None else []
+    table = BandedTable(result.index.name, "probability", "95 % interval", *optimised_header)
+    for threshold in _choose_thresholds(result, thresholds):
         cells = []
-        for optimised in (False, True)[: len(both)]:
-            p = _probability(result, h, optimised)
-            cells += [f"{p['value']:.4f}", f"{p['low']:.4f} to {p['high']:.4f}"]
-        table.add_row(f"{sign} {h:g}", *cells)
+        for optimised in (False, True)[: len(samples)]:
+            probability = _collect_probability(result, threshold, optimised)
+            cells += [f"{probability['value']:.4f}", f"{probability['low']:.4f} to {probability['high']:.4f}"]
+        table.add_row(f"{relation} {threshold:g}", *cells)
     out.print(table)
     columns = [result.worst_counts, *([] if result.optimised_worst_counts is None else [result.optimised_worst_counts])]
-    if any(c.sum() for c in columns):
-        head = "is the worst in" + (" weight" if d.weighted else "")
-        table = Grid("failure", head, *["optimised"][: len(columns) - 1])
-        for k, name in enumerate(result.index.failure_names):
-            if any(c[k] for c in columns):
+    if any(counts.sum() for counts in columns):
+        header = "is the worst in" + (" weight" if distribution.weighted else "")
+        table = BandedTable("failure", header, *["optimised"][: len(columns) - 1])
+        for failure, name in enumerate(result.index.failure_names):
+            if any(counts[failure] for counts in columns):
                 table.add_row(
-                    escape(name), *[f"{c[k]:{'.4g' if d.weighted else 'd'}} ({c[k] / (c.sum() or 1):.1%})" for c in columns]
+                    escape(name),
+                    *[
+                        f"{counts[failure]:{'.4g' if distribution.weighted else 'd'}} "
+                        f"({counts[failure] / (counts.sum() or 1):.1%})"
+                        for counts in columns
+                    ],
                 )
         out.print(table)
     _show_upgrades(result, thresholds, out)
     if result.survivors is not None:
-        table = Grid("once it has locked", "where", "poses still reached", "95 % interval")
-        for name, share in result.survival().items():
-            where = _where(result, name)
-            table.add_row(escape(name), where, f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
+        table = BandedTable("once it has locked", "where", "poses still reached", "95 % interval")
+        for name, fraction in result.survival().items():
+            position = _format_lock_position(result, name)
+            table.add_row(escape(name), position, f"{fraction.value:.4f}", f"{fraction.low:.4f} to {fraction.high:.4f}")
         out.print(table)
         if rates:
-            left = result.expected_survival(rates)
-            out.print(f"after a failure, by how often each joint fails: {left:.4f} of the poses still reached", soft_wrap=True)
+            survival = result.expected_survival(rates)
+            out.print(
+                f"after a failure, by how often each joint fails: {survival:.4f} of the poses still reached", soft_wrap=True
+            )
 
 
-def _where(result: Assessment, joint: str) -> str:
-    """Where a joint locks, in degrees or metres."""
-    angle = result.locks[joint]
-    if angle is None:
+def _format_lock_position(result: Assessment, joint: str) -> str:
+    """Format the position at which a joint locks, in degrees or metres."""
+    position = result.locks[joint]
+    if position is None:
         return "as at another pose"
     prismatic = result.arm.prismatic[result.arm.joint_index(joint)]
-    return f"{angle:.4g} m" if prismatic else f"{math.degrees(angle):.4g} deg"
+    return f"{position:.4g} m" if prismatic else f"{math.degrees(position):.4g} deg"
 
 
-def _show_clearance(result: Assessment, out: Console) -> None:
-    """How often the arm collides with itself or its cell."""
+def _show_collisions(result: Assessment, out: Console) -> None:
+    """Print how often the arm collides with itself or its cell."""
     from rich.markup import escape
 
-    found, clearance = result.collisions, result.plan.clearance
-    if found is None or clearance is None or not found.reached:
+    counts, clearance = result.collisions, result.plan.clearance
+    if counts is None or clearance is None or not counts.reached:
         return
-    whole = found.reached
-    most = "at most " * (clearance.cell is not None)
-    text = f"the arm collides with {clearance.others} in {most}{found.found / whole:.1%} of the {whole} configurations found"
-    hit = sorted((item for item in found.with_each.items() if item[1]), key=lambda item: -item[1])
-    text += f" ({', '.join(f'{name} {count / whole:.1%}' for name, count in hit)})" if hit else ""
+    total = counts.reached
+    prefix = "at most " * (clearance.cell is not None)
+    text = f"the arm collides with {clearance.others} in {prefix}{counts.found / total:.1%} of the {total} configurations found"
+    touched = sorted((item for item in counts.with_each.items() if item[1]), key=lambda item: -item[1])
+    text += f" ({', '.join(f'{name} {count / total:.1%}' for name, count in touched)})" if touched else ""
     if result.clear is not None:
         text += f"; at least {result.reached_clear().value:.1%} of the poses are reached by a clear one"
     if result.optimised is not None:
-        close = clearance.too_close(found.margin)
-        text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {close}"
-        text += ", so one that is clear was chosen instead" if found.blocked else ""
-        if found.hopeless:
-            text += f", but {found.hopeless} ({found.hopeless / whole:.1%}) have no clear one and count as failed"
-    out.print(escape(f"{text} ({shape_text(clearance, found.margin)})"), soft_wrap=True)
+        verb_phrase = clearance.too_close(counts.margin)
+        text += f"; at the best configuration of {counts.blocked / total:.1%} of the reached poses it {verb_phrase}"
+        text += ", so one that is clear was chosen instead" if counts.blocked else ""
+        if counts.hopeless:
+            text += f", but {counts.hopeless} ({counts.hopeless / total:.1%}) have no clear one and count as failed"
+    out.print(escape(f"{text} ({describe_shape(clearance, counts.margin)})"), soft_wrap=True)
 
 
 def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> None:
-    """Which joint deserves a redundant motor or brake, at the first threshold."""
+    """Print the joint whose redundant motor or brake would gain most, at the first threshold."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
     if not result.kept:
         out.print("the poses were not kept, so it is not known which joint deserves a redundant motor or brake", soft_wrap=True)
         return
     threshold = thresholds[0] if thresholds else result.default_threshold()
     ranked = result.upgrades(threshold)
-    best = {u.joint: u for u in best_upgrades(result, threshold)}
-    some = [u for u in ranked if u.gain > 0 or (u.joint in best and best[u.joint].gain > 0)]
+    optimised_by_joint = {upgrade.joint: upgrade for upgrade in rank_optimised_upgrades(result, threshold)}
+    useful_upgrades = [
+        upgrade
+        for upgrade in ranked
+        if upgrade.gain > 0 or (upgrade.joint in optimised_by_joint and optimised_by_joint[upgrade.joint].gain > 0)
+    ]
     condition = f"{'at least' if result.index.better == 'larger' else 'at most'} {threshold:g}"
-    if not some:
+    if not useful_upgrades:
         if ranked:
             out.print(f"no single joint that never fails would raise the probability of {condition}", soft_wrap=True)
         return
-    after = ["optimised", "gain", "95 % interval"] if best else []
-    table = Grid("if it never failed", f"probability of {condition}", "gain", "95 % interval", *after)
-    for u in some:
-        table.add_row(escape(u.joint), *_gain(u), *(_gain(best[u.joint]) if best else []))
+    optimised_header = ["optimised", "gain", "95 % interval"] if optimised_by_joint else []
+    table = BandedTable("if it never failed", f"probability of {condition}", "gain", "95 % interval", *optimised_header)
+    for upgrade in useful_upgrades:
+        table.add_row(
+            escape(upgrade.joint),
+            *_format_gain_cells(upgrade),
+            *(_format_gain_cells(optimised_by_joint[upgrade.joint]) if optimised_by_joint else []),
+        )
     out.print(table)
-    if best:
-        count = min(result.distribution.samples, MOST_OPTIMISED_AGAIN)
-        now = next(iter(best.values())).before
+    if optimised_by_joint:
+        count = min(result.distribution.samples, MAX_REOPTIMISED_POSES)
+        current = next(iter(optimised_by_joint.values())).before
         out.print(
-            f"optimised: configurations of {counted(count, 'pose')} optimised again without that joint; with it {now:.4f}",
+            f"optimised: configurations of {format_count(count, 'pose')} optimised again without that joint; with it "
+            f"{current:.4f}",
             soft_wrap=True,
         )
 
 
-def _gain(u: Upgrade) -> list[str]:
-    return [f"{u.after:.4f}", f"{u.gain:+.4f}", f"{u.low:.4f} to {u.high:.4f}"]
+def _format_gain_cells(upgrade: Upgrade) -> list[str]:
+    return [f"{upgrade.after:.4f}", f"{upgrade.gain:+.4f}", f"{upgrade.low:.4f} to {upgrade.high:.4f}"]

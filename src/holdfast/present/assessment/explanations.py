@@ -1,4 +1,4 @@
-"""One line for each index that tells a reader who does not know it which value is good."""
+"""One line for each index that tells a reader new to it which values are good."""
 
 from __future__ import annotations
 
@@ -21,5 +21,5 @@ _INDEX_EXPLANATIONS = {
 
 
 def explain_index(index: Index) -> str:
-    """Explain which values of an index are good; empty for an index of the user's own."""
+    """Explain which values of an index are good; empty for a custom index."""
     return _INDEX_EXPLANATIONS.get(index.label.partition(":")[0], "")

@@ -1,4 +1,4 @@
-"""What a report says, computed once: threshold, headline, rows, scene, curves."""
+"""Contents of the report of an assessment, computed once: evaluated poses, scene, axes, marks and curves."""
 
 from __future__ import annotations
 
@@ -8,28 +8,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotations_of_quaternions
-from holdfast.assessment.answer import ZERO, Answer
+from holdfast.assessment.answer import ZERO_INDEX, ThresholdAnswer
 from holdfast.assessment.assessment import Assessment
-from holdfast.assessment.rows import provenance
-from holdfast.assessment.upgrade import sample
+from holdfast.assessment.rows import describe_provenance
+from holdfast.assessment.upgrade import select_sample
 from holdfast.caching import cached_property
 from holdfast.probability.distribution import Distribution
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene
-from holdfast.report.views import SIDE, View, sides
+from holdfast.report.views import SIDE_VIEW, View, choose_side_and_top_views
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.words import as_given, half_width, number
+from holdfast.words import format_as_given, format_half_width, format_number
 
 Array = NDArray[np.float64]
 
-_MOST_DOTS = 20_000
-_WIDEST_AXIS = 4.0  # times the largest value: beyond it a bound would flatten the curve
+_MAX_DOTS = 20_000
+_MAX_AXIS_RATIO = 4.0  # times the largest value: beyond it a bound would flatten the curve
 
 
 @dataclass(frozen=True)
-class Rows:
-    """The poses that were computed, with tool poses also for a region of joints."""
+class EvaluatedPoses:
+    """Evaluated poses of a run, with tool poses also for a region of joints."""
 
     number: NDArray[np.int64]
     position: Array
@@ -42,196 +42,253 @@ class Rows:
     weight: Array | None
 
 
-class Facts(Answer):
-    """Everything the report says and draws, computed once."""
+class AssessmentFacts(ThresholdAnswer):
+    """Contents of the report of an assessment, each computed once."""
 
-    a: Assessment
+    assessment: Assessment
 
     def __init__(self, assessment: Assessment, threshold: float | None) -> None:
         super().__init__(assessment, threshold)
 
     @property
-    def others(self) -> str:
-        """What the arm may collide with: itself, the cell, or both."""
-        clearance = self.a.plan.clearance
+    def collision_objects(self) -> str:
+        """Objects that the arm may collide with: ``itself``, the cell, or both."""
+        clearance = self.assessment.plan.clearance
         return "itself" if clearance is None else clearance.others
 
     @property
-    def everything(self) -> str:
-        """The same with ``and``."""
-        clearance = self.a.plan.clearance
+    def avoided_objects(self) -> str:
+        """Objects that the arm must avoid: ``itself``, the cell, or both joined by ``and``."""
+        clearance = self.assessment.plan.clearance
         return "itself" if clearance is None else clearance.everything
 
     @property
-    def drawable(self) -> bool:
-        """There are finite values."""
-        return self.d.reached > self.d.infinite
+    def has_finite_values(self) -> bool:
+        """True if some reached pose has a finite index."""
+        return self.distribution.reached > self.distribution.infinite
 
     @property
     def axis_label(self) -> str:
-        """What an axis of index values says."""
-        return figures.plain(f"worst-case {self.index.name}{self.unit and ','}{self.unit}")
+        """Label of an axis of index values, with the unit."""
+        return figures.format_label(f"worst-case {self.index.name}{self.unit_suffix and ','}{self.unit_suffix}")
 
     @property
     def failure_labels(self) -> list[str]:
-        """Numbers from 1 and names: ``4 elbow``, ``2+4 shoulder+elbow``."""
+        """Joint numbers from 1 and names of each failure: ``4 elbow``, ``2+4 shoulder+elbow``."""
         pairs = zip(self.index.failures, self.index.failure_names, strict=True)
-        return [f"{'+'.join(str(k + 1) for k in s)}  {name}" for s, name in pairs]
+        return [f"{'+'.join(str(joint + 1) for joint in joints)}  {name}" for joints, name in pairs]
 
     # ---- rows ------------------------------------------------------------------------------------------------------
 
     @cached_property
-    def rows(self) -> Rows | None:
-        """Every pose that was computed; None if the rows were not kept."""
-        if not self.d.samples or not self.a.kept:
+    def poses(self) -> EvaluatedPoses | None:
+        """Every evaluated pose; None if the poses were not kept."""
+        if not self.distribution.samples or not self.assessment.kept:
             return None
-        s = sample(self.a.index, self.a.columns, optimised=False)
-        if self.a.region.kind == "joints":
-            pose = self.a.arm.forward_kinematics(s.q)
-            position, rotation = pose[:, :3, 3], pose[:, :3, :3]
+        evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=False)
+        if self.assessment.region.kind == "joints":
+            tool_poses = self.assessment.arm.forward_kinematics(evaluated.q)
+            position, rotation = tool_poses[:, :3, 3], tool_poses[:, :3, :3]
         else:
-            columns = self.a.columns
-            position = columns["position"][:][s.number]
-            rotation = rotations_of_quaternions(columns["quaternion"][:][s.number])
-        return Rows(s.number, position, rotation, s.q, s.reached, s.value, s.by_failure, s.worst, s.weight)
+            columns = self.assessment.columns
+            position = columns["position"][:][evaluated.number]
+            rotation = rotations_of_quaternions(columns["quaternion"][:][evaluated.number])
+        return EvaluatedPoses(
+            evaluated.number,
+            position,
+            rotation,
+            evaluated.q,
+            evaluated.reached,
+            evaluated.value,
+            evaluated.by_failure,
+            evaluated.worst,
+            evaluated.weight,
+        )
 
     @cached_property
-    def best_rows(self) -> Rows | None:
-        """The same poses at their best configurations; None if the run was not optimised or the rows were not kept."""
-        if self.rows is None or self.a.optimised is None:
+    def optimised_poses(self) -> EvaluatedPoses | None:
+        """Every evaluated pose at its best configuration; None if the run was not optimised or the poses were not kept."""
+        if self.poses is None or self.assessment.optimised is None:
             return None
-        s = sample(self.a.index, self.a.columns, optimised=True)
-        return replace(self.rows, q=s.q, reached=s.reached, value=s.value, by_failure=s.by_failure, worst=s.worst)
+        evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=True)
+        return replace(
+            self.poses,
+            q=evaluated.q,
+            reached=evaluated.reached,
+            value=evaluated.value,
+            by_failure=evaluated.by_failure,
+            worst=evaluated.worst,
+        )
 
     @property
-    def samples(self) -> list[tuple[str, Distribution, Rows | None]]:
-        """The samples of the run: what each is, its distribution, its rows."""
-        first = ("found by inverse kinematics", self.d, self.rows)
-        return [first] if self.a.optimised is None else [first, ("after optimisation", self.a.optimised, self.best_rows)]
+    def samples(self) -> list[tuple[str, Distribution, EvaluatedPoses | None]]:
+        """Samples of the run: the label, the distribution, and the poses of each."""
+        first = ("found by inverse kinematics", self.distribution, self.poses)
+        return (
+            [first]
+            if self.assessment.optimised is None
+            else [first, ("after optimisation", self.assessment.optimised, self.optimised_poses)]
+        )
 
     @cached_property
     def provenance(self) -> dict[str, object]:
-        """When, how long, and with which versions; of this report where the run did not note it."""
-        notes = self.a.store.notes if self.a.store is not None else {}
-        return notes if "versions" in notes else provenance(self.a.seconds)
+        """Date, duration and versions of the run; those of this report where the run did not store them."""
+        notes = self.assessment.store.notes if self.assessment.store is not None else {}
+        return notes if "versions" in notes else describe_provenance(self.assessment.seconds)
 
     # ---- figures ---------------------------------------------------------------------------------------------------
 
     @cached_property
-    def representative(self) -> tuple[Array, str]:
-        """A configuration to draw, and what it is."""
-        a, rows = self.a, self.rows
-        if rows is not None and rows.reached.any():
-            some = np.flatnonzero(rows.reached)
-            k = some[np.argsort(rows.value[some], kind="stable")[(len(some) - 1) // 2]]
-            what = (
-                "the only one there is" if len(some) == 1 else f"the one with the median index, {number(float(rows.value[k]))}"
+    def drawn_configuration(self) -> tuple[Array, str]:
+        """Configuration to draw, and its description."""
+        assessment, poses = self.assessment, self.poses
+        if poses is not None and poses.reached.any():
+            reached = np.flatnonzero(poses.reached)
+            index = reached[np.argsort(poses.value[reached], kind="stable")[(len(reached) - 1) // 2]]
+            description = (
+                "the only one there is"
+                if len(reached) == 1
+                else f"the one with the median index, {format_number(float(poses.value[index]))}"
             )
-            return rows.q[k], f"at {self.noun} {rows.number[k] + 1:,}, {what}"
-        center = np.array(a.region.center)
-        if a.region.kind == "joints":
+            return poses.q[index], f"at {self.noun} {poses.number[index] + 1:,}, {description}"
+        center = np.array(assessment.region.center)
+        if assessment.region.kind == "joints":
             return center, "in the middle of the region"
-        if self.d.reached and a.region.kind == "box":
-            reach = solver(a.arm, self.index.task).solve(
-                a.region.poses(center[None]), np.random.SeedSequence(a.seed), a.restarts, 1e-6
+        if self.distribution.reached and assessment.region.kind == "box":
+            solutions = solver(assessment.arm, self.index.task).solve(
+                assessment.region.poses(center[None]), np.random.SeedSequence(assessment.seed), assessment.restarts, 1e-6
             )
-            if reach.success[0]:
-                return reach.q[0], "at the middle of the region"
-        low = np.where(np.isfinite(a.arm.lower), a.arm.lower, -np.pi / 2)
-        high = np.where(np.isfinite(a.arm.upper), a.arm.upper, np.pi / 2)
-        return (low + high) / 2, "in the middle of its joint limits"
+            if solutions.success[0]:
+                return solutions.q[0], "at the middle of the region"
+        lower = np.where(np.isfinite(assessment.arm.lower), assessment.arm.lower, -np.pi / 2)
+        upper = np.where(np.isfinite(assessment.arm.upper), assessment.arm.upper, np.pi / 2)
+        return (lower + upper) / 2, "in the middle of its joint limits"
 
     @cached_property
     def scene(self) -> tuple[Scene, int]:
-        """What the views show, and how many poses are drawn."""
-        a, rows = self.a, self.rows
-        posture = a.arm.frames(self.representative[0])[:, :3, 3]
-        none = np.zeros((0, 3))
-        points, values, missing, drawn = none, np.zeros(0), none, 0
-        if rows is not None:
-            chosen = np.arange(len(rows.value))
-            if len(chosen) > _MOST_DOTS:
-                chosen = np.sort(np.random.default_rng(0).choice(len(chosen), _MOST_DOTS, replace=False))
-            ok = rows.reached[chosen]
-            points, values, missing = rows.position[chosen[ok]], rows.value[chosen[ok]], rows.position[chosen[~ok]]
-            drawn = len(chosen)
+        """Scene of the views, and the number of poses in it."""
+        assessment, poses = self.assessment, self.poses
+        joint_positions = assessment.arm.frames(self.drawn_configuration[0])[:, :3, 3]
+        no_points = np.zeros((0, 3))
+        points, values, missing, drawn_count = no_points, np.zeros(0), no_points, 0
+        if poses is not None:
+            chosen = np.arange(len(poses.value))
+            if len(chosen) > _MAX_DOTS:
+                chosen = np.sort(np.random.default_rng(0).choice(len(chosen), _MAX_DOTS, replace=False))
+            is_reached = poses.reached[chosen]
+            points, values, missing = (
+                poses.position[chosen[is_reached]],
+                poses.value[chosen[is_reached]],
+                poses.position[chosen[~is_reached]],
+            )
+            drawn_count = len(chosen)
         box = None
-        if a.region.kind == "box":
-            c, s = np.array(a.region.center[:3]), np.array(a.region.size[:3])
-            box = np.array([c - s / 2, c + s / 2])
-        return Scene(points, values, missing, chain=posture, nodes=posture[1:-1], square=a.arm.prismatic, box=box), drawn
+        if assessment.region.kind == "box":
+            center, size = np.array(assessment.region.center[:3]), np.array(assessment.region.size[:3])
+            box = np.array([center - size / 2, center + size / 2])
+        return Scene(
+            points,
+            values,
+            missing,
+            chain=joint_positions,
+            nodes=joint_positions[1:-1],
+            square=assessment.arm.prismatic,
+            box=box,
+        ), drawn_count
 
     @cached_property
     def views(self) -> list[View]:
         """Side and top view; only one of them if everything lies in its plane."""
-        return sides(self.scene[0].extent) or [SIDE]
+        return choose_side_and_top_views(self.scene[0].extent) or [SIDE_VIEW]
 
     @property
-    def side(self) -> View:
-        """The first view."""
+    def main_view(self) -> View:
+        """First of the views."""
         return self.views[0]
 
     @cached_property
-    def log(self) -> bool:
-        """Values spread over decades and none is 0: show them on a log scale."""
-        return not self.larger and self.d.lowest > 0 and self.d.highest > 20 * self.d.lowest
+    def is_logarithmic(self) -> bool:
+        """True if the values span decades and none is 0, so that they are shown on a logarithmic scale."""
+        return (
+            not self.larger_is_better
+            and self.distribution.lowest > 0
+            and self.distribution.highest > 20 * self.distribution.lowest
+        )
 
     @cached_property
-    def scale(self) -> Scale:
-        """Colours of the dots."""
+    def color_scale(self) -> Scale:
+        """Colour scale of the dots."""
         values = self.scene[0].values
-        if self.nothing and self.larger:
+        if self.is_worst_everywhere and self.larger_is_better:
             return Scale(0.0, self.index.bound or 1.0)
-        return Scale.of(values, self.log, not self.larger)
+        return Scale.of(values, self.is_logarithmic, not self.larger_is_better)
 
     @cached_property
-    def axis(self) -> Array:
-        """Values of the index at which the CDF is drawn."""
-        d, marks = self.d, [m.x for m in self.marks]
-        if self.log:
-            return np.geomspace(min(d.lowest, *marks) / 1.15, max(d.highest, *marks) * 1.15, 1601)
-        finite = [x for x in (d.lowest, d.highest) if np.isfinite(x)]
-        high = max([0.0, *finite, *marks])
-        low = min([0.0, *finite, *marks])
-        return np.linspace(low, high + 0.04 * ((high - low) or 1.0), 1601)
+    def axis_values(self) -> Array:
+        """Index values at which the CDF is drawn."""
+        distribution, mark_values = self.distribution, [mark.x for mark in self.marks]
+        if self.is_logarithmic:
+            return np.geomspace(
+                min(distribution.lowest, *mark_values) / 1.15, max(distribution.highest, *mark_values) * 1.15, 1601
+            )
+        finite = [value for value in (distribution.lowest, distribution.highest) if np.isfinite(value)]
+        upper = max([0.0, *finite, *mark_values])
+        lower = min([0.0, *finite, *mark_values])
+        return np.linspace(lower, upper + 0.04 * ((upper - lower) or 1.0), 1601)
 
     @cached_property
     def marks(self) -> list[Mark]:
         """Lines at the threshold and at the bound, unless they are far beyond all values."""
-        found = [Mark(self.threshold, f"threshold {as_given(self.threshold)}{self.unit}")] if self.decided else []
+        candidates = (
+            [Mark(self.threshold, f"threshold {format_as_given(self.threshold)}{self.unit_suffix}")]
+            if self.has_threshold
+            else []
+        )
         if self.index.bound is not None:
-            found.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
-        highest = max((x.highest for x in (self.d, self.a.optimised) if x is not None and x.reached), default=0.0)
-        chosen = self.chosen or self.index.bound is None or highest <= ZERO
-        return found if chosen else [mark for mark in found if mark.x <= _WIDEST_AXIS * highest]
+            candidates.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
+        highest = max(
+            (
+                distribution.highest
+                for distribution in (self.distribution, self.assessment.optimised)
+                if distribution is not None and distribution.reached
+            ),
+            default=0.0,
+        )
+        keep_all = self.is_chosen or self.index.bound is None or highest <= ZERO_INDEX
+        return candidates if keep_all else [mark for mark in candidates if mark.x <= _MAX_AXIS_RATIO * highest]
 
     @cached_property
     def curves(self) -> list[Curve]:
-        """The cumulative distribution, over all poses and over the reached ones."""
-        band = self.a.distribution.band()
-        lost = f" (not found counts as {'0' if self.larger else 'infinite'})" if self.d.unreached else ""
-        every = "" if not self.d.unreached else f"all {self.d.samples:,} poses{lost}, "
-        first = Curve(
-            self.axis,
-            self.a.cdf(self.axis),
-            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band {half_width(band)}",
+        """Cumulative distribution over all poses, and over the reached ones if some are not reached."""
+        band = self.assessment.distribution.band()
+        unreached_text = (
+            f" (not found counts as {'0' if self.larger_is_better else 'infinite'})" if self.distribution.unreached else ""
+        )
+        label_prefix = "" if not self.distribution.unreached else f"all {self.distribution.samples:,} poses{unreached_text}, "
+        all_poses = Curve(
+            self.axis_values,
+            self.assessment.cdf(self.axis_values),
+            f"{label_prefix or f'all {self.distribution.samples:,} {self.noun}s, '}95 % band {format_half_width(band)}",
             band=band,
         )
-        if not self.d.unreached:
-            return [first]
+        if not self.distribution.unreached:
+            return [all_poses]
         return [
-            first,
+            all_poses,
             Curve(
-                self.axis, self.a.cdf(self.axis, reachable_only=True), f"the {self.d.reached:,} reached poses only", second=True
+                self.axis_values,
+                self.assessment.cdf(self.axis_values, reachable_only=True),
+                f"the {self.distribution.reached:,} reached poses only",
+                second=True,
             ),
         ]
 
     @cached_property
     def histogram(self) -> Bin:
         """Density over the reached poses, from the CDF, so that it also works for binned distributions."""
-        count = int(np.clip(2 * self.d.reached ** (1 / 3), 8, 40)) if self.d.values is not None else 40
-        edges = (np.geomspace if self.log else np.linspace)(self.axis[0], self.axis[-1], count + 1)
-        share = np.diff(self.a.cdf(edges, reachable_only=True))
-        width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
-        per = "per decade" if self.log else self.unit and f"per{self.unit}"
-        return Bin(edges, share / width, "", ylabel=f"probability density {per}".strip())
+        count = int(np.clip(2 * self.distribution.reached ** (1 / 3), 8, 40)) if self.distribution.values is not None else 40
+        edges = (np.geomspace if self.is_logarithmic else np.linspace)(self.axis_values[0], self.axis_values[-1], count + 1)
+        fraction = np.diff(self.assessment.cdf(edges, reachable_only=True))
+        width = np.diff(np.log10(edges)) if self.is_logarithmic else np.diff(edges)
+        density_unit = "per decade" if self.is_logarithmic else self.unit_suffix and f"per{self.unit_suffix}"
+        return Bin(edges, fraction / width, "", ylabel=f"probability density {density_unit}".strip())

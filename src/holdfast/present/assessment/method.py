@@ -1,4 +1,4 @@
-"""How an assessment was computed, and the command that does it again."""
+"""Section of a report on how an assessment was computed, and the command that repeats it."""
 
 from __future__ import annotations
 
@@ -6,103 +6,116 @@ from markupsafe import Markup
 
 from holdfast import grammar
 from holdfast.assessment.assessment import Assessment
-from holdfast.present.assessment.facts import Facts
-from holdfast.present.commands import capsule_files, command_line, region_files
-from holdfast.present.story import named
-from holdfast.registry import INDICES
+from holdfast.present.assessment.facts import AssessmentFacts
+from holdfast.present.commands import build_command_line, list_capsule_files, list_region_files
+from holdfast.present.story import format_versions
+from holdfast.registry import INDEX_REGISTRY
 from holdfast.report.page import Block, Code, Table, Text
-from holdfast.words import as_given, capitalised
+from holdfast.words import capitalise_first, format_as_given
 
 
-def blocks(f: Facts) -> list[Block]:
-    """How it was computed."""
-    a, index = f.a, f.index
-    p = f.provenance
-    entry = INDICES.get(index.slug) if INDICES.storable(index) else None
-    formula = entry.formula if entry else ""
-    worst = "smallest" if f.larger else "largest"
-    definition = Markup("the {} value over the failures S").format(worst)
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Build the table that describes how the assessment was computed."""
+    assessment, index = facts.assessment, facts.index
+    run_info = facts.provenance
+    definition_entry = INDEX_REGISTRY.get(index.slug) if INDEX_REGISTRY.is_storable(index) else None
+    formula = definition_entry.formula if definition_entry else ""
+    extreme = "smallest" if facts.larger_is_better else "largest"
+    definition = Markup("the {} value over the failures S").format(extreme)
     if formula:
         definition = Markup(
             "the {} over the failures S of {}, where <sup>S</sup>J is the task Jacobian J without the columns of S"
-        ).format(worst, Markup(formula))
+        ).format(extreme, Markup(formula))
         if "σ" in formula:
             definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
     for name, value in index.settings.items() if formula else ():
-        definition += Markup("; {} {}").format(name, grammar.written(value))
+        definition += Markup("; {} {}").format(name, grammar.write_value(value))
     if index.source:
         definition += Markup(". Source: {}").format(index.source)
-    box = a.region.kind != "joints"
-    facts: list[tuple[str, str | Markup]] = []
-    nothing = "0" if f.larger else "infinite"
-    if box:
-        solved = f"damped least squares from up to {a.restarts:,} random starts within the joint limits"
-        facts += [
-            ("Method", f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
+    uses_ik = assessment.region.kind != "joints"
+    entries: list[tuple[str, str | Markup]] = []
+    missing_value = "0" if facts.larger_is_better else "infinite"
+    if uses_ik:
+        solved = f"damped least squares from up to {assessment.restarts:,} random starts within the joint limits"
+        entries += [
+            ("Method", f"{facts.sampling_text}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
             (
                 "Not optimised",
                 "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
                 "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers"
-                + ("; see what that gains above" if a.optimised is not None else ""),
+                + ("; see what that gains above" if assessment.optimised is not None else ""),
             ),
             (
                 "Not found",
-                f"none of {a.restarts:,} starts led to a configuration within the joint limits; this does not prove that there "
-                f"is none. Such a pose counts as {nothing} unless 'reached only' is said",
+                f"none of {assessment.restarts:,} starts led to a configuration within the joint limits; this does not "
+                f"prove that there "
+                f"is none. Such a pose counts as {missing_value} unless 'reached only' is said",
             ),
         ]
         if index.task.m < 6:
-            free = (
+            free_directions = (
                 f"task '{index.task.name}' fixes {index.task.m} of 6 directions; the others of a drawn pose are not asked for"
             )
-            facts.append(("Free directions", free))
+            entries.append(("Free directions", free_directions))
     else:
-        facts.append(("Method", f"{a.sampling} configurations of the region, evaluated directly, without inverse kinematics"))
-    if a.sampling == "sobol":
-        bars = "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"
-        facts.append(("Error bars", bars))
-    facts += [
+        entries.append(
+            ("Method", f"{assessment.sampling} configurations of the region, evaluated directly, without inverse kinematics")
+        )
+    if assessment.sampling == "sobol":
+        sobol_remark = (
+            "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"
+        )
+        entries.append(("Error bars", sobol_remark))
+    entries += [
         ("Index", definition),
         (
             "Singular",
             "smallest singular value of J at most 1e-12 times the largest; the index is then "
-            f"{'0' if f.larger else 'infinite'} by convention",
+            f"{'0' if facts.larger_is_better else 'infinite'} by convention",
         ),
         ("Failures", "a locked joint stays where it failed"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
-        ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
-        ("Arm", a.arm.provenance),
-        ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),
+        ("Region", f"{assessment.region.name}: {assessment.region.describe()}{_format_joint_ranges(assessment)}"),
+        ("Arm", assessment.arm.provenance),
+        ("Fingerprint of the arm", Markup("<code>{}</code>").format(assessment.arm.fingerprint)),
         (
             "Seed, samples",
-            f"seed {a.seed}, {a.poses:,} {f.noun}s, {a.sampling} sampling" + (f", {a.restarts:,} restarts" if box else ""),
+            f"seed {assessment.seed}, {assessment.poses:,} {facts.noun}s, {assessment.sampling} sampling"
+            + (f", {assessment.restarts:,} restarts" if uses_ik else ""),
         ),
-        ("Time", f"{p['seconds']:.1f} s" if isinstance(p.get("seconds"), (int, float)) else "not noted"),
-        ("Versions", _versions(p)),
+        ("Time", f"{run_info['seconds']:.1f} s" if isinstance(run_info.get("seconds"), (int, float)) else "not noted"),
+        ("Versions", _format_versions(run_info)),
     ]
-    return [Table([[k, v] for k, v in facts])]
+    return [Table([[label, text] for label, text in entries])]
 
 
-def again(a: Assessment) -> list[Block]:
-    """The command that does it again with the files it needs, or why there is none."""
-    command, note = command_line(a)
+def build_rerun_blocks(assessment: Assessment) -> list[Block]:
+    """Build the command that repeats the run with the files that it needs, or the reason why there is none."""
+    command, remark = build_command_line(assessment)
     if command is None:
-        return [Text(note)]
-    return [Code(command, note and f"{capitalised(note)}:"), *region_files(a.region), *capsule_files(a)]
+        return [Text(remark)]
+    return [
+        Code(command, remark and f"{capitalise_first(remark)}:"),
+        *list_region_files(assessment.region),
+        *list_capsule_files(assessment),
+    ]
 
 
-def _ranges(a: Assessment) -> str:
-    """Of a region of joints, in degrees and metres."""
-    if a.region.kind != "joints":
+def _format_joint_ranges(assessment: Assessment) -> str:
+    """Format the joint ranges of a region of joints, in degrees and metres; empty for other regions."""
+    if assessment.region.kind != "joints":
         return ""
     parts = []
-    for joint, c, s in zip(a.arm.joints, a.region.center, a.region.size, strict=True):
+    for joint, middle, width in zip(assessment.arm.joints, assessment.region.center, assessment.region.size, strict=True):
         scale, unit = joint.shown
-        parts.append(f"{joint.name} {as_given(scale * (c - s / 2))} to {as_given(scale * (c + s / 2))} {unit}")
+        parts.append(
+            f"{joint.name} {format_as_given(scale * (middle - width / 2))} to "
+            f"{format_as_given(scale * (middle + width / 2))} {unit}"
+        )
     return ": " + ", ".join(parts)
 
 
-def _versions(provenance: dict[str, object]) -> str:
-    found = provenance.get("versions")
-    packages = [named(found)] if isinstance(found, dict) else []
+def _format_versions(provenance: dict[str, object]) -> str:
+    versions = provenance.get("versions")
+    packages = [format_versions(versions)] if isinstance(versions, dict) else []
     return ", ".join([*packages, f"Python {provenance.get('python', '')}", str(provenance.get("machine", ""))])

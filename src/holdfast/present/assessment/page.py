@@ -1,4 +1,4 @@
-"""The report of an assessment: one HTML file that begins with the answer, and a picture for other pages."""
+"""HTML report of an assessment, which begins with the answer, and a figure for other pages."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from matplotlib.figure import Figure
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.single_points import explain
 from holdfast.present.assessment import method
-from holdfast.present.assessment.facts import Facts
+from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.present.assessment.sections import gain
 from holdfast.report import figures as drawing
 from holdfast.report import page, scenes
 from holdfast.report.page import Callout, Cell, Page, Section
-from holdfast.words import either, interval, number, percent
+from holdfast.words import format_interval, format_number, format_percent, list_alternatives
 
-LITTLE_REACH = 0.1  # of the poses that the healthy arm reaches
+SMALL_REACH_FRACTION = 0.1  # of the poses that the healthy arm reaches
 
 # The sections, in order: files of `sections` with a TITLE and blocks(facts: Facts) -> list[Block]; one without is left out.
-SECTIONS = (
+SECTION_MODULES = (
     "key_numbers",
     "structure",
     "views",
@@ -38,125 +38,156 @@ SECTIONS = (
 
 
 def write(assessment: Assessment, path: Path, threshold: float | None = None) -> Path:
-    """See :meth:`holdfast.Assessment.report`."""
+    """Write the HTML report of an assessment. See :meth:`holdfast.Assessment.report`."""
     return page.write(build(assessment, threshold), path)
 
 
 def build(assessment: Assessment, threshold: float | None = None) -> Page:
-    """The report as blocks, before it becomes HTML; see :func:`write`."""
-    facts = Facts(assessment, threshold)
-    found = [import_module(f"holdfast.present.assessment.sections.{name}") for name in SECTIONS]
-    parts = [Section("", [_verdict(facts)])]
-    parts += [Section(each.TITLE.format(noun=facts.noun, others=facts.others), each.blocks(facts)) for each in found]
-    a = assessment
+    """Build the report as blocks, before it becomes HTML. See :func:`write`."""
+    facts = AssessmentFacts(assessment, threshold)
+    modules = [import_module(f"holdfast.present.assessment.sections.{name}") for name in SECTION_MODULES]
+    sections = [Section("", [_describe_single_points(facts)])]
+    sections += [
+        Section(module.TITLE.format(noun=facts.noun, others=facts.collision_objects), module.blocks(facts))
+        for module in modules
+    ]
+    run = assessment
     return Page(
-        f"Fault tolerance of {a.arm.name}",
+        f"Fault tolerance of {run.arm.name}",
         facts.headline,
-        parts,
-        subtitle=a.region.name,
-        warnings=_alerts(facts),
-        facts=_numbers(facts),
+        sections,
+        subtitle=run.region.name,
+        warnings=_list_alerts(facts),
+        facts=_list_answer_numbers(facts),
         method=method.blocks(facts),
-        again=method.again(a),
+        again=method.build_rerun_blocks(run),
     )
 
 
-def _verdict(f: Facts) -> Callout:
+def _describe_single_points(facts: AssessmentFacts) -> Callout:
     """Describe the single points of failure: exact ones in red, near ones in amber."""
-    own, everything = f.structures
-    text = explain(f.a.arm, own, everything)
-    if own.never:
+    run_structure, all_structures = facts.task_structures
+    text = explain(facts.assessment.arm, run_structure, all_structures)
+    if run_structure.never:
         return Callout(text, "bad", "The task is impossible for this arm")
-    if not own.survives:
-        return Callout(text, "bad", f"A single locked joint {'' if own.fatal else 'all but '}ends this task everywhere")
-    names = [f.a.arm.joint_names[w.joint] for w in own.weak]
-    left = {} if f.a.survivors is None or not f.d.reached else {name: p.value for name, p in f.a.survival().items()}
-    few = [name for name, share in left.items() if share <= LITTLE_REACH * (1 - f.d.unreached_share)]
-    for name in dict.fromkeys([*names, *few]):
-        if name in left:
-            text += f" Once {name} has locked, {percent(left[name])} of the poses of this region are still reached."
+    if not run_structure.survives:
+        return Callout(
+            text, "bad", f"A single locked joint {'' if run_structure.fatal else 'all but '}ends this task everywhere"
+        )
+    names = [facts.assessment.arm.joint_names[weakness.joint] for weakness in run_structure.weak]
+    fractions = (
+        {}
+        if facts.assessment.survivors is None or not facts.distribution.reached
+        else {name: estimate.value for name, estimate in facts.assessment.survival().items()}
+    )
+    costly_joints = [
+        name
+        for name, fraction in fractions.items()
+        if fraction <= SMALL_REACH_FRACTION * (1 - facts.distribution.unreached_share)
+    ]
+    for name in dict.fromkeys([*names, *costly_joints]):
+        if name in fractions:
+            text += f" Once {name} has locked, {format_percent(fractions[name])} of the poses of this region are still reached."
         else:
             text += f" A run with --after-lock computes how much of the region the lock of {name} leaves."
     if names:
-        return Callout(text, "warn", f"The lock of {either(names)} nearly ends this task")
-    if few:
-        return Callout(text, "warn", f"The lock of {either(few)} leaves little of the region")
+        return Callout(text, "warn", f"The lock of {list_alternatives(names)} nearly ends this task")
+    if costly_joints:
+        return Callout(text, "warn", f"The lock of {list_alternatives(costly_joints)} leaves little of the region")
     return Callout(text, "good")
 
 
-def _numbers(f: Facts) -> list[tuple[Cell, Cell]]:
-    """The answer in a few numbers: never only a zero."""
-    a, d = f.a, f.d
-    if not d.reached:
+def _list_answer_numbers(facts: AssessmentFacts) -> list[tuple[Cell, Cell]]:
+    """List the few numbers that answer the question; a number is never only a zero."""
+    assessment, distribution = facts.assessment, facts.distribution
+    if not distribution.reached:
         return []
-    found: list[tuple[Cell, Cell]] = []
-    fatal = f.structures[0].fatal
+    entries: list[tuple[Cell, Cell]] = []
+    fatal = facts.task_structures[0].fatal
     if fatal:
-        names = either([a.arm.joint_names[k] for k in fatal])
-        found.append((names if len(fatal) < 4 else f"{len(fatal)} joints", "whose lock ends the task everywhere, by structure"))
-    if f.decided and f.answer.value:
-        p = f.answer
-        said = f"of the {f.noun}s have an {f.condition}; {percent(p.low)} to {percent(p.high)}, 95 %"
-        found.append((percent(p.value), said))
-    if not f.nothing:
-        bound = "" if f.index.bound is None else f", of at most {f.index.bound:.3f}"
-        found.append((number(float(d.quantile(0.5))), f"median index of the {f.reached}{bound}"))
-    best = a.optimised
-    if best is not None and best.reached and not f.nothing:
-        p = a.interval(**{f"at_{'least' if f.larger else 'most'}": f.threshold}, optimised=True)  # type: ignore[arg-type]
-        said = f"median at the best configurations; {percent(p.value)} of the {f.noun}s have an {f.condition}"
-        found.append((number(float(best.quantile(0.5))), said))
-    if f.costliest is not None:
-        name, left = f.costliest
-        found.append((percent(left), f"of the poses are still reached once {name} has locked, the lock that costs most"))
-    if a.worst_counts.sum() > 0:
-        k = int(a.worst_counts.argmax())
-        often = percent(float(a.worst_counts[k] / a.worst_counts.sum()))
-        found.append((f.index.failure_names[k], f"whose lock is the worst failure at {often} of the {f.reached}"))
-    return found
+        names = list_alternatives([assessment.arm.joint_names[index] for index in fatal])
+        entries.append(
+            (names if len(fatal) < 4 else f"{len(fatal)} joints", "whose lock ends the task everywhere, by structure")
+        )
+    if facts.has_threshold and facts.probability.value:
+        probability = facts.probability
+        label = (
+            f"of the {facts.noun}s have an {facts.condition}; {format_percent(probability.low)} to "
+            f"{format_percent(probability.high)}, 95 %"
+        )
+        entries.append((format_percent(probability.value), label))
+    if not facts.is_worst_everywhere:
+        bound = "" if facts.index.bound is None else f", of at most {facts.index.bound:.3f}"
+        entries.append((format_number(float(distribution.quantile(0.5))), f"median index of the {facts.reached_noun}{bound}"))
+    optimised = assessment.optimised
+    if optimised is not None and optimised.reached and not facts.is_worst_everywhere:
+        side = "at_least" if facts.larger_is_better else "at_most"
+        probability = assessment.interval(**{side: facts.threshold}, optimised=True)  # type: ignore[arg-type]
+        label = (
+            f"median at the best configurations; {format_percent(probability.value)} of the {facts.noun}s have an "
+            f"{facts.condition}"
+        )
+        entries.append((format_number(float(optimised.quantile(0.5))), label))
+    if facts.costliest_lock is not None:
+        name, fraction = facts.costliest_lock
+        entries.append(
+            (format_percent(fraction), f"of the poses are still reached once {name} has locked, the lock that costs most")
+        )
+    if assessment.worst_counts.sum() > 0:
+        index = int(assessment.worst_counts.argmax())
+        frequency = format_percent(float(assessment.worst_counts[index] / assessment.worst_counts.sum()))
+        entries.append(
+            (facts.index.failure_names[index], f"whose lock is the worst failure at {frequency} of the {facts.reached_noun}")
+        )
+    return entries
 
 
-def _alerts(f: Facts) -> list[Callout]:
-    """What the reader must know before anything else."""
-    if f.a.complete:
+def _list_alerts(facts: AssessmentFacts) -> list[Callout]:
+    """Warn about a run that is not complete."""
+    if facts.assessment.complete:
         return []
-    text = f"{f.d.samples:,} of {f.a.poses:,} {f.noun}s are computed; everything below is about these."
-    return [Callout(text + " Run the same command again to resume.", "bad", "This run is not complete.")]
+    message = (
+        f"{facts.distribution.samples:,} of {facts.assessment.poses:,} {facts.noun}s are computed; everything below "
+        f"is about these."
+    )
+    return [Callout(message + " Run the same command again to resume.", "bad", "This run is not complete.")]
 
 
 def drawings(assessment: Assessment, threshold: float | None = None) -> dict[str, Callable[[], Figure]]:
-    """The arm with the region, and the cumulative distribution where there are finite values."""
-    facts = Facts(assessment, threshold)
-    distribution = {"cdf": partial(gain.cdf_figure, facts)} if facts.drawable else {}
-    return {"overview": partial(overview, facts), **distribution}
+    """Return functions that draw the arm with the region and, where there are finite values, the cumulative distribution."""
+    facts = AssessmentFacts(assessment, threshold)
+    distribution = {"cdf": partial(gain.draw_cdf_figure, facts)} if facts.has_finite_values else {}
+    return {"overview": partial(draw_overview, facts), **distribution}
 
 
-def overview(facts: Facts) -> Figure:
-    """The arm and the region on the left, the distribution on the right; 1200 x 520 px at 100 dpi."""
-    view = facts.side
+def draw_overview(facts: AssessmentFacts) -> Figure:
+    """Draw the arm and the region on the left and the distribution on the right; 1200 x 520 px at 100 dpi."""
+    view = facts.main_view
     with drawing.style():
         figure = Figure(figsize=(12, 5.2))
-        left, right = figure.subplots(1, 2, width_ratios=[1.08, 1])
+        scene_axes, cdf_axes = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
-        spans, _ = scenes.view_spans(scene, [view], 5.0, 4.1, 4.1)
-        scenes.draw_view(left, scene, view, facts.scale, scenes.dot_size(scene, [view], 5.0 / spans[0]), spans, 5.0)
-        left.set_title(f"{drawing.plain(facts.a.arm.name, 30)} and the region, {view.title.lower()}")
+        spans, _ = scenes.fit_view_spans(scene, [view], 5.0, 4.1, 4.1)
+        scenes.draw_view(
+            scene_axes, scene, view, facts.color_scale, scenes.choose_dot_area(scene, [view], 5.0 / spans[0]), spans, 5.0
+        )
+        scene_axes.set_title(f"{drawing.format_label(facts.assessment.arm.name, 30)} and the region, {view.title.lower()}")
         if np.isfinite(scene.values).any():
-            scenes.color_bar(figure, scene, facts.scale, [left], facts.axis_label)
-        if facts.drawable:
-            best = facts.a.optimised
+            scenes.add_color_bar(figure, scene, facts.color_scale, [scene_axes], facts.axis_label)
+        if facts.has_finite_values:
+            optimised = facts.assessment.optimised
             drawing.draw_cdf(
-                right,
-                facts.curves if best is None or not best.reached else gain.gain_curves(facts, best),
+                cdf_axes,
+                facts.curves if optimised is None or not optimised.reached else gain.build_gain_curves(facts, optimised),
                 facts.marks,
                 xlabel=facts.axis_label,
                 ylabel=f"fraction of {facts.noun}s below",
-                log=facts.log,
+                log=facts.is_logarithmic,
             )
-            right.set_title(f"P({facts.condition}) = {interval(facts.answer)}" if facts.decided else "")
-            drawing.legend_below(figure, right, 2)
+            cdf_axes.set_title(f"P({facts.condition}) = {format_interval(facts.probability)}" if facts.has_threshold else "")
+            drawing.legend_below(figure, cdf_axes, 2)
         else:
-            what = "the index is infinite everywhere" if facts.d.reached else "no configuration found"
-            right.text(0.5, 0.5, what, ha="center", va="center", color=drawing.SOFT)
-            right.set_axis_off()
+            message = "the index is infinite everywhere" if facts.distribution.reached else "no configuration found"
+            cdf_axes.text(0.5, 0.5, message, ha="center", va="center", color=drawing.SOFT)
+            cdf_axes.set_axis_off()
         return drawing.finished(figure)

@@ -1,1 +1,1 @@
-"""Words and figures of suites."""
+"""Reports and figures of planner benchmark suites."""

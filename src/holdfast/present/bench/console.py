@@ -1,4 +1,4 @@
-"""What a suite found, in numbers and words."""
+"""Text, tables, and JSON of a benchmark suite."""
 
 from __future__ import annotations
 
@@ -7,129 +7,143 @@ from typing import Any
 import numpy as np
 
 from holdfast.bench.suite import FailActive, Score
-from holdfast.present.printing import Rows, number
-from holdfast.present.story import Story
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.story import PageContent
 from holdfast.probability.intervals import Interval
-from holdfast.words import counted, interval, percent
+from holdfast.words import format_count, format_interval, format_percent
 
-DEFT = "arXiv 2602.02895"
-_COUNTS = ("solved", "refused", "proved", "within", "argued", "undecided", "contradictions")
-
-
-def to_dict(found: FailActive) -> dict[str, Any]:
-    """Every score, with intervals and times."""
-    return {"folder": str(found.study.path), "seed": found.study.seed, "complete": found.complete, "scores": rows(found)}
+DEFT_PAPER = "arXiv 2602.02895"
+_COUNT_FIELDS = ("solved", "refused", "proved", "within", "argued", "undecided", "contradictions")
 
 
-def rows(found: FailActive) -> list[dict[str, Any]]:
-    """One for each task and planner."""
+def to_dict(suite: FailActive) -> dict[str, Any]:
+    """Return every score, with intervals and times."""
+    return {"folder": str(suite.study.path), "seed": suite.study.seed, "complete": suite.complete, "scores": score_rows(suite)}
+
+
+def score_rows(suite: FailActive) -> list[dict[str, Any]]:
+    """Return one row for each task and planner."""
     return [
         {
-            "task": s.task,
-            "in_cell": s.in_cell,
-            "planner": s.method,
-            "cases": s.cases,
+            "task": score.task,
+            "in_cell": score.in_cell,
+            "planner": score.method,
+            "cases": score.cases,
             **{
-                name: getattr(s, name)
+                name: getattr(score, name)
                 for name in ("solved", "refused", "proved", "within", "argued", "undecided", "contradictions")
             },
-            **_ends("success", s.success),
-            "feasible": s.feasible,
-            **_ends("success_of_feasible", s.success_of_feasible),
-            **_ends("decided", s.decided),
-            "seconds_median": float(np.median(s.seconds)),
-            "seconds_95": float(np.quantile(s.seconds, 0.95)),
-            "processor_median": float(np.median(s.processor)),
-            "processor_95": float(np.quantile(s.processor, 0.95)),
+            **_interval_entries("success", score.success),
+            "feasible": score.feasible,
+            **_interval_entries("success_of_feasible", score.success_of_feasible),
+            **_interval_entries("decided", score.decided),
+            "seconds_median": float(np.median(score.seconds)),
+            "seconds_95": float(np.quantile(score.seconds, 0.95)),
+            "processor_median": float(np.median(score.processor)),
+            "processor_95": float(np.quantile(score.processor, 0.95)),
         }
-        for s in found.scores
+        for score in suite.scores
     ]
 
 
-def _ends(name: str, p: Interval | None) -> dict[str, float | None]:
-    ends = (None, None, None) if p is None else (p.value, p.low, p.high)
-    return dict(zip((name, f"{name}_low", f"{name}_high"), ends, strict=True))
+def _interval_entries(name: str, probability: Interval | None) -> dict[str, float | None]:
+    values = (None, None, None) if probability is None else (probability.value, probability.low, probability.high)
+    return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
 
 
-def _of_feasible(score: Score) -> str:
-    return "–" if score.success_of_feasible is None else interval(score.success_of_feasible)
+def _format_feasible_success(score: Score) -> str:
+    return "–" if score.success_of_feasible is None else format_interval(score.success_of_feasible)
 
 
-def key_table(found: FailActive) -> Rows:
-    """How much each planner finishes."""
-    return Rows(
+def key_table(suite: FailActive) -> TextTable:
+    """Tabulate the number of cases that each planner finishes."""
+    return TextTable(
         ["task", "planner", "solved", "of those not proved infeasible"],
-        [[place(s), s.method, f"{s.solved} of {s.cases}", _of_feasible(s)] for s in found.scores],
+        [
+            [name_task(score), score.method, f"{score.solved} of {score.cases}", _format_feasible_success(score)]
+            for score in suite.scores
+        ],
     )
 
 
-def place(score: Score) -> str:
-    """The task, and where."""
+def name_task(score: Score) -> str:
+    """Return the task of a score, and whether it is in the cell."""
     return f"{score.task}, in the cell" if score.in_cell else score.task
 
 
-def tables(found: FailActive) -> list[Rows]:
-    """A row for each task and planner."""
-    head = ["task", "planner", "cases", "solved", "proved infeasible", "so within tolerance", "argued infeasible", "undecided"]
-    head += ["refused", "solved of those not proved infeasible", "decided", "median, s of processor", "95 %, s of processor"]
-    lines = [
-        [
-            place(s),
-            s.method,
-            *map(str, (s.cases, s.solved, s.proved, s.within, s.argued, s.undecided, s.refused)),
-            _of_feasible(s),
-            interval(s.decided),
-            number(float(np.median(s.processor)), 2),
-            number(float(np.quantile(s.processor, 0.95)), 2),
-        ]
-        for s in found.scores
+def tables(suite: FailActive) -> list[TextTable]:
+    """Tabulate the scores with a row for each task and planner."""
+    header = [
+        "task",
+        "planner",
+        "cases",
+        "solved",
+        "proved infeasible",
+        "so within tolerance",
+        "argued infeasible",
+        "undecided",
     ]
-    return [Rows(head, lines)]
+    header += ["refused", "solved of those not proved infeasible", "decided", "median, s of processor", "95 %, s of processor"]
+    table_rows = [
+        [
+            name_task(score),
+            score.method,
+            *map(str, (score.cases, score.solved, score.proved, score.within, score.argued, score.undecided, score.refused)),
+            _format_feasible_success(score),
+            format_interval(score.decided),
+            format_significant(float(np.median(score.processor)), 2),
+            format_significant(float(np.quantile(score.processor, 0.95)), 2),
+        ]
+        for score in suite.scores
+    ]
+    return [TextTable(header, table_rows)]
 
 
-def next_steps(found: FailActive, name: str) -> list[str]:
-    """The page, and whether the folder is sound."""
-    del found
+def next_steps(suite: FailActive, name: str) -> list[str]:
+    """Suggest the page, and a check of the results folder."""
+    del suite
     return [f'{name}.report("report.html")', f"{name}.study.verify()  # an empty list: everything that was computed is sound"]
 
 
-def story(found: FailActive) -> Story:
-    """What the page says."""
-    best = [s for s in found.scores if s.method == "recover"]
-    solved, cases = (sum(getattr(s, name) for s in best) for name in ("solved", "cases"))
-    feasible = sum(s.feasible for s in best)
+def story(suite: FailActive) -> PageContent:
+    """Compose the report: the headline score, the facts, and the method."""
+    recover_scores = [score for score in suite.scores if score.method == "recover"]
+    solved, cases = (sum(getattr(score, name) for score in recover_scores) for name in ("solved", "cases"))
+    feasible = sum(score.feasible for score in recover_scores)
     answer = "Nothing was computed yet."
     if cases:
         answer = (
-            f"recover finishes {solved} of {cases} cases, and {percent(solved / feasible) if feasible else 'none'} of the "
+            f"recover finishes {solved} of {cases} cases, and "
+            f"{format_percent(solved / feasible) if feasible else 'none'} of the "
             f"{feasible} that are not proved infeasible."
         )
-    wrong = sum(s.contradictions for s in found.scores)
+    contradictions = sum(score.contradictions for score in suite.scores)
     lines = [
-        f"Failures, tasks and tolerances are rebuilt from what is public of DEFT ({DEFT}); its own cases could not be read, so "
+        f"Failures, tasks and tolerances are rebuilt from what is public of DEFT ({DEFT_PAPER}); its own cases could not "
+        f"be read, so "
         "that its shares and these are not comparable one to one.",
         "A motion counts only if it meets the rows within 1 mm and 0.5 deg on its whole way, keeps limits and locks, and is "
         "clear by the exact sign, looked at every 2 mrad by code that shares only the arm and the cell with the planner.",
         "Proofs are about the exact poses; how many hold for all that is within these tolerances too is beside them.",
-        f"Cases solved although they were proved infeasible within them: {wrong or 'none'}.",
+        f"Cases solved although they were proved infeasible within them: {contradictions or 'none'}.",
     ]
     facts = [
-        (percent(p.value), f"{place(s)}, not proved infeasible")
-        for s in best[:4]
-        if (p := s.success_of_feasible) is not None and p.value
+        (format_percent(success.value), f"{name_task(score)}, not proved infeasible")
+        for score in recover_scores[:4]
+        if (success := score.success_of_feasible) is not None and success.value
     ]
     figure = ("How the cases ended", "By task and planner; the line is the exact 95 % interval of the share that is solved.")
     method = [
         (
             "Cases",
-            f"{counted(sum(s.cases for s in found.scores), 'attempt')}, seed {found.study.seed}; in cases.jsonl",
+            f"{format_count(sum(score.cases for score in suite.scores), 'attempt')}, seed {suite.study.seed}; in cases.jsonl",
         ),
         ("Times", "of the processor, measured, on one thread"),
     ]
-    return Story(
+    return PageContent(
         "Fail-active suite",
         answer,
-        about=found.describe()[0],
+        about=suite.describe()[0],
         facts=facts,
         lines=lines,
         figures={"endings": figure},

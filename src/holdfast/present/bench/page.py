@@ -1,4 +1,4 @@
-"""Figures of suites, and their table as CSV."""
+"""Figures and CSV table of benchmark suites."""
 
 from __future__ import annotations
 
@@ -10,38 +10,40 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.bench.suite import FailActive
-from holdfast.files.output import made, writing
-from holdfast.files.spreadsheet import cell
-from holdfast.present.bench.console import place, rows
+from holdfast.files.output import make_folder, open_replacement
+from holdfast.files.spreadsheet import escape_cell
+from holdfast.present.bench.console import name_task, score_rows
 from holdfast.report.outcomes import Stack, stack_figure
 
-_ENDINGS = ("solved", "proved infeasible", "argued infeasible", "undecided", "refused by the judge")
+_OUTCOME_LABELS = ("solved", "proved infeasible", "argued infeasible", "undecided", "refused by the judge")
 
 
-def figures(found: FailActive) -> dict[str, Figure]:
-    """``endings``: how the cases of each task ended under each planner."""
+def figures(suite: FailActive) -> dict[str, Figure]:
+    """Draw ``endings``: the outcomes of the cases of each task under each planner."""
     stacks = []
-    for name, group in groupby(found.scores, place):
+    for name, group in groupby(suite.scores, name_task):
         scores = list(group)
-        counts = np.array([[s.solved, s.proved, s.argued, s.undecided, s.refused] for s in scores], dtype=np.float64)
-        ends = [s.success for s in scores]
+        counts = np.array(
+            [[score.solved, score.proved, score.argued, score.undecided, score.refused] for score in scores], dtype=np.float64
+        )
+        success_rates = [score.success for score in scores]
         stacks.append(
             Stack(
                 name=name,
-                bars=[s.method for s in scores],
+                bars=[score.method for score in scores],
                 shares=counts / counts.sum(axis=1, keepdims=True),
-                low=np.array([p.low for p in ends]),
-                high=np.array([p.high for p in ends]),
+                low=np.array([rate.low for rate in success_rates]),
+                high=np.array([rate.high for rate in success_rates]),
             )
         )
-    return {"endings": stack_figure(stacks, _ENDINGS, "fraction of the cases of the task")} if stacks else {}
+    return {"endings": stack_figure(stacks, _OUTCOME_LABELS, "fraction of the cases of the task")} if stacks else {}
 
 
-def save(found: FailActive, folder: Path, command: str = "") -> list[Path]:
-    """``scores.csv`` and the page."""
-    file, table = made(folder) / "scores.csv", rows(found)
-    with writing(file) as stream:
+def save(suite: FailActive, folder: Path, command: str = "") -> list[Path]:
+    """Write ``scores.csv`` and the report page."""
+    file, table = make_folder(folder) / "scores.csv", score_rows(suite)
+    with open_replacement(file) as stream:
         writer = csv.writer(stream)
-        writer.writerow(map(cell, table[0] if table else []))
-        writer.writerows([cell(v) for v in row.values()] for row in table)
-    return [file, found.report(folder / "report.html", command=command)]
+        writer.writerow(map(escape_cell, table[0] if table else []))
+        writer.writerows([escape_cell(value) for value in row.values()] for row in table)
+    return [file, suite.report(folder / "report.html", command=command)]

@@ -1,1 +1,1 @@
-"""Ceilings, as people read them."""
+"""Reports of upper bounds of relative manipulability."""

@@ -1,84 +1,102 @@
-"""Ceilings of relative manipulability, their table, and what a search found, in numbers and words."""
+"""Text, tables, and JSON of upper bounds of relative manipulability, their table, and the results of searches."""
 
 from __future__ import annotations
 
 from math import isfinite
 from typing import Any
 
-from holdfast.ceilings.ceiling import Ceiling, CeilingTable
-from holdfast.ceilings.least_singular_values import REASONS, SingularValueCeiling
-from holdfast.ceilings.searching import CeilingSearch
-from holdfast.present.printing import Rows
-from holdfast.words import percent
+from holdfast.ceilings.ceiling import UpperBound, UpperBoundTable
+from holdfast.ceilings.least_singular_values import BOUND_REASONS, SingularValueBound
+from holdfast.ceilings.searching import UpperBoundSearch
+from holdfast.present.printing import TextTable
+from holdfast.words import format_percent
 
-Found = Ceiling | CeilingTable | CeilingSearch | SingularValueCeiling
+Found = UpperBound | UpperBoundTable | UpperBoundSearch | SingularValueBound
 
 
-def to_dict(found: Found) -> dict[str, Any]:
-    """Bound, best known value and null space; of a table without null spaces."""
-    if isinstance(found, CeilingTable):
-        return {"ceilings": [_numbers(c) for c in found.ceilings]}
-    if isinstance(found, CeilingSearch):
-        numbers = _numbers(found.ceiling) | {"value": found.value, "seed": found.seed, "seconds": found.seconds}
-        return numbers | {"null_space": found.null_space.tolist()}
-    if isinstance(found, SingularValueCeiling):
+def to_dict(bounds: Found) -> dict[str, Any]:
+    """Return the bound, the best known value, and the null space; the table has no null spaces."""
+    if isinstance(bounds, UpperBoundTable):
+        return {"ceilings": [_bound_values(bound) for bound in bounds.ceilings]}
+    if isinstance(bounds, UpperBoundSearch):
+        numbers = _bound_values(bounds.ceiling) | {"value": bounds.value, "seed": bounds.seed, "seconds": bounds.seconds}
+        return numbers | {"null_space": bounds.null_space.tolist()}
+    if isinstance(bounds, SingularValueBound):
         size = {
-            "joints": found.n,
-            "rows": found.m,
-            "failures": found.k,
-            "lever": found.lever if isfinite(found.lever) else None,
-            "angular": found.angular,
+            "joints": bounds.n,
+            "rows": bounds.m,
+            "failures": bounds.k,
+            "lever": bounds.lever if isfinite(bounds.lever) else None,
+            "angular": bounds.angular,
         }
-        jacobian = None if found.jacobian is None else found.jacobian.tolist()
-        return size | {"bound": found.bound, "bound_by": found.bound_by, "jacobian": jacobian}
-    return _numbers(found) | {"null_space": None if found.null_space is None else found.null_space.tolist()}
+        jacobian = None if bounds.jacobian is None else bounds.jacobian.tolist()
+        return size | {"bound": bounds.bound, "bound_by": bounds.bound_by, "jacobian": jacobian}
+    return _bound_values(bounds) | {"null_space": None if bounds.null_space is None else bounds.null_space.tolist()}
 
 
-def _numbers(c: Ceiling) -> dict[str, Any]:
+def _bound_values(bound: UpperBound) -> dict[str, Any]:
     return {
-        "joints": c.n,
-        "rows": c.m,
-        "failures": c.k,
-        "bound": c.bound,
-        "bound_by": c.bound_by,
-        "best_known": c.best_known,
-        "attained": c.attained,
-        "closed_form": c.closed_form or None,
-        "gap": c.gap,
+        "joints": bound.n,
+        "rows": bound.m,
+        "failures": bound.k,
+        "bound": bound.bound,
+        "bound_by": bound.bound_by,
+        "best_known": bound.best_known,
+        "attained": bound.attained,
+        "closed_form": bound.closed_form or None,
+        "gap": bound.gap,
     }
 
 
-def _row(c: Ceiling) -> list[str]:
-    best = "not known" if c.best_known is None else "the same" if c.attained else f"{c.best_known:.6f}"
-    gap = "" if c.gap is None else "0" if c.attained else percent(c.gap)
-    return [f"{c.n}", f"{c.m}", f"{c.k}", f"{c.bound:.6f}", c.bound_by, best, c.closed_form, gap]
+def _format_row(bound: UpperBound) -> list[str]:
+    best_text = "not known" if bound.best_known is None else "the same" if bound.attained else f"{bound.best_known:.6f}"
+    gap_text = "" if bound.gap is None else "0" if bound.attained else format_percent(bound.gap)
+    return [
+        f"{bound.n}",
+        f"{bound.m}",
+        f"{bound.k}",
+        f"{bound.bound:.6f}",
+        bound.bound_by,
+        best_text,
+        bound.closed_form,
+        gap_text,
+    ]
 
 
-_HEAD = ["joints", "rows", "failures", "bound", "by", "best known", "in roots", "gap"]
+_HEADER_ROW = ["joints", "rows", "failures", "bound", "by", "best known", "in roots", "gap"]
 
 
-def tables(found: Found) -> list[Rows]:
-    """A row for each ceiling."""
-    if isinstance(found, CeilingSearch):
-        return [Rows(_HEAD, [_row(found.ceiling)], "what was known")]
-    if isinstance(found, SingularValueCeiling):
-        numbers = [f"{found.n}", f"{found.m}", f"{found.k}", f"{found.lever:.4g}", f"{found.bound:.6f}"]
-        return [Rows([*_HEAD[:3], "lever", "bound", "by"], [[*numbers, f"{found.bound_by}: {REASONS[found.bound_by]}"]])]
-    return [Rows(_HEAD, [_row(c) for c in (found.ceilings if isinstance(found, CeilingTable) else [found])])]
+def tables(bounds: Found) -> list[TextTable]:
+    """Tabulate the upper bounds, one row for each."""
+    if isinstance(bounds, UpperBoundSearch):
+        return [TextTable(_HEADER_ROW, [_format_row(bounds.ceiling)], "what was known")]
+    if isinstance(bounds, SingularValueBound):
+        numbers = [f"{bounds.n}", f"{bounds.m}", f"{bounds.k}", f"{bounds.lever:.4g}", f"{bounds.bound:.6f}"]
+        return [
+            TextTable(
+                [*_HEADER_ROW[:3], "lever", "bound", "by"], [[*numbers, f"{bounds.bound_by}: {BOUND_REASONS[bounds.bound_by]}"]]
+            )
+        ]
+    return [
+        TextTable(
+            _HEADER_ROW,
+            [_format_row(bound) for bound in (bounds.ceilings if isinstance(bounds, UpperBoundTable) else [bounds])],
+        )
+    ]
 
 
-def key_table(found: Found) -> Rows:
-    """The same for notebooks."""
-    return tables(found)[0]
+def key_table(bounds: Found) -> TextTable:
+    """Return the first table."""
+    return tables(bounds)[0]
 
 
-def next_steps(found: Found, name: str) -> list[str]:
-    """What one does with it."""
-    if isinstance(found, CeilingTable):
+def next_steps(bounds: Found, name: str) -> list[str]:
+    """Suggest the null space or Jacobian that attains the value, a verification, or a search."""
+    if isinstance(bounds, UpperBoundTable):
         return [f"{name}.ceilings[0].null_space  # the best that is known"]
-    if isinstance(found, CeilingSearch):
-        return [f"{name}.null_space  # attains {found.value:.6g}"]
-    if isinstance(found, SingularValueCeiling):
-        return [f"{name}.bound  # no Jacobian has more" if found.jacobian is None else f"{name}.jacobian  # attains it"]
-    search = f"hf.ceilings.search(n={found.n}, m={found.m}, k={found.k}, seconds=60)  # is there a better one?"
-    return [f"{name}.verify()  # measures the null space anew", *([] if found.attained else [search])]
+    if isinstance(bounds, UpperBoundSearch):
+        return [f"{name}.null_space  # attains {bounds.value:.6g}"]
+    if isinstance(bounds, SingularValueBound):
+        return [f"{name}.bound  # no Jacobian has more" if bounds.jacobian is None else f"{name}.jacobian  # attains it"]
+    search = f"hf.ceilings.search(n={bounds.n}, m={bounds.m}, k={bounds.k}, seconds=60)  # is there a better one?"
+    return [f"{name}.verify()  # measures the null space anew", *([] if bounds.attained else [search])]

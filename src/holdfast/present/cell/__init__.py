@@ -1,1 +1,1 @@
-"""Cells as people see them."""
+"""Meshes of the objects of a cell."""

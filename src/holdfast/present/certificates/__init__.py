@@ -1,1 +1,1 @@
-"""Words of certificates."""
+"""Reports and figures of certificates."""

@@ -1,4 +1,4 @@
-"""Certificates and what the verifier says of them, in numbers and words."""
+"""Text, tables, and JSON of certificates and of the verifier's results."""
 
 from __future__ import annotations
 
@@ -12,122 +12,139 @@ from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.tree import SearchState
-from holdfast.certificates.verifier import per_cent
+from holdfast.certificates.verifier import format_percent
 from holdfast.present import results
 from holdfast.present.certificates import joint_boxes, slices
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
 
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | CertificateCheck
 
 
-def to_dict(found: Found | StructuralZero) -> dict[str, Any]:
-    """Shares as exact fractions and as numbers, cells, seconds; of a failure-tolerant box its parts as well."""
-    if isinstance(found, StructuralZero):
-        said = {"claim": found.describe()[0], "proved": found.ok, "verified": False}
-        return said | {"turned": found.turned, "shifted": found.shifted}
-    shares, counts, witness = _shares(found), {"leaves": found.leaves}, dict[str, Any]()
+def to_dict(result: Found | StructuralZero) -> dict[str, Any]:
+    """Return fractions as exact rationals and as numbers, cell counts, and seconds; for a failure-tolerant box also
+    its parts.
+    """
+    if isinstance(result, StructuralZero):
+        data = {"claim": result.describe()[0], "proved": result.ok, "verified": False}
+        return data | {"turned": result.turned, "shifted": result.shifted}
+    shares, counts, witness = _decided_fractions(result), {"leaves": result.leaves}, dict[str, Any]()
     parts: Mapping[str, Found]
-    if isinstance(found, CertificateCheck):
-        claim, parts = found.claim, dict(zip(map(_lock, found.parts), found.parts, strict=True))
-        counts |= {"accepted": found.accepted, "rejected": found.rejected}
-    elif isinstance(found, TolerantProof):
-        claim, parts = found.document()["claim"], {found.named(part): part for part in found.parts}
+    if isinstance(result, CertificateCheck):
+        claim, parts = result.claim, dict(zip(map(_lock_name, result.parts), result.parts, strict=True))
+        counts |= {"accepted": result.accepted, "rejected": result.rejected}
+    elif isinstance(result, TolerantProof):
+        claim, parts = result.document()["claim"], {result.named(part_result): part_result for part_result in result.parts}
     else:
-        claim, parts = found.document["claim"], {}
-    if not isinstance(found, CertificateCheck):
-        counts |= {"nodes": found.nodes, "finished": found.finished, "verified": False}
-    if isinstance(found, Refutation):
-        witness = {"witness": None if found.witness is None else found.witness.tolist()}
-    if isinstance(found, ManipulabilityBound):
-        witness = {"extreme": found.extreme.tolist(), "value": found.value}
-    written = {key: {"value": float(part), "fraction": _text(part)} for key, part in shares.items()}
-    said = {"claim": claim, **written, **counts, **witness, "seconds": found.seconds}
-    return said | ({"parts": {name: to_dict(part) for name, part in parts.items()}} if parts else {})
+        claim, parts = result.document["claim"], {}
+    if not isinstance(result, CertificateCheck):
+        counts |= {"nodes": result.nodes, "finished": result.finished, "verified": False}
+    if isinstance(result, Refutation):
+        witness = {"witness": None if result.witness is None else result.witness.tolist()}
+    if isinstance(result, ManipulabilityBound):
+        witness = {"extreme": result.extreme.tolist(), "value": result.value}
+    fractions = {
+        key: {"value": float(part_result), "fraction": _format_fraction(part_result)} for key, part_result in shares.items()
+    }
+    data = {"claim": claim, **fractions, **counts, **witness, "seconds": result.seconds}
+    return data | ({"parts": {name: to_dict(part_result) for name, part_result in parts.items()}} if parts else {})
 
 
-def state(now: SearchState) -> str:
-    """One line of how far a search has come: shares are never rounded up to the whole or down to nothing."""
-    shares = [f"{key} {per_cent(Fraction(min(getattr(now, key), 1.0)))}" for key in ("proved", "refuted")]
-    rest = [
-        f"{name} {per_cent(Fraction(max(part, 0.0)), up=True)}"
-        for name, part in (("undecided", now.undecided), ("open", now.open))
+def format_state(search_state: SearchState) -> str:
+    """Format the progress of a search as one line: fractions are never rounded up to the whole or down to nothing."""
+    shares = [f"{key} {format_percent(Fraction(min(getattr(search_state, key), 1.0)))}" for key in ("proved", "refuted")]
+    open_fractions = [
+        f"{name} {format_percent(Fraction(max(fraction, 0.0)), up=True)}"
+        for name, fraction in (("undecided", search_state.undecided), ("open", search_state.open))
     ]
-    return f"{', '.join([*shares, *rest])}; {now.nodes:,} boxes"
+    return f"{', '.join([*shares, *open_fractions])}; {search_state.nodes:,} boxes"
 
 
-def _shares(found: Found) -> dict[str, Fraction]:
-    if isinstance(found, CertificateCheck):
-        return {"refuted": found.refuted, "undecided": found.undecided, "tolerant": found.tolerant}
-    said = {"proved": found.proved, "undecided": found.undecided}
-    return said | {"tolerant": found.tolerant} if isinstance(found, TolerantProof) else said
+def _decided_fractions(result: Found) -> dict[str, Fraction]:
+    if isinstance(result, CertificateCheck):
+        return {"refuted": result.refuted, "undecided": result.undecided, "tolerant": result.tolerant}
+    fractions = {"proved": result.proved, "undecided": result.undecided}
+    return fractions | {"tolerant": result.tolerant} if isinstance(result, TolerantProof) else fractions
 
 
-def _lock(check: CertificateCheck) -> str:
+def _lock_name(check: CertificateCheck) -> str:
     return check.locked or "healthy"
 
 
-def story(found: Found | StructuralZero) -> Story:
-    """What its page says."""
-    if isinstance(found, Proof | TolerantProof):
-        return slices.story(found)
-    return joint_boxes.story(found) if isinstance(found, Refutation | ManipulabilityBound) else results.story(found)
+def story(result: Found | StructuralZero) -> PageContent:
+    """Compose the report of the proof or check."""
+    if isinstance(result, Proof | TolerantProof):
+        return slices.story(result)
+    return joint_boxes.story(result) if isinstance(result, Refutation | ManipulabilityBound) else results.story(result)
 
 
-def next_steps(found: Found | StructuralZero, name: str) -> list[str]:
-    """What one does with it."""
-    if isinstance(found, Proof):
+def next_steps(result: Found | StructuralZero, name: str) -> list[str]:
+    """Suggest the check of the written certificate by independent code."""
+    if isinstance(result, Proof):
         return [f'hf.check_certificate({name}.write("reach.certificate"))  # by other code']
-    if isinstance(found, StructuralZero):
+    if isinstance(result, StructuralZero):
         return [f'hf.check_certificate({name}.write("zero.certificate"))  # by other code']
-    if isinstance(found, ManipulabilityBound):
+    if isinstance(result, ManipulabilityBound):
         return [f'hf.check_certificate({name}.write("bound.certificate"))  # by other code']
-    if isinstance(found, Refutation):
+    if isinstance(result, Refutation):
         return [f'hf.check_certificate({name}.write("out-of-reach.certificate"))  # by other code']
-    if isinstance(found, TolerantProof):
+    if isinstance(result, TolerantProof):
         return [f'hf.check_certificate({name}.write("certificates"))  # by other code']
     return [f"{name}.ok  # every cell was checked and accepted"]
 
 
-def tables(found: Found | StructuralZero) -> list[Rows]:
-    """Shares and cells; of a failure-tolerant box those of each lock."""
-    return [key_table(found)] if isinstance(found, StructuralZero) else [*_by_lock(found), key_table(found)]
+def tables(result: Found | StructuralZero) -> list[TextTable]:
+    """Tabulate fractions and cells; for a failure-tolerant box also those of each lock."""
+    return [key_table(result)] if isinstance(result, StructuralZero) else [*_tabulate_locks(result), key_table(result)]
 
 
-def key_table(found: Found | StructuralZero) -> Rows:
-    """Shares and cells; of a structural zero how far the geometry was moved."""
-    if isinstance(found, StructuralZero):
-        return Rows(["", ""], [["frames turned, rad", f"{found.turned:.2g}"], ["frames shifted, m", f"{found.shifted:.2g}"]])
-    if isinstance(found, CertificateCheck):
+def key_table(result: Found | StructuralZero) -> TextTable:
+    """Tabulate fractions and cells; for a structural zero the shift of the geometry."""
+    if isinstance(result, StructuralZero):
+        return TextTable(
+            ["", ""], [["frames turned, rad", f"{result.turned:.2g}"], ["frames shifted, m", f"{result.shifted:.2g}"]]
+        )
+    if isinstance(result, CertificateCheck):
         rows = [
-            ["accepted", f"{found.accepted:,}"],
-            ["rejected", f"{found.rejected:,}"],
-            ["refuted", "by a witness" if found.witnessed else per_cent(found.refuted)],
-            ["undecided", "the rest" if found.witnessed else per_cent(found.undecided, up=True)],
+            ["accepted", f"{result.accepted:,}"],
+            ["rejected", f"{result.rejected:,}"],
+            ["refuted", "by a witness" if result.witnessed else format_percent(result.refuted)],
+            ["undecided", "the rest" if result.witnessed else format_percent(result.undecided, up=True)],
         ]
-        return Rows(["", ""], rows)
-    rows = [["proved, not yet verified", per_cent(found.proved)], ["undecided", per_cent(found.undecided, up=True)]]
-    if isinstance(found, TolerantProof):
-        rows.append(["targets proved whatever locks, at least", per_cent(found.tolerant)])
-    return Rows(["", ""], [*rows, ["cells proved", f"{found.leaves:,}"], ["cells looked at", f"{found.nodes:,}"]])
+        return TextTable(["", ""], rows)
+    rows = [
+        ["proved, not yet verified", format_percent(result.proved)],
+        ["undecided", format_percent(result.undecided, up=True)],
+    ]
+    if isinstance(result, TolerantProof):
+        rows.append(["targets proved whatever locks, at least", format_percent(result.tolerant)])
+    return TextTable(["", ""], [*rows, ["cells proved", f"{result.leaves:,}"], ["cells looked at", f"{result.nodes:,}"]])
 
 
-def _by_lock(found: Found) -> list[Rows]:
-    """Of each part."""
-    if isinstance(found, CertificateCheck):
+def _tabulate_locks(result: Found) -> list[TextTable]:
+    """Tabulate the fractions and cells of each locked joint."""
+    if isinstance(result, CertificateCheck):
         rows = [
-            [_lock(p), per_cent(1 - p.refuted - p.undecided), per_cent(p.refuted), per_cent(p.undecided, up=True), *counts]
-            for p in found.parts
-            for counts in [[f"{p.accepted:,}", f"{p.rejected:,}"]]
+            [
+                _lock_name(part),
+                format_percent(1 - part.refuted - part.undecided),
+                format_percent(part.refuted),
+                format_percent(part.undecided, up=True),
+                *counts,
+            ]
+            for part in result.parts
+            for counts in [[f"{part.accepted:,}", f"{part.rejected:,}"]]
         ]
-        return [Rows(["lock of", "proved", "refuted", "undecided", "accepted", "rejected"], rows)] if rows else []
-    if isinstance(found, TolerantProof):
-        head = ["lock of", "proved, not yet verified", "undecided", "cells", "s"]
-        cells = [[f"{p.leaves:,}", f"{p.seconds:.1f}"] for p in found.parts]
-        shares = [[found.named(p), per_cent(p.proved), per_cent(p.undecided, up=True)] for p in found.parts]
-        return [Rows(head, [[*share, *count] for share, count in zip(shares, cells, strict=True)])]
+        return [TextTable(["lock of", "proved", "refuted", "undecided", "accepted", "rejected"], rows)] if rows else []
+    if isinstance(result, TolerantProof):
+        header = ["lock of", "proved, not yet verified", "undecided", "cells", "s"]
+        cells = [[f"{part.leaves:,}", f"{part.seconds:.1f}"] for part in result.parts]
+        shares = [
+            [result.named(part), format_percent(part.proved), format_percent(part.undecided, up=True)] for part in result.parts
+        ]
+        return [TextTable(header, [[*share, *count] for share, count in zip(shares, cells, strict=True)])]
     return []
 
 
-def _text(part: Fraction) -> str:
-    return f"{part.numerator}/{part.denominator}"
+def _format_fraction(fraction: Fraction) -> str:
+    return f"{fraction.numerator}/{fraction.denominator}"

@@ -1,4 +1,4 @@
-"""For which lock instants a path is finished: numbers, pictures of slabs and cells, and what the page of a proof says."""
+"""Text, figures, and report of a proof of the lock instants after which a path can be finished."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.certificates.tool_paths.cells import SEGMENT
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.tool_paths.slabs import Slab
-from holdfast.certificates.verifier import per_cent
-from holdfast.present.certificates.pages import UNVERIFIED, kept
+from holdfast.certificates.verifier import format_percent
+from holdfast.present.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
 from holdfast.present.certificates.pages import write as write
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -23,93 +23,101 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_ACROSS = 4  # pictures in a row
+_MAX_PANEL_COLUMNS = 4  # pictures in a row
 
 
-def to_dict(found: PathProof) -> dict[str, Any]:
-    """Parts of the lock instants as exact fractions and as numbers, of all locks and of each; cells, seconds."""
+def to_dict(proof: PathProof) -> dict[str, Any]:
+    """Return the fractions of lock instants as exact rationals and as numbers, for all locks together and for each; cells,
+    seconds.
+    """
     parts: dict[str, Any] = {}
-    for part in found.parts:
-        gaps = [[begin / SEGMENT, stop / SEGMENT] for begin, stop in found.gaps(part)]
+    for part in proof.parts:
+        gaps = [[begin / SEGMENT_INSTANTS, end / SEGMENT_INSTANTS] for begin, end in proof.gaps(part)]
         counts = {"leaves": part.leaves, "nodes": part.nodes, "finished": part.finished, "seconds": part.seconds}
-        shares = {key: _share(getattr(part, key)) for key in ("proved", "refuted", "undecided")}
-        followers = [found.claim.arm.joint_names[k] for k in part.followers]
-        parts[_name(found, part)] = shares | {"undecided_between_knots": gaps, "followers": followers} | counts
-    of_all = {"proved": found.proved, "refuted": found.refuted, "undecided": found.undecided, "tolerant": found.tolerant}
-    said = {"claim": found.document["claim"], **{key: _share(share) for key, share in of_all.items()}}
-    counts = {"leaves": found.leaves, "nodes": found.nodes, "finished": found.finished, "verified": False}
-    return said | counts | {"deviation": found.claim.deviation, "seconds": found.seconds, "parts": parts}
+        shares = {key: _fraction_entry(getattr(part, key)) for key in ("proved", "refuted", "undecided")}
+        followers = [proof.claim.arm.joint_names[joint] for joint in part.followers]
+        parts[_joint_name(proof, part)] = shares | {"undecided_between_knots": gaps, "followers": followers} | counts
+    total_fractions = {
+        "proved": proof.proved,
+        "refuted": proof.refuted,
+        "undecided": proof.undecided,
+        "tolerant": proof.tolerant,
+    }
+    data = {"claim": proof.document["claim"], **{key: _fraction_entry(share) for key, share in total_fractions.items()}}
+    counts = {"leaves": proof.leaves, "nodes": proof.nodes, "finished": proof.finished, "verified": False}
+    return data | counts | {"deviation": proof.claim.deviation, "seconds": proof.seconds, "parts": parts}
 
 
-def _share(part: Fraction) -> dict[str, Any]:
-    return {"value": float(part), "fraction": f"{part.numerator}/{part.denominator}"}
+def _fraction_entry(fraction: Fraction) -> dict[str, Any]:
+    return {"value": float(fraction), "fraction": f"{fraction.numerator}/{fraction.denominator}"}
 
 
-def _name(found: PathProof, part: LockedPath) -> str:
-    return found.claim.arm.joint_names[part.joint]
+def _joint_name(proof: PathProof, part: LockedPath) -> str:
+    return proof.claim.arm.joint_names[part.joint]
 
 
-def tables(found: PathProof) -> list[Rows]:
-    """Of each lock, then of all."""
+def tables(proof: PathProof) -> list[TextTable]:
+    """Tabulate the fractions of each lock, then those of all locks."""
     rows = [
         [
-            _name(found, part), per_cent(part.proved), per_cent(part.refuted), per_cent(part.undecided, up=True),
-            _between(found, part), f"{part.leaves:,}", f"{part.seconds:.1f}",
+            _joint_name(proof, part), format_percent(part.proved), format_percent(part.refuted), format_percent(part.undecided, up=True),
+            _format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}",
         ]
-        for part in found.parts
+        for part in proof.parts
     ]  # fmt: skip
-    head = ["lock of", "proved, not yet verified", "refuted", "undecided", "undecided between knots", "cells", "s"]
-    return [Rows(head, rows), key_table(found)]
+    header = ["lock of", "proved, not yet verified", "refuted", "undecided", "undecided between knots", "cells", "s"]
+    return [TextTable(header, rows), key_table(proof)]
 
 
-def _between(found: PathProof, part: LockedPath) -> str:
-    """The undecided intervals, or the widest of them."""
-    gaps = sorted(found.gaps(part), key=lambda gap: gap[0] - gap[1])
-    texts = [f"{begin / SEGMENT:.4g} to {stop / SEGMENT:.4g}" for begin, stop in gaps]
+def _format_undecided_intervals(proof: PathProof, part: LockedPath) -> str:
+    """List the undecided intervals, or the widest two of them."""
+    gaps = sorted(proof.gaps(part), key=lambda gap: gap[0] - gap[1])
+    texts = [f"{begin / SEGMENT_INSTANTS:.4g} to {end / SEGMENT_INSTANTS:.4g}" for begin, end in gaps]
     return ", ".join(texts[:2]) + (f" and {len(texts) - 2} more" if len(texts) > 2 else "")
 
 
-def key_table(found: PathProof) -> Rows:
-    """Of all locks."""
+def key_table(proof: PathProof) -> TextTable:
+    """Tabulate the fractions of all locks together."""
     rows = [
-        ["proved at least, whichever joint locks, not yet verified", per_cent(found.proved)],
-        ["refuted at most, likewise", per_cent(found.refuted)],
-        ["undecided at most", per_cent(found.undecided, up=True)],
-        ["proved for all locks at once", per_cent(found.tolerant)],
-        ["cells proved and glued, or without a configuration", f"{found.leaves:,}"],
-        ["cells looked at", f"{found.nodes:,}"],
-        ["straight segments off the motion that was given, mm", f"{1000 * found.claim.deviation:.2g}"],
+        ["proved at least, whichever joint locks, not yet verified", format_percent(proof.proved)],
+        ["refuted at most, likewise", format_percent(proof.refuted)],
+        ["undecided at most", format_percent(proof.undecided, up=True)],
+        ["proved for all locks at once", format_percent(proof.tolerant)],
+        ["cells proved and glued, or without a configuration", f"{proof.leaves:,}"],
+        ["cells looked at", f"{proof.nodes:,}"],
+        ["straight segments off the motion that was given, mm", f"{1000 * proof.claim.deviation:.2g}"],
     ]
-    return Rows(["", ""], rows)
+    return TextTable(["", ""], rows)
 
 
-def next_steps(found: PathProof, name: str) -> list[str]:
-    """What one does with it."""
+def next_steps(proof: PathProof, name: str) -> list[str]:
+    """Suggest the check of the written certificate by independent code."""
     return [f'hf.check_certificate({name}.write("path.certificate"))  # by other code']
 
 
-def story(found: PathProof) -> Story:
-    """How much is proved, and what that says and does not."""
-    claim, share = found.claim, kept(per_cent(found.tolerant))
-    tube = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
-    whole = [_name(found, part) for part in found.parts if part.proved == 1]
+def story(proof: PathProof) -> PageContent:
+    """Compose the report: the proved fraction, its meaning, and its limits."""
+    claim, share = proof.claim, bind_percent_sign(format_percent(proof.tolerant))
+    tolerance_text = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
+    complete_joints = [_joint_name(proof, part) for part in proof.parts if part.proved == 1]
     answer = "Nothing is proved for all locks: something is undecided at every instant."
-    if whole:
-        answer = f"At no instant is it proved for all locks, but at every instant for those of {', '.join(whole)}."
-    if found.tolerant:
-        rest = "nothing is undecided" if found.tolerant == 1 else "the rest is undecided for some lock"
-        broken = [_name(found, part) for part in found.parts if part.refuted]
-        if broken:
-            rest = f"of the rest, some is refuted for locks of {', '.join(broken)}"
+    if complete_joints:
+        answer = f"At no instant is it proved for all locks, but at every instant for those of {', '.join(complete_joints)}."
+    if proof.tolerant:
+        remainder = "nothing is undecided" if proof.tolerant == 1 else "the rest is undecided for some lock"
+        refuted_joints = [_joint_name(proof, part) for part in proof.parts if part.refuted]
+        if refuted_joints:
+            remainder = f"of the rest, some is refuted for locks of {', '.join(refuted_joints)}"
         answer = (
-            f"Whichever joint locks, at {share} of the instants the {claim.task} path{tube} is proved to be finished; {rest}."
+            f"Whichever joint locks, at {share} of the instants the {claim.task} path{tolerance_text} is proved to "
+            f"be finished; {remainder}."
         )
-    return Story(
+    return PageContent(
         f"What {claim.arm.name} finishes after a lock",
-        f"{answer} {UNVERIFIED}",
-        lines=found.describe()[:1],
-        facts=[(share, "of the lock instants, whichever joint locks"), (f"{found.leaves:,}", "cells, glued or empty")],
-        tables=[Rows(["lock of", "undecided between knots"], [[_name(found, p), _between(found, p)] for p in found.parts])],
+        f"{answer} {UNVERIFIED_NOTE}",
+        lines=proof.describe()[:1],
+        facts=[(share, "of the lock instants, whichever joint locks"), (f"{proof.leaves:,}", "cells, glued or empty")],
+        tables=[TextTable(["lock of", "undecided between knots"], [[_joint_name(proof, locked_path), _format_undecided_intervals(proof, locked_path)] for locked_path in proof.parts])],
         figures={
             "slices": (
                 "When it may lock",
@@ -130,74 +138,98 @@ def story(found: PathProof) -> Story:
     )  # fmt: skip
 
 
-def figures(found: PathProof) -> dict[str, Figure]:
-    """Lock instants against the path, a picture for each lock."""
+def figures(proof: PathProof) -> dict[str, Figure]:
+    """Draw the lock instants against the path, one panel for each lock."""
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import BLUE, INK, ORANGE, PALE, SKY, WIDTH, finished, style
+    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, finished, style
 
-    across = min(_ACROSS, len(found.parts))
-    down = -(-len(found.parts) // across)
+    column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
+    row_count = -(-len(proof.parts) // column_count)
     with style():
-        figure = Figure(figsize=(WIDTH * across / _ACROSS + 0.6 * (across < _ACROSS), 2.7 * down + 0.7), layout="constrained")
-        panels = np.ravel(figure.subplots(down, across, sharex=True, sharey=True, squeeze=False))
-        for k, axes in enumerate(panels):
-            if k < len(found.parts):
-                _panel(axes, found, found.parts[k])
+        figure = Figure(
+            figsize=(
+                WIDTH * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS),
+                2.7 * row_count + 0.7,
+            ),
+            layout="constrained",
+        )
+        panels = np.ravel(figure.subplots(row_count, column_count, sharex=True, sharey=True, squeeze=False))
+        for panel, axes in enumerate(panels):
+            if panel < len(proof.parts):
+                _draw_panel(axes, proof, proof.parts[panel])
             else:
                 axes.set_visible(False)
-        for k in range(len(found.parts)):
-            panels[k].set_xlabel("path [knots]" if k + across >= len(found.parts) else "")
-            panels[k].xaxis.set_tick_params(labelbottom=k + across >= len(found.parts))
-        for axes in panels[::across]:
+        for panel in range(len(proof.parts)):
+            panels[panel].set_xlabel("path [knots]" if panel + column_count >= len(proof.parts) else "")
+            panels[panel].xaxis.set_tick_params(labelbottom=panel + column_count >= len(proof.parts))
+        for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
         patches = [
             Patch(facecolor=SKY, edgecolor=INK, linewidth=0.6, label="proved to be finished"),
             Patch(facecolor=BLUE, edgecolor=INK, linewidth=0.6, label="in turned cells"),
             Patch(facecolor=ORANGE, edgecolor=INK, linewidth=0.6, label="refuted"),
-            Patch(facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
+            Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
         ]
         figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
         return {"slices": finished(figure)}
 
 
-def _panel(axes: Axes, found: PathProof, part: LockedPath) -> None:
+def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:
     from matplotlib.collections import LineCollection, PolyCollection
 
-    from holdfast.report.figures import BLUE, INK, ORANGE, PALE, SKY
+    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY
 
-    end = found.claim.segments
-    proved, turned, faces = [], [], []
+    path_end = proof.claim.segments
+    proved, rotated, faces = [], [], []
     for slab in part.slabs:
-        begin, stop = slab.begin / SEGMENT, slab.stop / SEGMENT
-        proved.append([(begin, begin), (end, begin), (end, stop), (stop, stop)])
-        faces += [[(x / SEGMENT, begin), (x / SEGMENT, stop)] for x in slab.ends[:-1] if x > 0]
-        turned += [[(a, begin), (b, begin), (b, stop), (a, stop)] for a, b in _turned(slab, part.joint)]
+        begin, stop = slab.begin / SEGMENT_INSTANTS, slab.stop / SEGMENT_INSTANTS
+        proved.append([(begin, begin), (path_end, begin), (path_end, stop), (stop, stop)])
+        faces += [
+            [(instant / SEGMENT_INSTANTS, begin), (instant / SEGMENT_INSTANTS, stop)]
+            for instant in slab.ends[:-1]
+            if instant > 0
+        ]
+        rotated += [
+            [(left_edge, begin), (right_edge, begin), (right_edge, stop), (left_edge, stop)]
+            for left_edge, right_edge in _rotated_intervals(slab, part.joint)
+        ]
 
-    def behind(spans: list[tuple[int, int]]) -> list[list[tuple[float, float]]]:
-        """The path behind intervals of lock instants."""
-        return [[(a, a), (end, a), (end, b), (b, b)] for a, b in ((x / SEGMENT, y / SEGMENT) for x, y in spans)]
+    def outline_intervals(spans: list[tuple[int, int]]) -> list[list[tuple[float, float]]]:
+        """Return the outlines of the path that follows intervals of lock instants."""
+        return [
+            [(a, a), (path_end, a), (path_end, b), (b, b)]
+            for a, b in ((first / SEGMENT_INSTANTS, last / SEGMENT_INSTANTS) for first, last in spans)
+        ]
 
     axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="face", linewidth=0.2))
-    axes.add_collection(PolyCollection(turned, facecolor=BLUE, edgecolor="face", linewidth=0.2))
-    axes.add_collection(PolyCollection(behind(part.refuted_spans), facecolor=ORANGE, edgecolor="face", linewidth=0.2))
-    axes.add_collection(PolyCollection(behind(found.gaps(part)), facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3))
+    axes.add_collection(PolyCollection(rotated, facecolor=BLUE, edgecolor="face", linewidth=0.2))
+    axes.add_collection(
+        PolyCollection(outline_intervals(part.refuted_spans), facecolor=ORANGE, edgecolor="face", linewidth=0.2)
+    )
+    axes.add_collection(
+        PolyCollection(outline_intervals(proof.gaps(part)), facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3)
+    )
     axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
-    axes.plot([0, end], [0, end], color=INK, linewidth=0.8)
-    axes.set(xlim=(0, end), ylim=(0, end), title=f"{_name(found, part)}: {math.floor(1000 * part.proved) / 10:g} %")
+    axes.plot([0, path_end], [0, path_end], color=INK, linewidth=0.8)
+    axes.set(
+        xlim=(0, path_end), ylim=(0, path_end), title=f"{_joint_name(proof, part)}: {math.floor(1000 * part.proved) / 10:g} %"
+    )
     axes.set_aspect("equal")
     axes.grid(visible=False)
 
 
-def _turned(slab: Slab, joint: int) -> list[tuple[float, float]]:
-    """From where to where on the path, in segments, cells of a slab are turned."""
-    found, at, first = [], slab.begin, -1
-    for end, centre in zip(slab.ends, slab.centres, strict=True):
+def _rotated_intervals(slab: Slab, joint: int) -> list[tuple[float, float]]:
+    """Return the intervals of the path, in segments, over which the cells of a slab are rotated."""
+    intervals, position, run_start = [], slab.begin, -1
+    for end, center in zip(slab.ends, slab.centers, strict=True):
         if end < 0:
-            first = at if first < 0 else first
+            run_start = position if run_start < 0 else run_start
             continue
-        if first >= 0:
-            found.append((first / SEGMENT, at // SEGMENT + int(centre[joint]) / SEGMENT))
-        at, first = end, -1
-    return found
+        if run_start >= 0:
+            intervals.append(
+                (run_start / SEGMENT_INSTANTS, position // SEGMENT_INSTANTS + int(center[joint]) / SEGMENT_INSTANTS)
+            )
+        position, run_start = end, -1
+    return intervals

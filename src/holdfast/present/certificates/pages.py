@@ -1,4 +1,4 @@
-"""What the pages of proofs have in common: whether somebody else verified them, what they do not say, and how to check them."""
+"""Common parts of the reports of proofs: verification, scope, and instructions for the check."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.proof import PathProof
-from holdfast.certificates.verifier import per_cent
+from holdfast.certificates.verifier import format_percent
 from holdfast.present import results
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.reach import WorkingRanges
 
-UNVERIFIED = "Found by the prover, not yet verified."
+UNVERIFIED_NOTE = "Found by the prover, not yet verified."
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | PathProof
 
 
 def write(
-    found: Found,
+    proof: Found,
     path: Path,
     command: str = "",
     drawn: Mapping[str, Figure] | None = None,
@@ -37,32 +37,32 @@ def write(
     file: str | Path = "FILE",
     ranges: WorkingRanges | None = None,
 ) -> Path:
-    """The page of a proof.
+    """Write the report of a proof.
 
     ``check``: What the verifier says of it, if it was asked; ``file``: where the certificate is; ``ranges``: the working
     ranges, if they were found by samples.
     """
-    story: Story = found._presented("story")
-    said = replace(
-        story,
-        answer=story.answer.replace(UNVERIFIED, _verified(found, check)),
-        lines=[*(story.lines if check is None else check.describe()[:1]), *(ranges.describe() if ranges else [])],
-        tables=[by_part(found, check), *(story.tables or []), *(ranges._presented("tables") if ranges else [])],
-        method=[*story.method, *_how(found, check, file)],
+    content: PageContent = proof._present("story")
+    report = replace(
+        content,
+        answer=content.answer.replace(UNVERIFIED_NOTE, _describe_verification(proof, check)),
+        lines=[*(content.lines if check is None else check.describe()[:1]), *(ranges.describe() if ranges else [])],
+        tables=[tabulate_parts(proof, check), *(content.tables or []), *(ranges._present("tables") if ranges else [])],
+        method=[*content.method, *_list_check_instructions(proof, check, file)],
     )
-    return results.write(found, path, command, drawn, said)
+    return results.write(proof, path, command, drawn, report)
 
 
-def kept(text: str) -> str:
-    """With a space that no line ends at."""
+def bind_percent_sign(text: str) -> str:
+    """Replace the space before a percent sign by one at which no line breaks."""
     return text.replace(" %", "\N{NO-BREAK SPACE}%")
 
 
-def _verified(found: Found, check: CertificateCheck | None) -> str:
-    """Who says so."""
+def _describe_verification(proof: Found, check: CertificateCheck | None) -> str:
+    """Describe who verified the proof, and with which result."""
     if check is None:
-        return UNVERIFIED
-    if check.ok and isinstance(found, Refutation | ManipulabilityBound) and found.refuted:
+        return UNVERIFIED_NOTE
+    if check.ok and isinstance(proof, Refutation | ManipulabilityBound) and proof.refuted:
         return "Verified by code that shares nothing with the prover."
     if check.ok:
         return f"Verified: all {check.accepted:,} boxes are accepted by code that shares nothing with the prover."
@@ -71,55 +71,59 @@ def _verified(found: Found, check: CertificateCheck | None) -> str:
     return f"Sampled, not verified: {check.accepted:,} of {check.leaves:,} boxes are accepted."
 
 
-def by_part(found: Found, check: CertificateCheck | None = None) -> Rows:
-    """Shares, boxes and seconds of each part, and by whom it is verified."""
-    parts = found.parts if isinstance(found, TolerantProof | PathProof) else (found,)
+def tabulate_parts(proof: Found, check: CertificateCheck | None = None) -> TextTable:
+    """Tabulate fractions, boxes, and seconds of each part, and its verifier."""
+    parts = proof.parts if isinstance(proof, TolerantProof | PathProof) else (proof,)
     checks = [None] * len(parts) if check is None else check.parts or (check,)
     rows = []
     for part, checked in zip(parts, checks, strict=True):
-        shares = [per_cent(part.proved), "0 %", per_cent(part.undecided, up=True)]
+        shares = [format_percent(part.proved), "0 %", format_percent(part.undecided, up=True)]
         if isinstance(part, LockedPath):
-            shares[1] = per_cent(part.refuted)
+            shares[1] = format_percent(part.refuted)
         elif not isinstance(part, Proof) and part.refuted:
             shares = ["0 %", "by a witness", "the rest"]
-        rows.append([_name(found, part), *shares, f"{part.leaves:,}", f"{part.seconds:.1f}", *_by(checked)])
+        rows.append([_part_name(proof, part), *shares, f"{part.leaves:,}", f"{part.seconds:.1f}", *_verifier_cells(checked)])
     names = ["lock of", "proved", "refuted", "undecided", "boxes", "search, s", "verified by", "check, s"]
-    timed = any(row[-1] for row in rows)  # one check of all locks at once has a time of its own
-    return Rows(names if timed else names[:-1], rows if timed else [row[:-1] for row in rows])
+    has_check_times = any(row[-1] for row in rows)  # one check of all locks at once has a time of its own
+    return TextTable(names if has_check_times else names[:-1], rows if has_check_times else [row[:-1] for row in rows])
 
 
-def _by(check: CertificateCheck | None) -> list[str]:
-    """By whom, and the seconds it took."""
+def _verifier_cells(check: CertificateCheck | None) -> list[str]:
+    """Return the verifier and its time in seconds, as table cells."""
     if check is None:
         return ["nobody yet", ""]
-    by = "verifier.py" if check.ok else f"not: {check.rejected:,} rejected" if check.rejected else "sampled"
-    return [by, f"{check.seconds:.1f}" if check.seconds else ""]
+    verifier_text = "verifier.py" if check.ok else f"not: {check.rejected:,} rejected" if check.rejected else "sampled"
+    return [verifier_text, f"{check.seconds:.1f}" if check.seconds else ""]
 
 
-def _name(found: Found, part: Found | LockedPath) -> str:
+def _part_name(proof: Found, part: Found | LockedPath) -> str:
     if isinstance(part, LockedPath):
-        return found.claim.arm.joint_names[part.joint]
+        return proof.claim.arm.joint_names[part.joint]
     if isinstance(part, ManipulabilityBound):
         locks = part.claim.locks
-        return "any one joint" if len(locks) == part.claim.arm.n else ", ".join(part.claim.arm.joint_names[k] for k in locks)
+        return (
+            "any one joint"
+            if len(locks) == part.claim.arm.n
+            else ", ".join(part.claim.arm.joint_names[joint] for joint in locks)
+        )
     assert not isinstance(part, TolerantProof | PathProof)
     return "healthy" if part.claim.locked < 0 else part.claim.arm.joint_names[part.claim.locked]
 
 
-def _how(found: Found, check: CertificateCheck | None, file: str | Path) -> list[tuple[str, Any]]:
-    """Digest, command and the verifier's versions."""
+def _list_check_instructions(proof: Found, check: CertificateCheck | None, file: str | Path) -> list[tuple[str, Any]]:
+    """List the digest, the command that checks the certificate, and the versions of the verifier."""
     from markupsafe import Markup
 
-    document = found.document() if isinstance(found, TolerantProof) else found.document
+    document = proof.document() if isinstance(proof, TolerantProof) else proof.document
     code = Markup("<code>{}</code>")
-    told: list[tuple[str, Any]] = [
+    entries: list[tuple[str, Any]] = [
         ("Check it", code.format(f"holdfast certificate check {file}")),
         ("Digest of the certificate", code.format(document["digest"])),
     ]
     if check is not None:
         try:
-            balls = f"python-flint {version('python-flint')}"
+            flint_version = f"python-flint {version('python-flint')}"
         except PackageNotFoundError:
-            balls = "python-flint"
-        told.append(("Verified with", f"verifier.py in ball arithmetic, {balls}, {check.seconds:.1f} s"))
-    return told
+            flint_version = "python-flint"
+        entries.append(("Verified with", f"verifier.py in ball arithmetic, {flint_version}, {check.seconds:.1f} s"))
+    return entries

@@ -1,4 +1,4 @@
-"""Where in a box of targets something is undecided: slices, and what the page of a proof says."""
+"""Slices through a box of targets that show undecided parts, and the report of the proof."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import numpy as np
 from holdfast.certificates import documents
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.verified.tree import Cell
-from holdfast.certificates.verifier import per_cent
-from holdfast.present.certificates.pages import UNVERIFIED, kept
+from holdfast.certificates.verifier import format_percent
+from holdfast.present.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
 from holdfast.present.certificates.pages import write as write
-from holdfast.present.story import Story
+from holdfast.present.story import PageContent
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,107 +21,118 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-_LABELS = ("x [m]", "y [m]", "z [m]")
+_AXIS_LABELS = ("x [m]", "y [m]", "z [m]")
 
 
-def figures(found: Proof | TolerantProof) -> dict[str, Figure]:
-    """Slices through the middle and through where most is undecided, whatever is locked and wherever, however it is turned."""
-    box = found.claim.box[:3]
-    cells = _shadow(found)
+def figures(proof: Proof | TolerantProof) -> dict[str, Figure]:
+    """Draw slices through the middle and through the most undecided plane, over all locks, lock angles, and orientations."""
+    box = proof.claim.box[:3]
+    cells = _undecided_cells(proof)
     if len(box) == 2:
-        return {"slices": _drawn(box, cells, [(0, 1, None)])}
-    across = [(0, 2, (1, float(box[1].mean()))), (1, 2, (0, float(box[0].mean())))]
-    worst = _worst(box, cells)
-    return {"slices": _drawn(box, cells, [*across, (0, 1, (2, worst))])}
+        return {"slices": _draw_slices(box, cells, [(0, 1, None)])}
+    middle_slices = [(0, 2, (1, float(box[1].mean()))), (1, 2, (0, float(box[0].mean())))]
+    worst_height = _find_worst_height(box, cells)
+    return {"slices": _draw_slices(box, cells, [*middle_slices, (0, 1, (2, worst_height))])}
 
 
-def _shadow(found: Proof | TolerantProof) -> Array:
-    """(N, axes, 2) the parts of the box, as shares of it, over which something is undecided."""
-    parts = found.parts if isinstance(found, TolerantProof) else (found,)
-    count = min(3, len(found.claim.box))
-    cells: set[Cell] = {cell[:count] for part in parts for cell in documents.undecided(part.document)}
-    return np.array([[(k / 2**d, (k + 1) / 2**d) for k, d in cell] for cell in sorted(cells)]).reshape(-1, count, 2)
+def _undecided_cells(proof: Proof | TolerantProof) -> Array:
+    """Return the parts of the box, as fractions of it (N, axes, 2), over which something is undecided."""
+    parts = proof.parts if isinstance(proof, TolerantProof) else (proof,)
+    count = min(3, len(proof.claim.box))
+    cells: set[Cell] = {cell[:count] for part in parts for cell in documents.find_undecided_cells(part.document)}
+    return np.array(
+        [[(index / 2**halvings, (index + 1) / 2**halvings) for index, halvings in cell] for cell in sorted(cells)]
+    ).reshape(-1, count, 2)
 
 
-def _worst(box: Array, cells: Array) -> float:
-    """The z in whose plane cells cover most, m; they may overlap."""
-    share = 0.5
+def _find_worst_height(box: Array, cells: Array) -> float:
+    """Return the height z, m, of the plane in which the undecided cells cover most; cells may overlap."""
+    fraction = 0.5
     if len(cells):
-        area = np.prod(cells[:, :2, 1] - cells[:, :2, 0], axis=1)
-        planes = np.unique(cells[:, 2].mean(axis=1))
-        covered = [area[(cells[:, 2, 0] <= z) & (z < cells[:, 2, 1])].sum() for z in planes]
-        share = float(planes[int(np.argmax(covered))])
-    return float(box[2, 0] + share * (box[2, 1] - box[2, 0]))
+        areas = np.prod(cells[:, :2, 1] - cells[:, :2, 0], axis=1)
+        heights = np.unique(cells[:, 2].mean(axis=1))
+        covered = [areas[(cells[:, 2, 0] <= height) & (height < cells[:, 2, 1])].sum() for height in heights]
+        fraction = float(heights[int(np.argmax(covered))])
+    return float(box[2, 0] + fraction * (box[2, 1] - box[2, 0]))
 
 
-def _drawn(box: Array, cells: Array, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
+def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import INK, PALE, SKY, WIDTH, finished, style
+    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, finished, style
 
     with style():
         figure = Figure(figsize=(WIDTH if len(slices) > 1 else WIDTH / 2, 3.9), layout="constrained")
-        for axes, (i, j, held) in zip(np.ravel(figure.subplots(1, len(slices))), slices, strict=True):
-            _slice(axes, box, cells, (i, j), held)
+        for axes, (first_axis, second_axis, fixed_axis) in zip(np.ravel(figure.subplots(1, len(slices))), slices, strict=True):
+            _draw_slice(axes, box, cells, (first_axis, second_axis), fixed_axis)
         patches = [
             Patch(facecolor=SKY, edgecolor=INK, linewidth=0.6, label="proved"),
-            Patch(facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
+            Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
         ]
         figure.legend(handles=patches, loc="outside lower center", ncols=2)
         return finished(figure)
 
 
-def _slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], held: tuple[int, float] | None) -> None:
+def _draw_slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], fixed_axis: tuple[int, float] | None) -> None:
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
-    from holdfast.report.figures import INK, PALE, SKY
+    from holdfast.report.figures import EMPTY_COLOR, INK, SKY
 
-    low, width = box[:, 0], box[:, 1] - box[:, 0]
-    sides = list(across)
-    if held is not None and len(cells):
-        axis, value = held
-        share = (value - low[axis]) / (width[axis] or 1.0)
-        cells = cells[(cells[:, axis, 0] <= share) & (share < cells[:, axis, 1])]
-    corner, size = low[sides], width[sides]
+    lower, widths = box[:, 0], box[:, 1] - box[:, 0]
+    axis_pair = list(across)
+    if fixed_axis is not None and len(cells):
+        axis, value = fixed_axis
+        fraction = (value - lower[axis]) / (widths[axis] or 1.0)
+        cells = cells[(cells[:, axis, 0] <= fraction) & (fraction < cells[:, axis, 1])]
+    corner, size = lower[axis_pair], widths[axis_pair]
     axes.add_patch(Rectangle((corner[0], corner[1]), size[0], size[1], facecolor=SKY, edgecolor=INK, linewidth=0.8))
-    made = [Rectangle(tuple(corner + cell[sides, 0] * size), *(np.diff(cell[sides])[:, 0] * size)) for cell in cells]
-    axes.add_collection(PatchCollection(made, facecolor=PALE, edgecolor=INK, hatch="////", linewidth=0.15))
-    axes.set(xlabel=_LABELS[across[0]], ylabel=_LABELS[across[1]])
-    if held is not None:
-        axes.set_title(f"{'xyz'[held[0]]} = {held[1]:.3g} m")
-    room = 0.04 * size.max()
-    axes.set(xlim=(corner[0] - room, corner[0] + size[0] + room), ylim=(corner[1] - room, corner[1] + size[1] + room))
+    rectangles = [
+        Rectangle(tuple(corner + cell[axis_pair, 0] * size), *(np.diff(cell[axis_pair])[:, 0] * size)) for cell in cells
+    ]
+    axes.add_collection(PatchCollection(rectangles, facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.15))
+    axes.set(xlabel=_AXIS_LABELS[across[0]], ylabel=_AXIS_LABELS[across[1]])
+    if fixed_axis is not None:
+        axes.set_title(f"{'xyz'[fixed_axis[0]]} = {fixed_axis[1]:.3g} m")
+    margin = 0.04 * size.max()
+    axes.set(xlim=(corner[0] - margin, corner[0] + size[0] + margin), ylim=(corner[1] - margin, corner[1] + size[1] + margin))
     axes.set_aspect("equal")
     axes.grid(visible=False)
 
 
-def story(found: Proof | TolerantProof) -> Story:
-    """How much is proved, and what that says and does not."""
-    tolerant = isinstance(found, TolerantProof)
-    arm = found.claim.arm
-    locked = -1 if isinstance(found, TolerantProof) else found.claim.locked
-    of = "targets" if locked < 0 else f"targets and locked angles of {arm.joint_names[locked]}"
-    share = found.tolerant if isinstance(found, TolerantProof) else found.proved
-    whatever = " while healthy and whatever locks" if tolerant else ""
+def story(proof: Proof | TolerantProof) -> PageContent:
+    """Compose the report: the proved fraction, its meaning, and its limits."""
+    tolerant = isinstance(proof, TolerantProof)
+    arm = proof.claim.arm
+    locked = -1 if isinstance(proof, TolerantProof) else proof.claim.locked
+    object_text = "targets" if locked < 0 else f"targets and locked angles of {arm.joint_names[locked]}"
+    fraction = proof.tolerant if isinstance(proof, TolerantProof) else proof.proved
+    condition = " while healthy and whatever locks" if tolerant else ""
     answer = "Nothing is proved: all is undecided."
-    if share:
-        rest = "the rest is undecided" if share < 1 else "nothing is undecided"
-        answer = f"Of the {of}, {kept(per_cent(share))} are proved to be reached{whatever}; {rest}."
-    where = (
+    if fraction:
+        remainder = "the rest is undecided" if fraction < 1 else "nothing is undecided"
+        answer = (
+            f"Of the {object_text}, {bind_percent_sign(format_percent(fraction))} are proved to be "
+            f"reached{condition}; {remainder}."
+        )
+    place_text = (
         "wherever a joint locks, and while healthy" if tolerant else "at every locked angle" if locked >= 0 else "within limits"
     )
-    turned = ", turned in every way" if len(found.claim.box) > 3 else ""
-    return Story(
+    orientation_text = ", turned in every way" if len(proof.claim.box) > 3 else ""
+    return PageContent(
         f"What is proved of {arm.name}",
-        f"{answer} {UNVERIFIED}",
-        lines=found.describe()[:1],
-        facts=[(kept(per_cent(share)), f"of the {of}{whatever}"), (f"{found.leaves:,}", "boxes, each with one configuration")],
+        f"{answer} {UNVERIFIED_NOTE}",
+        lines=proof.describe()[:1],
+        facts=[
+            (bind_percent_sign(format_percent(fraction)), f"of the {object_text}{condition}"),
+            (f"{proof.leaves:,}", "boxes, each with one configuration"),
+        ],
         figures={
             "slices": (
                 "Where it is proved",
-                f"Blue: every target{turned} is proved {where}. Hatched: something is undecided, which does not say that it is "
+                f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which "
+                f"does not say that it is "
                 "out of reach. Through the middle of the box, and where most is undecided.",
             )
         },

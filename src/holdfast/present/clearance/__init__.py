@@ -1,1 +1,1 @@
-"""The shape of an arm, told."""
+"""Reports of collision models and contacts."""

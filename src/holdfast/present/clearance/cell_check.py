@@ -1,4 +1,4 @@
-"""What a check of a cell found, in numbers and words."""
+"""Text, tables, and JSON of the check of a cell."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, number
-from holdfast.present.story import Story
-from holdfast.words import capitalised, counted, percent
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first, format_count, format_percent
 
 if TYPE_CHECKING:
     from holdfast.clearance.cell_check import CellCheck, CheckedObject
 
 
 def to_dict(check: CellCheck) -> dict[str, Any]:
-    """All that it found, by object."""
+    """Return all results of the check, by object."""
     return {
         "cell": check.cell,
         "sha256": check.digest,
@@ -29,43 +29,56 @@ def to_dict(check: CellCheck) -> dict[str, Any]:
         "spheres": check.spheres,
         "sphere_excess_m": check.reach,
         "shape": check.shape or None,
-        "objects": {each.name: {key: value for key, value in asdict(each).items() if key != "name"} for each in check.objects},
+        "objects": {
+            object_check.name: {key: value for key, value in asdict(object_check).items() if key != "name"}
+            for object_check in check.objects
+        },
     }
 
 
-def tables(check: CellCheck) -> list[Rows]:
-    """A row for each object."""
-    head = ["object", "margin, m", "grid, mm", "seems nearer by at most, mm", *(["touched in"] if check.arm else [])]
-    return [Rows(head, [_row(each, bool(check.arm)) for each in check.objects], "Objects")]
+def tables(check: CellCheck) -> list[TextTable]:
+    """Tabulate the objects, one row for each."""
+    header = ["object", "margin, m", "grid, mm", "seems nearer by at most, mm", *(["touched in"] if check.arm else [])]
+    return [TextTable(header, [_format_object(object_check, bool(check.arm)) for object_check in check.objects], "Objects")]
 
 
-def _row(each: CheckedObject, touched: bool) -> list[str]:
+def _format_object(object_check: CheckedObject, touched: bool) -> list[str]:
     kind = (
-        f"{each.kind} of {counted(each.parts, 'point' if each.kind == 'point cloud' else 'triangle')}"
-        if each.parts
-        else each.kind
+        f"{object_check.kind} of "
+        f"{format_count(object_check.parts, 'point' if object_check.kind == 'point cloud' else 'triangle')}"
+        if object_check.parts
+        else object_check.kind
     )
-    seen = [number(1000 * x, 3) if each.width else "exact" for x in (each.width, each.excess)]
-    shown = "none" if np.isnan(each.touching) else percent(each.touching)
-    return [f"{each.name}: {kind}", number(each.margin), *seen, *([shown] if touched else [])]
+    distances = [
+        format_significant(1000 * x, 3) if object_check.width else "exact" for x in (object_check.width, object_check.excess)
+    ]
+    contact_rate = "none" if np.isnan(object_check.touching) else format_percent(object_check.touching)
+    return [
+        f"{object_check.name}: {kind}",
+        format_significant(object_check.margin),
+        *distances,
+        *([contact_rate] if touched else []),
+    ]
 
 
-def story(check: CellCheck) -> Story:
-    """What touches, and each object."""
-    first, *others = map(capitalised, check.describe())
+def story(check: CellCheck) -> PageContent:
+    """Compose the report: the contacts, and each object."""
+    headline, *remarks = map(capitalise_first, check.describe())
     about = f"Cell '{check.cell}'" + (f", arm '{check.arm}'" if check.arm else "")
-    touch = [(percent(check.colliding), "of the configurations touch an object")] if check.arm and check.colliding else []
-    answer = first if not others else others[-2] if check.ok and check.arm else others[0]
+    contact_facts = (
+        [(format_percent(check.colliding), "of the configurations touch an object")] if check.arm and check.colliding else []
+    )
+    answer = headline if not remarks else remarks[-2] if check.ok and check.arm else remarks[0]
     if check.ok and check.arm and not check.colliding:
         answer = f"In none of {check.samples} configurations within the limits does the arm touch an object, by the bound"
     from markupsafe import Markup
 
-    return Story(
+    return PageContent(
         "Check of a cell",
         answer.rstrip(".") + ".",
         about=about,
-        facts=[*touch, (str(len(check.objects)), "objects")],
-        lines=[first, *others],
+        facts=[*contact_facts, (str(len(check.objects)), "objects")],
+        lines=[headline, *remarks],
         method=[
             (
                 "Distances",

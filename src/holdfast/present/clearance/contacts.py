@@ -1,4 +1,4 @@
-"""What a motion touches, for machines and as a table."""
+"""JSON entries and table of the contacts of a motion."""
 
 from __future__ import annotations
 
@@ -8,34 +8,45 @@ from typing import Any
 import numpy as np
 
 from holdfast.clearance.contacts import Contact
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import TextTable, format_significant
 
 
-def contact_entries(contacts: Sequence[Contact], unit: str = "s", many: bool = False) -> list[dict[str, Any]]:
-    """Every contact by name; with the number of its run, from 0, if there are many."""
-    return [({"run": c.run} if many else {}) | _entry(c, unit) for c in contacts]
+def list_contacts(contacts: Sequence[Contact], unit: str = "s", many: bool = False) -> list[dict[str, Any]]:
+    """List every contact by name; with the number of its run, from 0, if there are many runs."""
+    return [({"run": contact.run} if many else {}) | _contact_entry(contact, unit) for contact in contacts]
 
 
-def _entry(contact: Contact, unit: str) -> dict[str, Any]:
+def _contact_entry(contact: Contact, unit: str) -> dict[str, Any]:
     exact = contact.exact_time
-    found = {} if exact is None else {"exact": np.isfinite(exact), f"exact_time_{unit}": exact if np.isfinite(exact) else None}
+    exact_fields = (
+        {} if exact is None else {"exact": np.isfinite(exact), f"exact_time_{unit}": exact if np.isfinite(exact) else None}
+    )
     return {
         f"time_{unit}": contact.time,
         "link": contact.link,
         "object": contact.object,
         "depth_m": contact.depth,
         "by": "bound",
-        **found,
+        **exact_fields,
     }
 
 
-def contact_table(contacts: Sequence[Contact], unit: str = "s") -> Rows:
-    """When each pair touches first, by the bound and where it was asked exactly, and how deep it goes."""
-    asked = any(c.exact_time is not None for c in contacts)
-    rows = [[c.link, c.object, number(c.time), *([_exact(c)] * asked), number(1000 * c.depth)] for c in contacts]
-    return Rows(["link", "touches", f"first at, {unit}", *(["exactly at"] * asked), "at most, mm deep"], rows)
+def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TextTable:
+    """Tabulate the first contact time of each pair, by the bound and, where requested, exactly, and its depth."""
+    has_exact_times = any(contact.exact_time is not None for contact in contacts)
+    rows = [
+        [
+            contact.link,
+            contact.object,
+            format_significant(contact.time),
+            *([_format_exact_time(contact)] * has_exact_times),
+            format_significant(1000 * contact.depth),
+        ]
+        for contact in contacts
+    ]
+    return TextTable(["link", "touches", f"first at, {unit}", *(["exactly at"] * has_exact_times), "at most, mm deep"], rows)
 
 
-def _exact(contact: Contact) -> str:
+def _format_exact_time(contact: Contact) -> str:
     exact = contact.exact_time
-    return "" if exact is None else number(exact) if np.isfinite(exact) else "does not touch"
+    return "" if exact is None else format_significant(exact) if np.isfinite(exact) else "does not touch"

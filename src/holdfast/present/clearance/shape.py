@@ -1,40 +1,40 @@
-"""What the shape of an arm is taken to be and what is around it, for machines and for people."""
+"""Collision model of an arm and its surroundings, as JSON and as text."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.clearance.exact.sharper import Sharper
-from holdfast.words import counted
+from holdfast.clearance.exact.sharper import ExactClearance
+from holdfast.words import format_count
 
 if TYPE_CHECKING:
     from holdfast.cell.cell import Cell
     from holdfast.clearance.clearance import Clearance
 
 
-def shape_summary(clearance: Clearance, margin: float) -> dict[str, Any]:
-    """What the arm and its cell are taken to be, for machines."""
+def summarize_shape(clearance: Clearance, margin: float) -> dict[str, Any]:
+    """Return the collision model of the arm and its cell as JSON data."""
     arm, capsules = clearance.arm, clearance.capsules
     radius = capsules.radius_along(arm)
-    given = "given" if radius is None else "assumed radius" if capsules.assumed(arm) else "given radius"
-    source = "cover" if capsules.covers else given
+    capsule_origin = "given" if radius is None else "assumed radius" if capsules.assumed(arm) else "given radius"
+    source = "cover" if capsules.covers else capsule_origin
     return {
         "capsules": source,
         "radius_m": radius,
         "description": capsules.describe(arm),
         "margin_m": margin,
         "pairs_checked": clearance.pair_names,
-        "pairs_not_checked": {p.name: p.reason for p in clearance.ignored},
-        "cell": None if clearance.cell is None else cell_summary(clearance.cell) | _exact(clearance),
+        "pairs_not_checked": {pair.name: pair.reason for pair in clearance.ignored},
+        "cell": None if clearance.cell is None else summarize_cell(clearance.cell) | _exact_entries(clearance),
     }
 
 
-def _exact(clearance: Clearance) -> dict[str, Any]:
-    return {"distances": "exact", "by": clearance.exact_by} if isinstance(clearance, Sharper) else {}
+def _exact_entries(clearance: Clearance) -> dict[str, Any]:
+    return {"distances": "exact", "by": clearance.exact_by} if isinstance(clearance, ExactClearance) else {}
 
 
-def cell_summary(cell: Cell) -> dict[str, Any]:
-    """What is around the arm, for machines; its distances are lower bounds."""
+def summarize_cell(cell: Cell) -> dict[str, Any]:
+    """Return the cell around the arm as JSON data; its distances are lower bounds."""
     return {
         "name": cell.name,
         "sha256": cell.digest,
@@ -44,14 +44,14 @@ def cell_summary(cell: Cell) -> dict[str, Any]:
     }
 
 
-def cell_text(cell: Cell, distances: str = "distances from it are lower bounds") -> str:
-    """What is around the arm, for people."""
-    return f"cell '{cell.name}' with {counted(len(cell), 'object')} ({cell.digest[:12]}), {distances}"
+def describe_cell(cell: Cell, distances: str = "distances from it are lower bounds") -> str:
+    """Describe the cell around the arm in a phrase."""
+    return f"cell '{cell.name}' with {format_count(len(cell), 'object')} ({cell.digest[:12]}), {distances}"
 
 
-def shape_text(clearance: Clearance, margin: float) -> str:
-    """What the arm and its cell are taken to be, in brackets after a sentence."""
-    exact = [f"small distances from it are exact ({clearance.exact_by})"] if isinstance(clearance, Sharper) else []
-    around = "" if clearance.cell is None else f"; {cell_text(clearance.cell, *exact)}"
-    wanted = f"; margin {margin:g} m" if margin else ""
-    return f"capsules: {clearance.capsules.describe(clearance.arm)}{around}{wanted}"
+def describe_shape(clearance: Clearance, margin: float) -> str:
+    """Describe the collision model of the arm and its cell, for brackets after a sentence."""
+    exact_note = [f"small distances from it are exact ({clearance.exact_by})"] if isinstance(clearance, ExactClearance) else []
+    cell_note = "" if clearance.cell is None else f"; {describe_cell(clearance.cell, *exact_note)}"
+    margin_note = f"; margin {margin:g} m" if margin else ""
+    return f"capsules: {clearance.capsules.describe(clearance.arm)}{cell_note}{margin_note}"

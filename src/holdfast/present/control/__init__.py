@@ -1,1 +1,1 @@
-"""Pictures of what controllers trade."""
+"""Reports and figures of control laws."""

@@ -1,4 +1,4 @@
-"""A trade-off in numbers and words."""
+"""Text, tables, and JSON of a trade-off."""
 
 from __future__ import annotations
 
@@ -6,23 +6,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.control.trade_offs import QUANTILES, TradeOff
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import percent
+from holdfast.control.trade_offs import QUANTILE_LEVELS, TradeOff
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import format_percent
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-_NOTHING, _LEVEL = 0.005, 1e-3  # less than this gain is none; differences that nobody would pay for
+_NEGLIGIBLE_GAIN, _PLATEAU_TOLERANCE = 0.005, 1e-3  # less than this gain is none; differences that nobody would pay for
 
 
 def to_dict(curve: TradeOff) -> dict[str, Any]:
-    """Quantiles of each measure over the samples, against the allowed errors."""
-    told: dict[str, Any] = {}
+    """Return quantiles of each measure over the samples, against the allowed errors."""
+    measures: dict[str, Any] = {}
     for name in ("gain", "healthy_error", "peak_error"):
-        told[name] = {f"q{round(100 * x):02d}": row for x, row in zip(QUANTILES, curve.quantiles(name), strict=True)}
-        told[name]["median_95_percent_interval"] = curve.median_interval(name).T
+        measures[name] = {
+            f"q{round(100 * level):02d}": row for level, row in zip(QUANTILE_LEVELS, curve.quantiles(name), strict=True)
+        }
+        measures[name]["median_95_percent_interval"] = curve.median_interval(name).T
     return {
         **curve.arm.entry(),
         "task": curve.task.name,
@@ -30,43 +32,48 @@ def to_dict(curve: TradeOff) -> dict[str, Any]:
         "samples": len(curve.gain),
         "seed": curve.seed,
         "pre_failure_error": curve.allowed,
-        **told,
+        **measures,
     }
 
 
-def key_table(curve: TradeOff) -> Rows:
-    """A row for each allowed error, medians over the samples."""
+def key_table(curve: TradeOff) -> TextTable:
+    """Tabulate medians over the samples, one row for each allowed error."""
     columns = (curve.allowed, np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0))
-    rows = [[f"{e:.2f}", f"{gain:.3f}", f"{paid:.3f}"] for e, gain, paid in zip(*columns, strict=True)]
-    return Rows(["allowed error", "peak error after a lock, by the pseudoinverse's", "error of the healthy arm"], rows)
+    rows = [
+        [f"{allowed:.2f}", f"{gain:.3f}", f"{healthy_error:.3f}"] for allowed, gain, healthy_error in zip(*columns, strict=True)
+    ]
+    return TextTable(["allowed error", "peak error after a lock, by the pseudoinverse's", "error of the healthy arm"], rows)
 
 
-def story(curve: TradeOff) -> Story:
-    """What an error of the healthy arm gains after an unnoticed lock, where half of it is gained."""
-    middle, paid = np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0)
-    low, high = curve.median_interval()
-    best = int((middle <= middle.min() + _LEVEL).argmax())  # of a plateau the first
-    gained = 1 - middle[best]
-    if gained < _NOTHING:
+def story(curve: TradeOff) -> PageContent:
+    """Compose the report: the gain after an unnoticed lock for an error of the healthy arm, at half of the largest gain."""
+    median_gain, healthy_error = np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0)
+    lower, upper = curve.median_interval()
+    best_index = int((median_gain <= median_gain.min() + _PLATEAU_TOLERANCE).argmax())  # of a plateau the first
+    largest_gain = 1 - median_gain[best_index]
+    if largest_gain < _NEGLIGIBLE_GAIN:
         answer = (
             f"No velocity error of the healthy arm gains anything after an unnoticed lock: the "
             f"median peak error stays that of the pseudoinverse, up to an allowed error of {curve.allowed[-1]:.2g}."
         )
         facts = [(f"{curve.allowed[-1]:.2g}", "largest error that was allowed, of the commanded speed")]
     else:
-        k = int((1 - middle >= gained / 2).argmax())
+        half_index = int((1 - median_gain >= largest_gain / 2).argmax())
         answer = (
-            f"An error of {curve.allowed[k]:.2g} of the commanded speed, allowed while the arm "
-            f"is healthy, takes {percent(1 - middle[k])} off the median peak error after an unnoticed "
-            f"lock; the most that was found is {percent(gained)}, for {curve.allowed[best]:.2g}."
+            f"An error of {curve.allowed[half_index]:.2g} of the commanded speed, allowed while the arm "
+            f"is healthy, takes {format_percent(1 - median_gain[half_index])} off the median peak error after an unnoticed "
+            f"lock; the most that was found is {format_percent(largest_gain)}, for {curve.allowed[best_index]:.2g}."
         )
-        sure = f"{percent(max(1 - high[k], 0))} to {percent(1 - low[k])}, 95 %"
+        interval_text = f"{format_percent(max(1 - upper[half_index], 0))} to {format_percent(1 - lower[half_index])}, 95 %"
         facts = [
-            (percent(1 - middle[k]), f"less peak error for an allowed error of {curve.allowed[k]:.2g}, median; {sure}"),
-            (percent(paid[k]), "of the speed is what the healthy arm then pays, median"),
-            (percent(gained), f"less, the most there is, for {curve.allowed[best]:.2g}"),
+            (
+                format_percent(1 - median_gain[half_index]),
+                f"less peak error for an allowed error of {curve.allowed[half_index]:.2g}, median; {interval_text}",
+            ),
+            (format_percent(healthy_error[half_index]), "of the speed is what the healthy arm then pays, median"),
+            (format_percent(largest_gain), f"less, the most there is, for {curve.allowed[best_index]:.2g}"),
         ]
-    return Story(
+    return PageContent(
         f"What {curve.arm.name} gains from an error before a failure",
         answer,
         about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
@@ -93,16 +100,16 @@ def story(curve: TradeOff) -> Story:
 
 
 def next_steps(curve: TradeOff, name: str) -> list[str]:
-    """The law that spends such an error."""
+    """Suggest the control law that uses such an error."""
     allowed = float(curve.allowed[len(curve.allowed) // 2])
     return [f"law = hf.control.failure_tolerant({name}.arm, {name}.task, {allowed:.2g})  # spends that much"]
 
 
 def show(curve: TradeOff, out: Console) -> None:
-    """A row for each allowed error."""
+    """Print a row for each allowed error."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
     out.print(
         f"Arm {escape(curve.arm.title)}, task {escape(curve.task.describe())}: {len(curve.gain)} random configurations and "
@@ -114,14 +121,14 @@ def show(curve: TradeOff, out: Console) -> None:
         soft_wrap=True,
     )
     columns = ("allowed", "peak: median (95%)", "5 to 95 % of samples", "healthy: median")
-    table = Grid(*columns)
-    (low, high), (q05, middle, q95) = curve.median_interval(), curve.quantiles(levels=(0.05, 0.5, 0.95))
-    paid = np.median(curve.healthy_error, axis=0)
-    for k, e in enumerate(curve.allowed):
+    table = BandedTable(*columns)
+    (lower, upper), (low_quantile, middle, high_quantile) = curve.median_interval(), curve.quantiles(levels=(0.05, 0.5, 0.95))
+    healthy_error = np.median(curve.healthy_error, axis=0)
+    for index, allowed in enumerate(curve.allowed):
         table.add_row(
-            f"{e:.2f}",
-            f"[bold]{middle[k]:.3f}[/] ({low[k]:.3f} to {high[k]:.3f})",
-            f"{q05[k]:.3f} to {q95[k]:.3f}",
-            f"{paid[k]:.3f}",
+            f"{allowed:.2f}",
+            f"[bold]{middle[index]:.3f}[/] ({lower[index]:.3f} to {upper[index]:.3f})",
+            f"{low_quantile[index]:.3f} to {high_quantile[index]:.3f}",
+            f"{healthy_error[index]:.3f}",
         )
     out.print(table)

@@ -1,13 +1,13 @@
-"""A control law, as a notebook shows it."""
+"""Notebook view of a control law."""
 
 from __future__ import annotations
 
 from holdfast.control.law import Law
-from holdfast.present.printing import Rows
+from holdfast.present.printing import TextTable
 
 
-def key_table(law: Law) -> Rows:
-    """What it commands, and where that is from."""
+def key_table(law: Law) -> TextTable:
+    """Tabulate the law with its arm, task, gain, speed limit, and source."""
     limit = "none" if law.speed_limit is None else f"{law.speed_limit:g} m/s"
     rows = [
         ["arm", law.arm.title],
@@ -17,11 +17,11 @@ def key_table(law: Law) -> Rows:
         ["speed limit", limit],
         ["source", law.source or "not given"],
     ]
-    return Rows(["", ""], rows)
+    return TextTable(["", ""], rows)
 
 
 def next_steps(law: Law, name: str) -> list[str]:
-    """How often it reaches its target with a joint locked, and its C code."""
+    """Suggest a convergence map with a joint locked, and the C code of the law."""
     return [
         f"hf.convergence_map({name}, 5, 4, configurations=1)  # how often it reaches its target after a lock",
         f'{name}.export_c("controller")  # for the robot\'s own controller',

@@ -1,1 +1,1 @@
-"""Pages and figures of maps, measures and comparisons of laws."""
+"""Reports and figures of convergence maps, measures, and comparisons of control laws."""

@@ -1,4 +1,4 @@
-"""The best law: numbers, the laws side by side, and the map of each."""
+"""Numbers of the choice of a law, a comparison of the laws, and the convergence map of each."""
 
 from __future__ import annotations
 
@@ -8,75 +8,100 @@ from typing import TYPE_CHECKING, Any
 from holdfast.convergence.law_choice import LawChoice
 from holdfast.present import results
 from holdfast.present.convergence import maps
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import capitalised, counted, percent
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first, format_count, format_percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_SHORT = 24  # letters of a title
+_MAX_TITLE_LENGTH = 24  # letters of a title
 
 
 def to_dict(choice: LawChoice) -> dict[str, Any]:
-    """The best law, and the map of each."""
-    return {"best": choice.best, "laws": list(choice.names), "maps": [maps.to_dict(one) for one in choice.maps]}
+    """Return the best law, and the map of each law, as JSON data."""
+    return {"best": choice.best, "laws": list(choice.names), "maps": [maps.to_dict(law_map) for law_map in choice.maps]}
 
 
-def key_table(choice: LawChoice) -> Rows:
-    """How often each law converges, the best first."""
-    found = {name: choice.share(name) for name in choice.ranking}
-    rows = [[name, f"{100 * s.value:.1f} % ({100 * s.low:.1f} to {100 * s.high:.1f})"] for name, s in found.items()]
-    head = ["law", "converges after a lock, 95 %"]
+def key_table(choice: LawChoice) -> TextTable:
+    """Return how often each law converges, the best first."""
+    shares = {name: choice.share(name) for name in choice.ranking}
+    table_rows = [
+        [name, f"{100 * share.value:.1f} % ({100 * share.low:.1f} to {100 * share.high:.1f})"] for name, share in shares.items()
+    ]
+    header = ["law", "converges after a lock, 95 %"]
     if choice.maps[0].touched is None:
-        return Rows(head, rows)
-    touched = [percent(choice.share(name, outcome="touched").value) for name in found]
-    return Rows([*head, "touches something, at most"], [[*row, text] for row, text in zip(rows, touched, strict=True)])
+        return TextTable(header, table_rows)
+    touched = [format_percent(choice.share(name, outcome="touched").value) for name in shares]
+    return TextTable(
+        [*header, "touches something, at most"],
+        [[*row, touched_text] for row, touched_text in zip(table_rows, touched, strict=True)],
+    )
 
 
-def story(choice: LawChoice) -> Story:
-    """Which law reaches the target most often, and how sure that is."""
-    first = choice.maps[0]
-    arm, best, shares = first.law.arm, choice.best, {name: choice.share(name) for name in choice.ranking}
-    title, p = f"The law with which {arm.name} reaches its targets most often", shares[best]
-    failures = int(first.known.sum()) * arm.n
-    if not p.value:
+def story(choice: LawChoice) -> PageContent:
+    """Compose the report: the law that reaches the target most often, and the confidence in that."""
+    first_map = choice.maps[0]
+    arm, best_law, shares = first_map.law.arm, choice.best, {name: choice.share(name) for name in choice.ranking}
+    title, probability = f"The law with which {arm.name} reaches its targets most often", shares[best_law]
+    failures = int(first_map.known.sum()) * arm.n
+    if not probability.value:
         answer = (
-            f"Under none of the {len(shares)} laws a target is reached after a lock; at most {percent(p.high)} would be, 95 %."
+            f"Under none of the {len(shares)} laws a target is reached after a lock; at most "
+            f"{format_percent(probability.high)} would be, 95 %."
         )
     else:
         answer = (
-            f"After an unnoticed lock {best} reaches the target most often, in "
-            f"{percent(p.value)} of {counted(failures, 'failure')}"
+            f"After an unnoticed lock {best_law} reaches the target most often, in "
+            f"{format_percent(probability.value)} of {format_count(failures, 'failure')}"
         )
-    facts = [(percent(p.value), f"with {best}; {percent(p.low)} to {percent(p.high)}, 95 %")] if p.value else []
-    if p.value and len(shares) > 1:
-        second = choice.ranking[1]
-        d = choice.difference(best, second)
-        points = f"{100 * d.value:.1f} percentage points"
-        if d.low > 0:
-            answer += f"; {points} more than {second} ({100 * d.low:.1f} to {100 * d.high:.1f}, 95 %)."
+    facts = (
+        [
+            (
+                format_percent(probability.value),
+                f"with {best_law}; {format_percent(probability.low)} to {format_percent(probability.high)}, 95 %",
+            )
+        ]
+        if probability.value
+        else []
+    )
+    if probability.value and len(shares) > 1:
+        runner_up = choice.ranking[1]
+        difference = choice.difference(best_law, runner_up)
+        points = f"{100 * difference.value:.1f} percentage points"
+        if difference.low > 0:
+            answer += f"; {points} more than {runner_up} ({100 * difference.low:.1f} to {100 * difference.high:.1f}, 95 %)."
         else:
             answer += (
-                f"; that it is more than with {second} ({percent(shares[second].value)}) cannot be told from these failures."
+                f"; that it is more than with {runner_up} ({format_percent(shares[runner_up].value)}) cannot be "
+                f"told from these failures."
             )
-        facts += [(percent(shares[second].value), f"with {second}, the next")] if shares[second].value else []
-        last = choice.ranking[-1]
-        facts += [(percent(shares[last].value), f"with {last}, the last")] if len(shares) > 2 and shares[last].value else []
-    elif p.value:
-        answer += "."
-    if first.touched is not None:
-        some = choice.share(best, outcome="touched").value
-        answer += f" With {best} {f'at most {percent(some)}' if some else 'none'} of the motions touch something on the way."
+        facts += [(format_percent(shares[runner_up].value), f"with {runner_up}, the next")] if shares[runner_up].value else []
+        last_law = choice.ranking[-1]
         facts += (
-            [(percent(some), f"of the motions touch something at most, with {best}; a real arm would stop")] if some else []
+            [(format_percent(shares[last_law].value), f"with {last_law}, the last")]
+            if len(shares) > 2 and shares[last_law].value
+            else []
         )
-    return Story(
+    elif probability.value:
+        answer += "."
+    if first_map.touched is not None:
+        touched = choice.share(best_law, outcome="touched").value
+        answer += (
+            f" With {best_law} {f'at most {format_percent(touched)}' if touched else 'none'} of the motions touch "
+            f"something on the way."
+        )
+        facts += (
+            [(format_percent(touched), f"of the motions touch something at most, with {best_law}; a real arm would stop")]
+            if touched
+            else []
+        )
+    return PageContent(
         title,
         answer,
-        about=f"{arm.name}, task {first.law.task.describe()}",
+        about=f"{arm.name}, task {first_map.law.task.describe()}",
         facts=facts,
-        lines=[f"{capitalised(line)}." for line in choice.describe()[1:]],
+        lines=[f"{capitalise_first(line)}." for line in choice.describe()[1:]],
         figures={
             "laws": (
                 "How the motions end under each law",
@@ -85,28 +110,31 @@ def story(choice: LawChoice) -> Story:
         },
         tables=[key_table(choice)],
         method=[
-            *((f"Law {k + 1}", one.law.describe()) for k, one in enumerate(choice.maps)),
-            *maps.story(first).method[1:],
+            *((f"Law {index + 1}", law_map.law.describe()) for index, law_map in enumerate(choice.maps)),
+            *maps.story(first_map).method[1:],
         ],
         arm=arm,
     )
 
 
 def next_steps(choice: LawChoice, name: str) -> list[str]:
-    """How sure the ranking is."""
-    sure = [f"{name}.difference(*{name}.ranking[:2])  # how sure that is"] if len(choice.names) > 1 else []
-    return [*sure, f"{name}.map_of({name}.best)"]
+    """Suggest the confidence in the ranking and the map of the best law."""
+    steps = [f"{name}.difference(*{name}.ranking[:2])  # how sure that is"] if len(choice.names) > 1 else []
+    return [*steps, f"{name}.map_of({name}.best)"]
 
 
 def figures(choice: LawChoice) -> dict[str, Figure]:
-    """``laws``: how the motions ended with each joint locked, law by law."""
-    titles = [name if len(name) <= _SHORT else one.law.label for name, one in zip(choice.names, choice.maps, strict=True)]
-    return {"laws": maps.outcomes_figure(choice.maps, titles)}
+    """Draw ``laws``, the outcomes of the motions with each joint locked, law by law."""
+    titles = [
+        name if len(name) <= _MAX_TITLE_LENGTH else law_map.law.label
+        for name, law_map in zip(choice.names, choice.maps, strict=True)
+    ]
+    return {"laws": maps.draw_map_outcomes(choice.maps, titles)}
 
 
 def save(choice: LawChoice, folder: Path, command: str = "") -> list[Path]:
-    """The figure and the page, and a folder with the map of each law."""
+    """Save the figure, the report, and a folder with the map of each law."""
     files = results.save(choice, folder, command, dpi=130)
-    for k, one in enumerate(choice.maps):
-        files += maps.save(one, folder / f"{k + 1}-{one.law.slug}")
+    for index, law_map in enumerate(choice.maps):
+        files += maps.save(law_map, folder / f"{index + 1}-{law_map.law.slug}")
     return files

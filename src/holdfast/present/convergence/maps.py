@@ -1,4 +1,4 @@
-"""A convergence map: numbers, figures and files."""
+"""Numbers, figures and files of a convergence map."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from holdfast.convergence.maps import ConvergenceMap
 from holdfast.convergence.table import save_places
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.present import results
-from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.convergence.places import panels
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import capitalised, counted, percent
+from holdfast.present.clearance.shape import describe_shape, summarize_shape
+from holdfast.present.convergence.places import prepare_place_maps
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first, format_count, format_percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_ENDS = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
-_ENDINGS = (
+_END_PHRASES = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
+_ENDING_LABELS = (
     "converges",
     "not there, target in reach",
     "stuck, target out of reach",
@@ -38,116 +38,152 @@ _ENDINGS = (
 )
 
 
-def to_dict(m: ConvergenceMap) -> dict[str, Any]:
-    """Facts of a map as JSON types."""
+def to_dict(result: ConvergenceMap) -> dict[str, Any]:
+    """Return the contents of a convergence map as JSON data."""
     shares: dict[str, Any] = {}
-    for word in m.words:
-        shares[word] = {name: {"fraction": s.value, "low": s.low, "high": s.high} for name, s in m.shares(word).items()}
+    for outcome in result.words:
+        shares[outcome] = {
+            name: {"fraction": share.value, "low": share.low, "high": share.high}
+            for name, share in result.shares(outcome).items()
+        }
     return {
-        **m.law.arm.entry(),
-        "law": m.law.describe(),
-        "task": m.law.task.name,
-        "over": m.over,
-        "places": len(m.places),
-        "places_with_motions": int(m.known.any(axis=1).sum()),
-        "motions": int(m.known.sum()),
-        "seed": m.seed,
-        "undecided_runs": m.undecided(),
+        **result.law.arm.entry(),
+        "law": result.law.describe(),
+        "task": result.law.task.name,
+        "over": result.over,
+        "places": len(result.places),
+        "places_with_motions": int(result.known.any(axis=1).sum()),
+        "motions": int(result.known.sum()),
+        "seed": result.seed,
+        "undecided_runs": result.undecided(),
         "confidence": 0.95,
-        "limits_passed_fraction": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
+        "limits_passed_fraction": dict(
+            zip(result.columns, result.limits_passed[result.known].mean(axis=0).tolist(), strict=True)
+        ),
         "fractions": shares,
-    } | ({} if m.clearance is None else {"clearance": shape_summary(m.clearance, 0.0)})
+    } | ({} if result.clearance is None else {"clearance": summarize_shape(result.clearance, 0.0)})
 
 
-def key_table(m: ConvergenceMap) -> Rows:
-    """How often the motions converge with each joint locked."""
-    if not m.known.any():
-        return Rows(["", ""], [["motions", "none"]])
-    converged, trapped = m.shares("converged"), m.shares("trapped")
+def key_table(result: ConvergenceMap) -> TextTable:
+    """Return how often the motions converge with each joint locked."""
+    if not result.known.any():
+        return TextTable(["", ""], [["motions", "none"]])
+    converged, trapped = result.shares("converged"), result.shares("trapped")
     cells = [
-        [name, f"{100 * s.value:.1f} % ({100 * s.low:.1f} to {100 * s.high:.1f})", f"{100 * trapped[name].value:.1f} %"]
-        for name, s in converged.items()
+        [
+            name,
+            f"{100 * share.value:.1f} % ({100 * share.low:.1f} to {100 * share.high:.1f})",
+            f"{100 * trapped[name].value:.1f} %",
+        ]
+        for name, share in converged.items()
     ]
-    return Rows(["locked", "converged, 95 %", "not there, target in reach"], cells)
+    return TextTable(["locked", "converged, 95 %", "not there, target in reach"], cells)
 
 
-def story(m: ConvergenceMap) -> Story:
-    """How often the target is still reached, after which lock least often, and how the others end."""
-    law, over = m.law, m.over
+def story(result: ConvergenceMap) -> PageContent:
+    """Compose the report: how often the target is still reached, the lock with the fewest successes, and the other outcomes."""
+    law, place_noun = result.law, result.over
     title = (
-        f"Starts from which {law.arm.name} reaches its target" if over == "starts" else f"Targets that {law.arm.name} reaches"
+        f"Starts from which {law.arm.name} reaches its target"
+        if place_noun == "starts"
+        else f"Targets that {law.arm.name} reaches"
     )
     title += " after a lock that its controller does not know of"
-    asked = f"{law.arm.name}, {law.describe()}"
-    if not m.known.any():
-        why = (
-            f"No configuration was found at any of the {counted(len(m.places), over[:-1])}, so no "
+    subject = f"{law.arm.name}, {law.describe()}"
+    if not result.known.any():
+        explanation = (
+            f"No configuration was found at any of the {format_count(len(result.places), place_noun[:-1])}, so no "
             f"motion was made; choose places within reach."
         )
-        return Story(title, why, about=asked, method=_method(m), arm=law.arm)
-    converged, trapped = m.shares("converged"), m.shares("trapped")
-    *joints, none = converged
+        return PageContent(title, explanation, about=subject, method=_list_method_facts(result), arm=law.arm)
+    converged, trapped = result.shares("converged"), result.shares("trapped")
+    *joints, healthy = converged
     values = np.array([converged[name].value for name in joints])
-    mean, worst, caught = float(values.mean()), joints[int(values.argmin())], float(np.mean([trapped[x].value for x in joints]))
-    if not mean:
-        ends = {word: float(np.mean([s.value for name, s in m.shares(word).items() if name != none])) for word in _ENDS}
-        end = max(ends, key=lambda x: ends[x])
-        answer = f"No motion reaches its target once a joint has locked: {percent(ends[end])} of them {_ENDS[end]}"
+    mean_success, worst_joint, trapped_mean = (
+        float(values.mean()),
+        joints[int(values.argmin())],
+        float(np.mean([trapped[x].value for x in joints])),
+    )
+    if not mean_success:
+        fractions = {
+            outcome: float(np.mean([share.value for name, share in result.shares(outcome).items() if name != healthy]))
+            for outcome in _END_PHRASES
+        }
+        ending = max(fractions, key=lambda x: fractions[x])
+        answer = (
+            f"No motion reaches its target once a joint has locked: {format_percent(fractions[ending])} of them "
+            f"{_END_PHRASES[ending]}"
+        )
     else:
-        answer = f"Once a joint has locked and nobody knows, {percent(mean)} of the motions reach their target"
+        answer = f"Once a joint has locked and nobody knows, {format_percent(mean_success)} of the motions reach their target"
         answer += (
-            f"; a lock of {worst} leaves the least, {_often(float(values.min()))}"
+            f"; a lock of {worst_joint} leaves the least, {_format_fraction(float(values.min()))}"
             if np.ptp(values)
             else " whichever joint it is"
         )
-    answer += f". With no joint locked {_often(converged[none].value)} do."
-    facts = [(percent(mean), "of the motions reach their target, mean over the joint that locks")] if mean else []
+    answer += f". With no joint locked {_format_fraction(converged[healthy].value)} do."
+    facts = (
+        [(format_percent(mean_success), "of the motions reach their target, mean over the joint that locks")]
+        if mean_success
+        else []
+    )
     if np.ptp(values) and values.min():
-        w = converged[worst]
+        lowest = converged[worst_joint]
         facts.append(
-            (percent(w.value), f"once {worst} has locked, the worst of them; {percent(w.low)} to {percent(w.high)}, 95 %")
+            (
+                format_percent(lowest.value),
+                f"once {worst_joint} has locked, the worst of them; {format_percent(lowest.low)} to "
+                f"{format_percent(lowest.high)}, 95 %",
+            )
         )
-    facts += [(percent(converged[none].value), "with no joint locked")] if converged[none].value else []
-    facts += [(percent(caught), "do not get there although the target is still within reach")] if caught else []
-    if m.touched is not None:
-        touched = m.shares("touched")
-        some = float(np.mean([touched[name].value for name in joints]))
-        said = "of the motions touch something on the way at most, mean over the joint that locks, and a real arm would stop"
-        facts += [(percent(some), said)] if some else []
-        answer += f" On the way {percent(some) if some else 'none'} of those with a joint locked touch something."
-    return Story(
+    facts += [(format_percent(converged[healthy].value), "with no joint locked")] if converged[healthy].value else []
+    facts += (
+        [(format_percent(trapped_mean), "do not get there although the target is still within reach")] if trapped_mean else []
+    )
+    if result.touched is not None:
+        touched = result.shares("touched")
+        touched_mean = float(np.mean([touched[name].value for name in joints]))
+        touched_text = (
+            "of the motions touch something on the way at most, mean over the joint that locks, and a real arm would stop"
+        )
+        facts += [(format_percent(touched_mean), touched_text)] if touched_mean else []
+        answer += (
+            f" On the way {format_percent(touched_mean) if touched_mean else 'none'} of those with a joint locked "
+            f"touch something."
+        )
+    return PageContent(
         title,
         answer,
-        about=asked,
+        about=subject,
         facts=facts,
-        lines=[f"{capitalised(m.describe()[-1])}."] if sum(m.undecided().values()) else [],
+        lines=[f"{capitalise_first(result.describe()[-1])}."] if sum(result.undecided().values()) else [],
         figures={
             "outcomes": (
                 "How the motions end",
                 "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals.",
             ),
             **{
-                f"map{view}": ("Where", f"The {over} by what becomes of their motions, joint by joint.")
+                f"map{view}": ("Where", f"The {place_noun} by what becomes of their motions, joint by joint.")
                 for view in ("", "-top", "-side")
             },
         },
-        method=_method(m),
+        method=_list_method_facts(result),
         arm=law.arm,
     )
 
 
-def _often(fraction: float) -> str:
-    return {0.0: "none", 1.0: "all"}.get(fraction, percent(fraction))
+def _format_fraction(fraction: float) -> str:
+    return {0.0: "none", 1.0: "all"}.get(fraction, format_percent(fraction))
 
 
-def _method(m: ConvergenceMap) -> list[tuple[str, str]]:
-    places, motions = int(m.known.any(axis=1).sum()), int(m.known.sum())
+def _list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
+    places, motions = int(result.known.any(axis=1).sum()), int(result.known.sum())
     return [
-        ("Law", m.law.describe()),
+        ("Law", result.law.describe()),
         (
             "Motions",
             (
-                f"{motions:,} between {places:,} of {counted(len(m.places), m.over[:-1])} and their "
+                f"{motions:,} between {places:,} of {format_count(len(result.places), result.over[:-1])} and their "
                 f"counterparts, each with every joint locked and with none"
             ),
         ),
@@ -156,93 +192,109 @@ def _method(m: ConvergenceMap) -> list[tuple[str, str]]:
             "the arm reached it, or a configuration within the limits was found with the joint locked as it is",
         ),
         ("Intervals", "95 %; the unit is the place, whose motions resemble each other"),
-        *([] if m.clearance is None else [("Contacts", f"reported, not enforced; {shape_text(m.clearance, 0.0)}")]),
-        ("Seed", str(m.seed)),
+        *(
+            []
+            if result.clearance is None
+            else [("Contacts", f"reported, not enforced; {describe_shape(result.clearance, 0.0)}")]
+        ),
+        ("Seed", str(result.seed)),
     ]
 
 
-def tables(m: ConvergenceMap) -> list[Rows]:
-    """How the motions end with each joint locked."""
-    if not m.known.any():
+def tables(result: ConvergenceMap) -> list[TextTable]:
+    """Return how the motions end with each joint locked."""
+    if not result.known.any():
         return []
-    ends = {word: m.shares(word) for word in m.words if word != "in_reach"}
-    rows = []
-    for name in m.columns:
-        whole, *parts = (f"{100 * end[name].value:.1f} %" for end in ends.values())
-        rows.append(
-            [name, whole, f"{100 * ends['converged'][name].low:.1f} to {100 * ends['converged'][name].high:.1f}", *parts]
+    shares = {outcome: result.shares(outcome) for outcome in result.words if outcome != "in_reach"}
+    table_rows = []
+    for name in result.columns:
+        converged, *other_cells = (f"{100 * outcome_shares[name].value:.1f} %" for outcome_shares in shares.values())
+        table_rows.append(
+            [
+                name,
+                converged,
+                f"{100 * shares['converged'][name].low:.1f} to {100 * shares['converged'][name].high:.1f}",
+                *other_cells,
+            ]
         )
-    head = ["locked", "converged", "95 % interval", "stuck", "moving", "undecided", "not there, in reach"]
-    return [Rows([*head, *(() if m.touched is None else ("touch something",))], rows)]
+    header = ["locked", "converged", "95 % interval", "stuck", "moving", "undecided", "not there, in reach"]
+    return [TextTable([*header, *(() if result.touched is None else ("touch something",))], table_rows)]
 
 
-def next_steps(m: ConvergenceMap, name: str) -> list[str]:
-    """The single motions, and the whole report."""
-    del m
+def next_steps(result: ConvergenceMap, name: str) -> list[str]:
+    """Suggest the single motions and the full report."""
+    del result
     return [f"{name}.to_xarray()  # every motion", f'{name}.report("map.html")']
 
 
-@says("writing the results")
-def save(m: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
-    """``map.csv`` (a line for each place), ``map.json``, the figures and the page."""
-    columns = ["motions", *(f"{word}_{name}" for word in m.words for name in m.columns)]
-    values = [m.known.sum(axis=1), *(m.values(word) for word in m.words)]
-    files = save_places(folder, "map", m.places, columns, values, m.to_dict())
-    return files + results.save(m, folder, command, dpi=130)
+@reports_progress("writing the results")
+def save(result: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
+    """Save ``map.csv`` (a line for each place), ``map.json``, the figures and the report."""
+    columns = ["motions", *(f"{outcome}_{name}" for outcome in result.words for name in result.columns)]
+    values = [result.known.sum(axis=1), *(result.values(outcome) for outcome in result.words)]
+    files = save_places(folder, "map", result.places, columns, values, result.to_dict())
+    return files + results.save(result, folder, command, dpi=130)
 
 
-def outcomes_figure(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
-    """A bar for each locked joint and each map: how the motions ended."""
+def draw_map_outcomes(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
+    """Draw how the motions ended, with a bar for each locked joint and each map."""
     from holdfast.report.outcomes import stack_figure
 
-    stacks = [_bars(title, m) for title, m in zip(titles, maps, strict=True)]
-    return stack_figure(stacks, _ENDINGS, "fraction of the motions", caption=_told(maps[0], len(maps)))
+    stacks = [_build_outcome_stack(title, convergence_map) for title, convergence_map in zip(titles, maps, strict=True)]
+    return stack_figure(stacks, _ENDING_LABELS, "fraction of the motions", caption=_compose_caption(maps[0], len(maps)))
 
 
-def _bars(title: str, m: ConvergenceMap) -> Stack:
+def _build_outcome_stack(title: str, result: ConvergenceMap) -> Stack:
     from holdfast.report.outcomes import Stack
 
-    names = [f"{name} locked" for name in m.columns[:-1]] + ["no joint locked"]
-    converged = m.shares("converged")
-    trapped = np.array([s.value for s in m.shares("trapped").values()])
-    there, low, high = (np.array([getattr(s, end) for s in converged.values()]) for end in ("value", "low", "high"))
-    stuck, moving = _far(m, "stuck"), _far(m, "moving")
+    bar_labels = [f"{name} locked" for name in result.columns[:-1]] + ["no joint locked"]
+    converged = result.shares("converged")
+    trapped = np.array([share.value for share in result.shares("trapped").values()])
+    converged_values, lower, upper = (
+        np.array([getattr(share, bound) for share in converged.values()]) for bound in ("value", "low", "high")
+    )
+    stuck, moving = _compute_unreachable_fractions(result, "stuck"), _compute_unreachable_fractions(result, "moving")
     return Stack(
         name=title,
-        bars=names,
-        shares=np.column_stack([there, trapped, stuck, moving, 1 - there - trapped - stuck - moving]),
-        low=low,
-        high=high,
+        bars=bar_labels,
+        shares=np.column_stack([converged_values, trapped, stuck, moving, 1 - converged_values - trapped - stuck - moving]),
+        low=lower,
+        high=upper,
     )
 
 
-def drawings(m: ConvergenceMap) -> Drawings:
-    """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
-    rows = {"converges": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
-    rows |= {} if m.touched is None else {"touches something": 100 * m.values("touched")}
-    rows = {name: v[:, :-1] for name, v in rows.items()}
-    target = m.target[m.known][:, :3, 3]
-    alone = m.over == "starts" and len(np.unique(target, axis=0)) == 1
-    maps = panels(
-        m.law.task,
-        m.places,
-        rows,
-        m.columns[:-1],
+def drawings(result: ConvergenceMap) -> Drawings:
+    """Return functions that draw ``outcomes``, bars for each joint, and ``map-top`` and ``map-side``, or ``map`` for a planar
+    task.
+    """
+    percentages = {"converges": 100 * result.values("converged"), "not there, in reach": 100 * result.values("trapped")}
+    percentages |= {} if result.touched is None else {"touches something": 100 * result.values("touched")}
+    percentages = {name: values[:, :-1] for name, values in percentages.items()}
+    target = result.target[result.known][:, :3, 3]
+    has_one_target = result.over == "starts" and len(np.unique(target, axis=0)) == 1
+    maps = prepare_place_maps(
+        result.law.task,
+        result.places,
+        percentages,
+        result.columns[:-1],
         "of the motions, percent",
-        f"{_told(m)}\nwhere the {m.over} are",
-        target[0] if alone else None,
+        f"{_compose_caption(result)}\nwhere the {result.over} are",
+        target[0] if has_one_target else None,
     )
-    return {"outcomes": partial(outcomes_figure, [m]), **{f"map{view}": draw for view, draw in maps.items()}}
+    return {"outcomes": partial(draw_map_outcomes, [result]), **{f"map{view}": draw_view for view, draw_view in maps.items()}}
 
 
-def _told(m: ConvergenceMap, laws: int = 1) -> str:
-    motions, places = int(m.known.sum()), len(m.places)
-    law = f"{laws} laws" if laws > 1 else m.law.name
-    return f"{m.law.arm.name}, {law}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
+def _compose_caption(result: ConvergenceMap, laws: int = 1) -> str:
+    motions, places = int(result.known.sum()), len(result.places)
+    law_text = f"{laws} laws" if laws > 1 else result.law.name
+    return (
+        f"{result.law.arm.name}, {law_text}, task {result.law.task.name}: {motions} motions over {places} "
+        f"{result.over}, seed {result.seed}"
+    )
 
 
-def _far(m: ConvergenceMap, word: str) -> Array:
-    """(n + 1,) fraction of the runs that ended so with the target out of reach, every place alike."""
-    some = m.known.any(axis=1)
-    runs = (m.happened(word) & ~m.in_reach)[some].sum(axis=1)
-    return np.asarray((runs / m.known[some].sum(axis=1)[:, None]).mean(axis=0))
+def _compute_unreachable_fractions(result: ConvergenceMap, outcome: str) -> Array:
+    """Compute the fraction (n + 1,) of runs with this outcome and the target out of reach, every place alike."""
+    has_motions = result.known.any(axis=1)
+    runs = (result.happened(outcome) & ~result.in_reach)[has_motions].sum(axis=1)
+    return np.asarray((runs / result.known[has_motions].sum(axis=1)[:, None]).mean(axis=0))

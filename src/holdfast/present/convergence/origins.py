@@ -1,4 +1,4 @@
-"""A workspace analysis: numbers, tables, figures and files."""
+"""Numbers, tables, figures and files of a workspace analysis."""
 
 from __future__ import annotations
 
@@ -8,15 +8,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.convergence.analysis import ENDS
+from holdfast.convergence.analysis import FAILURE_ENDS
 from holdfast.convergence.origins import Workspace
 from holdfast.convergence.table import save_places
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.present import results
-from holdfast.present.convergence.places import MEASURES, answer, figure_words, mean_rows, measure_maps, with_interval
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import capitalised, counted
+from holdfast.present.convergence.places import (
+    MEASURE_DEFINITIONS,
+    compose_answer,
+    describe_measure_maps,
+    format_with_interval,
+    prepare_measure_maps,
+    tabulate_means,
+)
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first, format_count
 
 if TYPE_CHECKING:
     from holdfast.present.results import Drawings
@@ -24,124 +31,144 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def to_dict(w: Workspace) -> dict[str, Any]:
-    """Facts of the analysis as JSON types; NaN is None."""
-    columns = w.columns
-    reached = w.configurations > 0
+def to_dict(workspace: Workspace) -> dict[str, Any]:
+    """Return the contents of the analysis as JSON data; NaN is None."""
+    columns = workspace.columns
+    reached = workspace.configurations > 0
     return {
-        **w.law.arm.entry(),
-        "law": w.law.describe(),
-        "task": w.law.task.name,
-        "target": w.target.tolist(),
-        "starts": len(w.places),
+        **workspace.law.arm.entry(),
+        "law": workspace.law.describe(),
+        "task": workspace.law.task.name,
+        "target": workspace.target.tolist(),
+        "starts": len(workspace.places),
         "starts_in_reach": int(reached.sum()),
-        "configurations": int(w.configurations.sum()),
-        "lost_at_singular_configurations": int(w.lost.sum()),
-        "method": w.method,
-        "relative_to": w.relative_to,
-        "bounds_rad": {name: [list(arc) for arc in arcs] for name, arcs in zip(columns[:-1], w.bounds, strict=True)},
-        "ends": dict(zip(ENDS, w.ends.sum(axis=0).tolist(), strict=True)),
-        "undecided_fraction": w.undecided,
-        "not_simulated_fraction": w.saved,
-        "mean_percent": {name: dict(zip(columns, v, strict=True)) for name, v in w.means().items()},
-        "mean_percent_95": {name: dict(zip(columns, v, strict=True)) for name, v in w.intervals().items()},
-        "starts_with_R100_full": _counts(w, w.reach.full >= 100 - 1e-9),
-        "starts_with_R100_none": _counts(w, w.reach.full == 0),
+        "configurations": int(workspace.configurations.sum()),
+        "lost_at_singular_configurations": int(workspace.lost.sum()),
+        "method": workspace.method,
+        "relative_to": workspace.relative_to,
+        "bounds_rad": {name: [list(arc) for arc in arcs] for name, arcs in zip(columns[:-1], workspace.bounds, strict=True)},
+        "ends": dict(zip(FAILURE_ENDS, workspace.ends.sum(axis=0).tolist(), strict=True)),
+        "undecided_fraction": workspace.undecided,
+        "not_simulated_fraction": workspace.saved,
+        "mean_percent": {name: dict(zip(columns, values, strict=True)) for name, values in workspace.means().items()},
+        "mean_percent_95": {name: dict(zip(columns, values, strict=True)) for name, values in workspace.intervals().items()},
+        "starts_with_R100_full": _count_by_column(workspace, workspace.reach.full >= 100 - 1e-9),
+        "starts_with_R100_none": _count_by_column(workspace, workspace.reach.full == 0),
     }
 
 
-def tables(w: Workspace) -> list[Rows]:
-    """Where each joint may lock, the means of the measures, and of samples what holds throughout."""
-    values = []
-    for joint, arcs in zip(w.law.arm.joints, w.bounds, strict=True):
+def tables(workspace: Workspace) -> list[TextTable]:
+    """Return the lock positions that each joint permits, the means of the measures, and for samples the starts that always
+    succeed.
+    """
+    bound_rows = []
+    for joint, arcs in zip(workspace.law.arm.joints, workspace.bounds, strict=True):
         factor, unit = joint.shown
-        told = ", ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
-        values.append([joint.name, told or "no value"])
-    sampled = w.method == "sampled"
-    found = [Rows(["joint", "target in reach with it at"], values), mean_rows(w, "the starts", sampled)]
+        arcs_text = ", ".join(f"{factor * lower:.2f} to {factor * upper:.2f} {unit}" for lower, upper in arcs)
+        bound_rows.append([joint.name, arcs_text or "no value"])
+    sampled = workspace.method == "sampled"
+    result_tables = [
+        TextTable(["joint", "target in reach with it at"], bound_rows),
+        tabulate_means(workspace, "the starts", sampled),
+    ]
     if sampled:
-        names = ["R100", "F100"] if w.ends.sum() else ["R100"]
-        rows = [
-            [column, *(with_interval(100 * i.value, 100 * i.low, 100 * i.high) for i in shares)]
-            for column, shares in zip(w.columns, zip(*map(w.throughout, names), strict=True), strict=True)
+        measure_names = ["R100", "F100"] if workspace.ends.sum() else ["R100"]
+        table_rows = [
+            [
+                column,
+                *(format_with_interval(100 * interval.value, 100 * interval.low, 100 * interval.high) for interval in shares),
+            ]
+            for column, shares in zip(
+                workspace.columns, zip(*map(workspace.throughout, measure_names), strict=True), strict=True
+            )
         ]
         title = "where all configurations that were drawn do, an upper bound for all that there are"
-        found.append(Rows(["joint", *(f"starts with {name} 100, percent" for name in names)], rows, title))
-    return found
+        result_tables.append(
+            TextTable(["joint", *(f"starts with {name} 100, percent" for name in measure_names)], table_rows, title)
+        )
+    return result_tables
 
 
-def story(w: Workspace) -> Story:
-    """On how much of the way the target stays within reach, and how often the failed arm gets there."""
-    nothing = (
-        f"None of the {counted(len(w.places), 'start')} has a configuration from which the "
+def story(workspace: Workspace) -> PageContent:
+    """Compose the report: the part of the path on which the target stays within reach, and how often the failed arm
+    reaches it.
+    """
+    no_start_text = (
+        f"None of the {format_count(len(workspace.places), 'start')} has a configuration from which the "
         f"target is reached; choose starts within reach."
     )
-    text, facts = answer(w, nothing)
-    how = {
+    text, facts = compose_answer(workspace, no_start_text)
+    method_texts = {
         "brute": "all failures simulated, from configurations equally far apart along the self-motion",
         "procedure": "simulated only where a sink exists; elsewhere the arm is taken to reach the target",
         "sampled": "random configurations, all failures simulated",
     }
-    return Story(
-        f"Starts from which {w.law.arm.name} still reaches a target when a joint locks on the way",
+    return PageContent(
+        f"Starts from which {workspace.law.arm.name} still reaches a target when a joint locks on the way",
         text,
-        about=f"{w.law.arm.name}, {w.law.describe()}",
+        about=f"{workspace.law.arm.name}, {workspace.law.describe()}",
         facts=facts,
-        lines=[f"{capitalised(line)}." for line in w.describe()[1:]],
-        figures=figure_words("starts"),
+        lines=[f"{capitalise_first(line)}." for line in workspace.describe()[1:]],
+        figures=describe_measure_maps("starts"),
         method=[
-            ("Law", w.law.describe()),
-            ("Target", ", ".join(f"{x:.4g}" for x in w.target[:3, 3]) + " m"),
+            ("Law", workspace.law.describe()),
+            ("Target", ", ".join(f"{coordinate:.4g}" for coordinate in workspace.target[:3, 3]) + " m"),
             (
                 "Starts",
                 (
-                    f"{int((w.configurations > 0).sum()):,} of {len(w.places):,} within reach, "
-                    f"{int(w.configurations.sum()):,} configurations"
+                    f"{int((workspace.configurations > 0).sum()):,} of {len(workspace.places):,} within reach, "
+                    f"{int(workspace.configurations.sum()):,} configurations"
                 ),
             ),
-            ("Failures", f"{how[w.method]}; {w.simulated:,} simulated"),
-            ("Measures", MEASURES),
+            ("Failures", f"{method_texts[workspace.method]}; {workspace.simulated:,} simulated"),
+            ("Measures", MEASURE_DEFINITIONS),
             ("Source", "Goel, Maciejewski, Balakrishnan 2005"),
         ],
-        arm=w.law.arm,
+        arm=workspace.law.arm,
     )
 
 
-def key_table(w: Workspace) -> Rows:
-    """The means of the measures."""
-    return mean_rows(w, "the starts", w.method == "sampled")
+def key_table(workspace: Workspace) -> TextTable:
+    """Return the means of the measures."""
+    return tabulate_means(workspace, "the starts", workspace.method == "sampled")
 
 
-def next_steps(w: Workspace, name: str) -> list[str]:
-    """The values of each place, and the whole report."""
-    del w
+def next_steps(workspace: Workspace, name: str) -> list[str]:
+    """Suggest the values of each place and the full report."""
+    del workspace
     return [f"{name}.to_xarray()  # place by place", f'{name}.report("workspace.html")']
 
 
-@says("writing the results")
-def save(w: Workspace, folder: Path, command: str = "") -> list[Path]:
-    """``workspace.csv``, ``workspace.json``, the figures and the page."""
-    columns = ["configurations", "lost", *ENDS, *(f"{name}_{column}_percent" for name in w.measures for column in w.columns)]
-    values = [w.configurations, w.lost, w.ends, *w.measures.values()]
-    files = save_places(folder, "workspace", w.places, columns, values, w.to_dict())
-    return files + results.save(w, folder, command, dpi=130)
+@reports_progress("writing the results")
+def save(workspace: Workspace, folder: Path, command: str = "") -> list[Path]:
+    """Save ``workspace.csv``, ``workspace.json``, the figures and the report."""
+    columns = [
+        "configurations",
+        "lost",
+        *FAILURE_ENDS,
+        *(f"{name}_{column}_percent" for name in workspace.measures for column in workspace.columns),
+    ]
+    values = [workspace.configurations, workspace.lost, workspace.ends, *workspace.measures.values()]
+    files = save_places(folder, "workspace", workspace.places, columns, values, workspace.to_dict())
+    return files + results.save(workspace, folder, command, dpi=130)
 
 
-def drawings(w: Workspace) -> Drawings:
-    """The maps of Fig. 10 by file name: ``reach``, and ``finish`` if failures were looked at.
+def drawings(workspace: Workspace) -> Drawings:
+    """Return functions that draw the maps of Fig. 10 by file name: ``reach``, and ``finish`` if failures were simulated.
 
     For tasks that are not in a plane ``reach-top`` and ``reach-side``, seen along z and along y, and ``finish`` likewise.
     """
     about = (
-        f"{w.law.arm.name}, {w.law.name}: {len(w.places)} starts, {int(w.configurations.sum())} configurations; grey: no value"
+        f"{workspace.law.arm.name}, {workspace.law.name}: {len(workspace.places)} starts, "
+        f"{int(workspace.configurations.sum())} configurations; grey: no value"
     )
     failures = ""
-    if w.ends.sum():
-        failures = f"{w.simulated} failures simulated, {100 * w.undecided:.2f} % undecided at the time limit"
-        if w.method == "procedure":
-            failures += f", {int(w.ends[:, -1].sum())} locked where no sink is"
-    return measure_maps(w.law, w.places, w.measures, about, failures, w.target[:3, 3])
+    if workspace.ends.sum():
+        failures = f"{workspace.simulated} failures simulated, {100 * workspace.undecided:.2f} % undecided at the time limit"
+        if workspace.method == "procedure":
+            failures += f", {int(workspace.ends[:, -1].sum())} locked where no sink is"
+    return prepare_measure_maps(workspace.law, workspace.places, workspace.measures, about, failures, workspace.target[:3, 3])
 
 
-def _counts(w: Workspace, flags: NDArray[np.bool_]) -> dict[str, int]:
-    return dict(zip(w.columns, flags.sum(axis=0).tolist(), strict=True))
+def _count_by_column(workspace: Workspace, flags: NDArray[np.bool_]) -> dict[str, int]:
+    return dict(zip(workspace.columns, flags.sum(axis=0).tolist(), strict=True))

@@ -1,4 +1,4 @@
-"""The measures over targets: numbers, a table, maps and files."""
+"""Numbers, a table, maps and files of the measures over targets."""
 
 from __future__ import annotations
 
@@ -7,93 +7,113 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.convergence.analysis import ENDS
+from holdfast.convergence.analysis import FAILURE_ENDS
 from holdfast.convergence.table import save_places
 from holdfast.convergence.targets import TargetMeasures
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.present import results
-from holdfast.present.convergence.places import MEASURES, answer, figure_words, mean_rows, measure_maps
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import capitalised, counted, percent
+from holdfast.present.convergence.places import (
+    MEASURE_DEFINITIONS,
+    compose_answer,
+    describe_measure_maps,
+    prepare_measure_maps,
+    tabulate_means,
+)
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first, format_count, format_percent
 
 if TYPE_CHECKING:
     from holdfast.present.results import Drawings
 
 
-def to_dict(t: TargetMeasures) -> dict[str, Any]:
-    """Places, ends, and the measures of each target with their intervals, percent."""
-    return {"targets": t.targets.points, "ends": t.ends, "percent": t.measures, "percent_95": t.target_intervals()}
+def to_dict(measures: TargetMeasures) -> dict[str, Any]:
+    """Return places, ends, and the measures of each target with their intervals, percent."""
+    return {
+        "targets": measures.targets.points,
+        "ends": measures.ends,
+        "percent": measures.measures,
+        "percent_95": measures.target_intervals(),
+    }
 
 
-def tables(t: TargetMeasures) -> list[Rows]:
-    """The means of the measures."""
-    return [mean_rows(t, "the targets")]
+def tables(measures: TargetMeasures) -> list[TextTable]:
+    """Return the means of the measures."""
+    return [tabulate_means(measures, "the targets")]
 
 
-def story(t: TargetMeasures) -> Story:
-    """Which part of the way keeps the targets within reach, and the target that a lock puts most at risk."""
-    nothing = (
-        f"None of the {counted(len(t.targets), 'target')} is within reach of motions from "
-        f"{counted(len(t.starts), 'start')}; choose others."
+def story(measures: TargetMeasures) -> PageContent:
+    """Compose the report: the part of the path that keeps the targets within reach, and the target that a lock puts most at
+    risk.
+    """
+    no_motion_text = (
+        f"None of the {format_count(len(measures.targets), 'target')} is within reach of motions from "
+        f"{format_count(len(measures.starts), 'start')}; choose others."
     )
-    text, facts = answer(t, nothing)
-    each = t.measures["Ravg"][:, -1]
-    if np.isfinite(each).any() and np.nanmin(each) < np.nanmax(each):
-        ends = [int(f(each)) for f in (np.nanargmin, np.nanargmax)]
-        (low, high), (bad, good) = (each[ends], [f"({', '.join(f'{x:.3g}' for x in t.targets.points[k])}) m" for k in ends])
-        text += (
-            f" The target at {bad} is most at risk ({percent(low / 100)} of the way), that at "
-            f"{good} least ({percent(high / 100)})."
+    text, facts = compose_answer(measures, no_motion_text)
+    target_means = measures.measures["Ravg"][:, -1]
+    if np.isfinite(target_means).any() and np.nanmin(target_means) < np.nanmax(target_means):
+        extremes = [int(arg_extreme(target_means)) for arg_extreme in (np.nanargmin, np.nanargmax)]
+        (lowest, highest), (worst_target, best_target) = (
+            target_means[extremes],
+            [f"({', '.join(f'{coordinate:.3g}' for coordinate in measures.targets.points[index])}) m" for index in extremes],
         )
-    return Story(
-        f"Which targets of {t.law.arm.name} an unnoticed lock puts at risk",
+        text += (
+            f" The target at {worst_target} is most at risk ({format_percent(lowest / 100)} of the way), that at "
+            f"{best_target} least ({format_percent(highest / 100)})."
+        )
+    return PageContent(
+        f"Which targets of {measures.law.arm.name} an unnoticed lock puts at risk",
         text,
-        about=f"{t.law.arm.name}, {t.law.describe()}",
+        about=f"{measures.law.arm.name}, {measures.law.describe()}",
         facts=facts,
-        lines=[f"{capitalised(line)}." for line in t.describe()],
-        figures=figure_words("targets"),
+        lines=[f"{capitalise_first(line)}." for line in measures.describe()],
+        figures=describe_measure_maps("targets"),
         method=[
-            ("Law", t.law.describe()),
+            ("Law", measures.law.describe()),
             (
                 "Motions",
                 (
-                    f"to {counted(len(t.targets), 'target')} from {counted(len(t.starts), 'start')}, the "
-                    f"same for all; {int(t.configurations.sum()):,} of them"
+                    f"to {format_count(len(measures.targets), 'target')} from "
+                    f"{format_count(len(measures.starts), 'start')}, the "
+                    f"same for all; {int(measures.configurations.sum()):,} of them"
                 ),
             ),
-            ("Measures", MEASURES),
+            ("Measures", MEASURE_DEFINITIONS),
             ("Source", "measures: Goel, Maciejewski, Balakrishnan 2005; over targets ours"),
         ],
-        arm=t.law.arm,
+        arm=measures.law.arm,
     )
 
 
-def drawings(t: TargetMeasures) -> Drawings:
-    """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
+def drawings(measures: TargetMeasures) -> Drawings:
+    """Return functions that draw maps over the targets by name, like those of a workspace: ``reach``, and ``finish`` after
+    failures.
+    """
     about = (
-        f"{t.law.arm.name}, {t.law.name}: each place is a target, its value the mean over {len(t.starts)} starts; "
+        f"{measures.law.arm.name}, {measures.law.name}: each place is a target, its value the mean over "
+        f"{len(measures.starts)} starts; "
         "grey: no value"
     )
-    count = int(t.ends.sum())
-    return measure_maps(t.law, t.targets, t.measures, about, f"{count} failures" if count else "")
+    count = int(measures.ends.sum())
+    return prepare_measure_maps(measures.law, measures.targets, measures.measures, about, f"{count} failures" if count else "")
 
 
-def next_steps(t: TargetMeasures, name: str) -> list[str]:
-    """The values of each place, and the whole report."""
-    del t
+def next_steps(measures: TargetMeasures, name: str) -> list[str]:
+    """Suggest the values of each place and the full report."""
+    del measures
     return [f"{name}.to_xarray()  # place by place", f'{name}.report("workspace.html")']
 
 
-@says("writing the results")
-def save(t: TargetMeasures, folder: Path, command: str = "") -> list[Path]:
-    """``targets.csv``, with means over the starts and their 95 % intervals; ``targets.json``, maps and the page."""
-    names = (*t.law.arm.joint_names, "any")
-    columns: list[str] = list(ENDS)
-    values: list[Any] = [t.ends]
-    for name, sure in t.target_intervals().items():
-        values += [t.measures[name], sure[..., 0], sure[..., 1]]
-        columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
-    facts: dict[str, Any] = {"arm": t.law.arm.title, "law": t.law.describe(), "starts": len(t.starts)}
-    files = save_places(folder, "targets", t.targets, columns, values, facts)
-    return files + results.save(t, folder, command, "targets-", 130)
+@reports_progress("writing the results")
+def save(measures: TargetMeasures, folder: Path, command: str = "") -> list[Path]:
+    """Save ``targets.csv``, with means over the starts and their 95 % intervals; ``targets.json``, maps and the report."""
+    row_names = (*measures.law.arm.joint_names, "any")
+    columns: list[str] = list(FAILURE_ENDS)
+    values: list[Any] = [measures.ends]
+    for name, bounds in measures.target_intervals().items():
+        values += [measures.measures[name], bounds[..., 0], bounds[..., 1]]
+        columns += [f"{name}_{column}_percent{suffix}" for suffix in ("", "_low", "_high") for column in row_names]
+    facts: dict[str, Any] = {"arm": measures.law.arm.title, "law": measures.law.describe(), "starts": len(measures.starts)}
+    files = save_places(folder, "targets", measures.targets, columns, values, facts)
+    return files + results.save(measures, folder, command, "targets-", 130)

@@ -1,1 +1,1 @@
-"""Pages and figures of designs."""
+"""Reports and figures of designs."""

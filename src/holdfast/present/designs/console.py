@@ -1,128 +1,151 @@
-"""Designs of an arm in numbers and words: those for an index, and those for convergence."""
+"""Numbers and console text of designs of an arm: those for an index, and those for convergence."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 from holdfast.designs.convergence import ConvergenceDesigns
-from holdfast.designs.designs import Checked, Designs, chosen, interval_text
-from holdfast.designs.space import Parameter
-from holdfast.present.printing import Rows
+from holdfast.designs.designs import Designs, HeldOutResult, format_level, format_value_interval
+from holdfast.designs.space import DesignParameter
+from holdfast.present.printing import TextTable
 from holdfast.probability.intervals import Difference, Interval
-from holdfast.words import percent
+from holdfast.words import format_percent
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-_AT_BOUND = 1e-6  # of the width between the bounds
+_BOUND_TOLERANCE = 1e-6  # of the width between the bounds
 
 
-def at_bound(p: Parameter, value: float) -> str:
-    """``lower`` or ``upper`` if a value is at that bound, else nothing."""
-    slack = _AT_BOUND * (p.upper - p.lower)
-    return "lower" if value <= p.lower + slack else "upper" if value >= p.upper - slack else ""
+def name_reached_bound(parameter: DesignParameter, value: float) -> str:
+    """Return ``lower`` or ``upper`` if a value is at that bound of the parameter, else an empty string."""
+    slack = _BOUND_TOLERANCE * (parameter.upper - parameter.lower)
+    return "lower" if value <= parameter.lower + slack else "upper" if value >= parameter.upper - slack else ""
 
 
-def to_dict(d: Designs | ConvergenceDesigns) -> dict[str, Any]:
-    """The given arm and the best design, rad, m and fractions."""
-    return _of_index(d) if isinstance(d, Designs) else _of_convergence(d)
+def to_dict(designs: Designs | ConvergenceDesigns) -> dict[str, Any]:
+    """Return the baseline arm and the best design, rad, m and fractions, as JSON data."""
+    return _collect_index_designs(designs) if isinstance(designs, Designs) else _collect_convergence_designs(designs)
 
 
-def _of_index(d: Designs) -> dict[str, Any]:
-    def arm(number: int, checked: Checked) -> dict[str, Any]:
-        g = checked.guaranteed
+def _collect_index_designs(designs: Designs) -> dict[str, Any]:
+    def describe_arm(number: int, checked: HeldOutResult) -> dict[str, Any]:
+        guaranteed = checked.guaranteed
         return {
-            "values": dict(zip(d.space.names, d.values[number].tolist(), strict=True)),
-            "guaranteed_in_search": float(d.guaranteed[number]),
-            "guaranteed": {"value": g.value, "low": g.low, "high": g.high, "confidence": g.confidence},
+            "values": dict(zip(designs.space.names, designs.values[number].tolist(), strict=True)),
+            "guaranteed_in_search": float(designs.guaranteed[number]),
+            "guaranteed": {
+                "value": guaranteed.value,
+                "low": guaranteed.low,
+                "high": guaranteed.high,
+                "confidence": guaranteed.confidence,
+            },
             "median": float(checked.distribution.quantile(0.5, reachable_only=False)),
             "reached": 1 - checked.distribution.unreached_share,
-            "reach": float(d.reach[number]),
+            "reach": float(designs.reach[number]),
         }
 
     return {
-        **d.space.arm.entry(),
-        "index": d.index.label,
-        "task": d.index.task.name,
-        "region": d.region.name,
-        "level": d.level,
-        "bound": d.index.bound,
-        "poses": d.poses,
-        "fresh_poses": d.checked.best.distribution.samples,
-        "designs": len(d.values),
-        "given": arm(0, d.checked.given),
-        "best": arm(d.best, d.checked.best),
-        "optimism": d.checked.optimism,
+        **designs.space.arm.entry(),
+        "index": designs.index.label,
+        "task": designs.index.task.name,
+        "region": designs.region.name,
+        "level": designs.level,
+        "bound": designs.index.bound,
+        "poses": designs.poses,
+        "fresh_poses": designs.checked.best.distribution.samples,
+        "designs": len(designs.values),
+        "given": describe_arm(0, designs.checked.given),
+        "best": describe_arm(designs.best, designs.checked.best),
+        "optimism": designs.checked.optimism,
         "front": [
             {
-                "reach": float(d.reach[k]),
-                "guaranteed": float(d.guaranteed[k]),
-                "values": dict(zip(d.space.names, d.values[k].tolist(), strict=True)),
+                "reach": float(designs.reach[design]),
+                "guaranteed": float(designs.guaranteed[design]),
+                "values": dict(zip(designs.space.names, designs.values[design].tolist(), strict=True)),
             }
-            for k in d.front.tolist()
+            for design in designs.front.tolist()
         ],
-        "seed": d.seed,
+        "seed": designs.seed,
     }
 
 
-def _of_convergence(d: ConvergenceDesigns) -> dict[str, Any]:
-    def one(k: int) -> dict[str, Any]:
-        values = dict(zip(d.space.names, d.values[k].tolist(), strict=True))
-        return {"values": values, **{name: float(m[k]) for name, m in d.measures.items()}}
+def _collect_convergence_designs(designs: ConvergenceDesigns) -> dict[str, Any]:
+    def describe_design(number: int) -> dict[str, Any]:
+        values = dict(zip(designs.space.names, designs.values[number].tolist(), strict=True))
+        return {"values": values, **{name: float(measure[number]) for name, measure in designs.measures.items()}}
 
-    out: dict[str, Any] = {
-        **d.law.arm.entry(),
-        "law": d.law.label,
-        "task": d.law.task.name,
-        "objective": d.objective,
-        "exact": d.exact,
-        "designs": len(d.values),
-        "given": one(0),
-        "best": one(d.best),
+    data: dict[str, Any] = {
+        **designs.law.arm.entry(),
+        "law": designs.law.label,
+        "task": designs.law.task.name,
+        "objective": designs.objective,
+        "exact": designs.exact,
+        "designs": len(designs.values),
+        "given": describe_design(0),
+        "best": describe_design(designs.best),
     }
-    if d.checked is not None:
-        given, best, apart = d.checked
-        named: dict[str, Interval | Difference] = {"given": given, "best": best, "difference": apart}
-        out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
-    return out
+    if designs.checked is not None:
+        baseline, best, difference = designs.checked
+        estimates: dict[str, Interval | Difference] = {"given": baseline, "best": best, "difference": difference}
+        data["fresh"] = {
+            n: {"value": estimate.value, "low": estimate.low, "high": estimate.high} for n, estimate in estimates.items()
+        }
+    return data
 
 
-def key_table(d: Designs | ConvergenceDesigns) -> Rows:
-    """The given arm and the best design, number by number, and what they are worth."""
-    pairs = zip(d.space.parameters, d.space.start.tolist(), d.values[d.best].tolist(), strict=True)
-    rows = [[p.name, p.text(before), p.text(after)] for p, before, after in pairs]
-    if isinstance(d, Designs):
-        given, best = (interval_text(x.guaranteed) for x in (d.checked.given, d.checked.best))
-        rows += [
-            [f"{d.index.name}, {chosen(d.level)} of poses", given, best],
-            ["reach, m", f"{d.start_reach:.3f}", f"{d.reach[d.best]:.3f}"],
+def key_table(designs: Designs | ConvergenceDesigns) -> TextTable:
+    """Return the baseline arm and the best design, number by number, and their values."""
+    parameter_values = zip(
+        designs.space.parameters, designs.space.start.tolist(), designs.values[designs.best].tolist(), strict=True
+    )
+    table_rows = [
+        [parameter.name, parameter.text(before), parameter.text(after)] for parameter, before, after in parameter_values
+    ]
+    if isinstance(designs, Designs):
+        baseline, best = (
+            format_value_interval(checked.guaranteed) for checked in (designs.checked.given, designs.checked.best)
+        )
+        table_rows += [
+            [f"{designs.index.name}, {format_level(designs.level)} of poses", baseline, best],
+            ["reach, m", f"{designs.start_reach:.3f}", f"{designs.reach[designs.best]:.3f}"],
         ]
     else:
-        rows += [[name, percent(float(m[0])), percent(float(m[d.best]))] for name, m in d.measures.items()]
-    return Rows(["", "given arm", "best design"], rows)
+        table_rows += [
+            [name, format_percent(float(measure[0])), format_percent(float(measure[designs.best]))]
+            for name, measure in designs.measures.items()
+        ]
+    return TextTable(["", "given arm", "best design"], table_rows)
 
 
-def next_steps(d: Designs | ConvergenceDesigns, name: str) -> list[str]:
-    """The best arm, and the whole report."""
-    del d
+def next_steps(designs: Designs | ConvergenceDesigns, name: str) -> list[str]:
+    """Suggest the best arm and the full report."""
+    del designs
     return [f"{name}.arm()  # the best one", f'{name}.report("designs.html")']
 
 
-def show(d: Designs | ConvergenceDesigns, out: Console) -> None:
-    """The answer, and the given arm and the best design number by number."""
+def show(designs: Designs | ConvergenceDesigns, out: Console) -> None:
+    """Print the answer, and the baseline arm and the best design, number by number."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
-    lines = d.describe()
-    last = lines.pop() if isinstance(d, Designs) else ""
+    lines = designs.describe()
+    last_line = lines.pop() if isinstance(designs, Designs) else ""
     for line in lines:
         out.print(escape(line), soft_wrap=True)
-    table = Grid("parameter", "given arm", "best design", "bounds")
-    for p, before, after in zip(d.space.parameters, d.space.start.tolist(), d.values[d.best].tolist(), strict=True):
-        side = at_bound(p, after) if isinstance(d, Designs) else ""
-        mark = f" (at the {side} bound)" if side else ""
-        table.add_row(p.name, p.text(before), p.text(after) + mark, f"{p.text(p.lower)} to {p.text(p.upper)}")
+    table = BandedTable("parameter", "given arm", "best design", "bounds")
+    for parameter, before, after in zip(
+        designs.space.parameters, designs.space.start.tolist(), designs.values[designs.best].tolist(), strict=True
+    ):
+        bound_name = name_reached_bound(parameter, after) if isinstance(designs, Designs) else ""
+        bound_remark = f" (at the {bound_name} bound)" if bound_name else ""
+        table.add_row(
+            parameter.name,
+            parameter.text(before),
+            parameter.text(after) + bound_remark,
+            f"{parameter.text(parameter.lower)} to {parameter.text(parameter.upper)}",
+        )
     out.print(table)
-    if last:
-        out.print(escape(last), soft_wrap=True)
+    if last_line:
+        out.print(escape(last_line), soft_wrap=True)

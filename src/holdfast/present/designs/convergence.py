@@ -1,4 +1,4 @@
-"""The report of a search of designs that still reach their targets after an unidentified lock."""
+"""Report of a search for designs that still reach their targets after an undetected lock."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from holdfast import arms
-from holdfast.designs.convergence import FAILURES, TARGETS, ConvergenceDesigns
-from holdfast.files.output import put
-from holdfast.notice import says
-from holdfast.present.designs.figures import parameters_figure
-from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table
-from holdfast.present.story import how
+from holdfast.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
+from holdfast.files.output import write_files
+from holdfast.notice import reports_progress
+from holdfast.present.designs.figures import draw_parameters
+from holdfast.present.designs.page import ARM_FILE, build_bounds_callout, tabulate_parameters
+from holdfast.present.story import build_method_blocks
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import capitalised, fixed, percent
+from holdfast.words import capitalise_first, format_decimals, format_percent
 
-_MEANINGS = {
+_MEASURE_MEANINGS = {
     "guaranteed": "fraction of the targets, by area, that the arm reaches whatever lock leaves them within reach",
     "free": "fraction of the locks that leave the target within reach after which nothing holds the arm away from it",
     "converged": "fraction of all locks after which the arm reaches its target; a target out of reach counts as 0",
@@ -30,155 +30,190 @@ _MEANINGS = {
 }
 
 
-@says("drawing the report")
-def write(d: ConvergenceDesigns, path: Path) -> Path:
-    """What to build, what that gains, and how it was found, as a page."""
-    return page.write(build(d), path)
+@reports_progress("drawing the report")
+def write(designs: ConvergenceDesigns, path: Path) -> Path:
+    """Write the report: the best design, its gain, and how it was found."""
+    return page.write(build(designs), path)
 
 
-@says("writing the results")
-def save(d: ConvergenceDesigns, folder: Path) -> list[Path]:
-    """designs.csv, a row for each design with its values (m, rad) and measures (fractions), best-arm.yaml and report.html."""
-    lines = [",".join((*d.space.names, *d.measures))]
-    columns = [*d.values.T.tolist(), *(m.tolist() for m in d.measures.values())]
-    lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-    files = put(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: d.arm_file()})
-    return [*files, d.report(folder / "report.html")]
+@reports_progress("writing the results")
+def save(designs: ConvergenceDesigns, folder: Path) -> list[Path]:
+    """Save designs.csv, a row for each design with its values (m, rad) and measures (fractions), best-arm.yaml and
+    report.html.
+    """
+    lines = [",".join((*designs.space.names, *designs.measures))]
+    columns = [*designs.values.T.tolist(), *(measure.tolist() for measure in designs.measures.values())]
+    lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*columns, strict=True)]
+    files = write_files(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: designs.arm_file()})
+    return [*files, designs.report(folder / "report.html")]
 
 
-def figures(d: ConvergenceDesigns) -> dict[str, Figure]:
-    """What each design is worth, by one number at a time."""
-    factors = np.array([p.shown[0] for p in d.space.parameters])
-    names = [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
-    value = d.measures[d.objective if d.exact else "converged"]
-    start = d.values[0] * factors, float(value[0])
-    return {"parameters": parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")}
+def figures(designs: ConvergenceDesigns) -> dict[str, Figure]:
+    """Draw the value of each design against each parameter."""
+    factors = np.array([parameter.display_unit[0] for parameter in designs.space.parameters])
+    names = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in designs.space.parameters]
+    objective_values = designs.measures[designs.objective if designs.exact else "converged"]
+    baseline = designs.values[0] * factors, float(objective_values[0])
+    return {
+        "parameters": draw_parameters(
+            names, designs.values * factors, objective_values, baseline, f"fraction, {designs.objective}"
+        )
+    }
 
 
-def build(d: ConvergenceDesigns) -> Page:
-    """The report as blocks, before it becomes HTML."""
-    best = d.values[d.best]
+def build(designs: ConvergenceDesigns) -> Page:
+    """Build the report as blocks, before it becomes HTML."""
+    best_values = designs.values[designs.best]
     return Page(
-        f"Designs of {d.law.arm.name} that reach their targets after an unknown lock",
-        headline(d),
+        f"Designs of {designs.law.arm.name} that reach their targets after an unknown lock",
+        headline(designs),
         [
-            Section("What to build", [*(bounds_callout(d.space, best) if d.best else []), parameters_table(d.space, best)]),
-            Section("What that gains", _gains(d)),
-            Section("Which parameter matters", [_numbers(d)]),
-            Section("The best arm as a file", _file(d)),
+            Section(
+                "What to build",
+                [
+                    *(build_bounds_callout(designs.space, best_values) if designs.best else []),
+                    tabulate_parameters(designs.space, best_values),
+                ],
+            ),
+            Section("What that gains", _build_gain_blocks(designs)),
+            Section("Which parameter matters", [_build_parameter_picture(designs)]),
+            Section("The best arm as a file", _build_file_blocks(designs)),
         ],
-        subtitle=f"{d.law.describe()}; {', '.join(d.space.names)}",
-        facts=[x for x in _facts(d) if x[0] != "0 %"],
-        method=_method(d),
-        again=_again(d),
+        subtitle=f"{designs.law.describe()}; {', '.join(designs.space.names)}",
+        facts=[fact for fact in _list_answer_facts(designs) if fact[0] != "0 %"],
+        method=_build_method_blocks(designs),
+        again=_build_rerun_blocks(designs),
     )
 
 
-def _facts(d: ConvergenceDesigns) -> list[tuple[Cell, Cell]]:
-    """What the best design and the given arm are worth."""
-    if d.checked is not None:
-        given, best, _ = d.checked
-        said = "of fresh failures, after which it reaches its target:"
-        pairs = [(best.value, f"{said} the best design")] * (d.best > 0) + [(given.value, f"{said} the given arm")]
-    else:
-        measure = d.measures[d.objective if d.exact else "converged"]
-        pairs = [(float(measure[d.best]), f"{d.objective}, the best design"), (float(measure[0]), "the given arm")][
-            : 1 + (d.best > 0)
+def _list_answer_facts(designs: ConvergenceDesigns) -> list[tuple[Cell, Cell]]:
+    """List the values of the best design and of the baseline arm, and the number of designs."""
+    if designs.checked is not None:
+        baseline, best_share, _ = designs.checked
+        label = "of fresh failures, after which it reaches its target:"
+        pairs = [(best_share.value, f"{label} the best design")] * (designs.best > 0) + [
+            (baseline.value, f"{label} the given arm")
         ]
-    return [*((percent(value), about) for value, about in pairs), (f"{len(d.values):,}", "designs were tried")]
+    else:
+        measure = designs.measures[designs.objective if designs.exact else "converged"]
+        pairs = [(float(measure[designs.best]), f"{designs.objective}, the best design"), (float(measure[0]), "the given arm")][
+            : 1 + (designs.best > 0)
+        ]
+    return [
+        *((format_percent(value), description) for value, description in pairs),
+        (f"{len(designs.values):,}", "designs were tried"),
+    ]
 
 
-def headline(d: ConvergenceDesigns) -> str:
-    """The answer in one or two sentences."""
-    if d.checked is not None:
-        given, best, apart = d.checked
-        if d.best == 0:
-            return f"Nothing better than the given arm was found: it reaches its target in {_share(given)} of fresh failures."
+def headline(designs: ConvergenceDesigns) -> str:
+    """Compose the answer in one or two sentences."""
+    if designs.checked is not None:
+        baseline, best, difference = designs.checked
+        if designs.best == 0:
+            return (
+                f"Nothing better than the given arm was found: it reaches its target in {_format_share(baseline)} of "
+                f"fresh failures."
+            )
         text = (
             "After a lock that the controller does not know of, the best design reaches its target in "
-            f"{_share(best)} of fresh failures, the given arm in {_share(given)}: {_points(apart)} more."
+            f"{_format_share(best)} of fresh failures, the given arm in {_format_share(baseline)}: "
+            f"{_format_points(difference)} more."
         )
-        return text if apart.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
-    name = d.objective if d.exact else "converged"
-    given_, best_ = (percent(float(d.measures[name][k])) for k in (0, d.best))
-    if d.best == 0:
-        return f"Nothing better than the given arm was found; {name}: {given_}, the {_MEANINGS[name]}."
-    return f"The best design has {name} {best_}, the given arm {given_}: the {_MEANINGS[name]}."
+        return (
+            text if difference.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
+        )
+    name = designs.objective if designs.exact else "converged"
+    baseline_text, best_text = (format_percent(float(designs.measures[name][design])) for design in (0, designs.best))
+    if designs.best == 0:
+        return f"Nothing better than the given arm was found; {name}: {baseline_text}, the {_MEASURE_MEANINGS[name]}."
+    return f"The best design has {name} {best_text}, the given arm {baseline_text}: the {_MEASURE_MEANINGS[name]}."
 
 
-def _share(p: Interval) -> str:
-    return f"{percent(p.value)} ({percent(p.low)} to {percent(p.high)}, 95 %)"
+def _format_share(fraction: Interval) -> str:
+    return f"{format_percent(fraction.value)} ({format_percent(fraction.low)} to {format_percent(fraction.high)}, 95 %)"
 
 
-def _points(x: Difference) -> str:
-    value, low, high = (fixed(100 * y, 1) for y in (x.value, x.low, x.high))
-    return f"{value} points ({low} to {high})"
+def _format_points(difference: Difference) -> str:
+    middle, lower, upper = (format_decimals(100 * value, 1) for value in (difference.value, difference.low, difference.high))
+    return f"{middle} points ({lower} to {upper})"
 
 
-def _gains(d: ConvergenceDesigns) -> list[Block]:
-    rows: list[list[Cell]] = [
-        [name, percent(float(m[0])), percent(float(m[d.best])), _MEANINGS[name]] for name, m in d.measures.items()
+def _build_gain_blocks(designs: ConvergenceDesigns) -> list[Block]:
+    table_rows: list[list[Cell]] = [
+        [name, format_percent(float(measure[0])), format_percent(float(measure[designs.best])), _MEASURE_MEANINGS[name]]
+        for name, measure in designs.measures.items()
     ]
-    head = ["Measure", "given arm", "best design", "what it is"]
+    header = ["Measure", "given arm", "best design", "what it is"]
     blocks: list[Block] = [
-        Table(rows, head, frozenset({1, 2}), caption=f"As measured in the search, over {len(d.values):,} designs.")
+        Table(
+            table_rows, header, frozenset({1, 2}), caption=f"As measured in the search, over {len(designs.values):,} designs."
+        )
     ]
-    if d.checked is not None:
-        given, best, apart = d.checked
-        fresh: list[list[Cell]] = [["converged", _share(given), _share(best), _points(apart)]]
-        told = "On targets and failures that had no part in the search, the same for both."
-        blocks.append(Table(fresh, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=told))
+    if designs.checked is not None:
+        baseline, best, difference = designs.checked
+        check_rows: list[list[Cell]] = [["converged", _format_share(baseline), _format_share(best), _format_points(difference)]]
+        check_caption = "On targets and failures that had no part in the search, the same for both."
+        blocks.append(
+            Table(check_rows, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=check_caption)
+        )
     else:
         blocks.append(Text("Having no sink and no singular trap does not prove convergence: limit cycles exist.", quiet=True))
     return blocks
 
 
-def _numbers(d: ConvergenceDesigns) -> Picture:
-    (figure,) = figures(d).values()
-    text = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
-    return Picture(drawing.svg(figure, "parameters", "Measure of the designs against each parameter"), text)
+def _build_parameter_picture(designs: ConvergenceDesigns) -> Picture:
+    (figure,) = figures(designs).values()
+    caption = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
+    return Picture(drawing.svg(figure, "parameters", "Measure of the designs against each parameter"), caption)
 
 
-def _file(d: ConvergenceDesigns) -> list[Block]:
+def _build_file_blocks(designs: ConvergenceDesigns) -> list[Block]:
     label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
     return [
-        Code(d.arm_file().rstrip(), label),
+        Code(designs.arm_file().rstrip(), label),
         Text("It has no masses: a table of Denavit-Hartenberg rows holds none.", quiet=True),
     ]
 
 
-def _method(d: ConvergenceDesigns) -> list[Block]:
-    s = d.searched
+def _build_method_blocks(designs: ConvergenceDesigns) -> list[Block]:
+    settings = designs.searched
     measured = (
         "from the stationary sets of the planar arm, all targets at once"
-        if d.exact
-        else f"simulation: {s['targets']} targets, {s['failures']} failures of each joint at each, the same for all designs; a "
+        if designs.exact
+        else f"simulation: {settings['targets']} targets, {settings['failures']} failures of each joint at each, the same "
+        f"for all designs; a "
         "joint locks where it is in some configuration at the target, and the arm starts anywhere"
     )
-    facts: list[tuple[str, Cell]] = [
-        ("Law", d.law.describe()),
+    entries: list[tuple[str, Cell]] = [
+        ("Law", designs.law.describe()),
         ("Measured", measured),
         (
             "Search",
-            f"{s['designs']:,} Sobol designs, those with equal lengths, and pattern searches from {s['climbs']} of them",
+            f"{settings['designs']:,} Sobol designs, those with equal lengths, and pattern searches from "
+            f"{settings['climbs']} of them",
         ),
-        ("Seed", str(s["seed"])),
+        ("Seed", str(settings["seed"])),
     ]
-    return how(d.law.arm, *facts, called="given arm")
+    return build_method_blocks(designs.law.arm, *entries, arm_word="given arm")
 
 
-def _again(d: ConvergenceDesigns) -> list[Block]:
-    if not d.exact and (d.searched["targets"], d.searched["failures"]) != (TARGETS, FAILURES):
+def _build_rerun_blocks(designs: ConvergenceDesigns) -> list[Block]:
+    if not designs.exact and (designs.searched["targets"], designs.searched["failures"]) != (
+        DEFAULT_TARGETS,
+        FAILURES_PER_JOINT,
+    ):
         return []
-    line, remark = command(d)
-    return [Code(line, remark and f"{capitalised(remark)}:")]
+    command_line, remark = format_command(designs)
+    return [Code(command_line, remark and f"{capitalise_first(remark)}:")]
 
 
-def command(d: ConvergenceDesigns) -> tuple[str, str]:
-    """The command that makes the search again, and a remark."""
-    s = d.searched
-    spec, words, remark = arms.command_words(d.law.arm)
-    words += [f"--maximise convergence --law {shlex.quote(d.law.label)} --task {shlex.quote(d.law.task.name)}"]
-    words += [f"--vary {shlex.quote(p.written)}" for p in d.space.parameters] + ["--keep-reach"] * bool(s.get("keep_reach"))
-    words.append(f"--designs {s['designs']} --climbs {s['climbs']} --seed {s['seed']}")
-    return " \\\n    ".join([f"holdfast design {shlex.quote(spec)}", *words]), remark
+def format_command(designs: ConvergenceDesigns) -> tuple[str, str]:
+    """Return the command that repeats the search, and a remark."""
+    settings = designs.searched
+    arm_spec, words, remark = arms.command_words(designs.law.arm)
+    words += [f"--maximise convergence --law {shlex.quote(designs.law.label)} --task {shlex.quote(designs.law.task.name)}"]
+    words += [f"--vary {shlex.quote(parameter.option_text)}" for parameter in designs.space.parameters] + [
+        "--keep-reach"
+    ] * bool(settings.get("keep_reach"))
+    words.append(f"--designs {settings['designs']} --climbs {settings['climbs']} --seed {settings['seed']}")
+    return " \\\n    ".join([f"holdfast design {shlex.quote(arm_spec)}", *words]), remark

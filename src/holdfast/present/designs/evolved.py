@@ -1,4 +1,4 @@
-"""What an evolution strategy found, in numbers and words, and its folder."""
+"""Numbers, text and folder of the design that an evolution strategy found."""
 
 from __future__ import annotations
 
@@ -9,83 +9,100 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.designs.evolution.found import EvolvedDesign
-from holdfast.files.output import put
+from holdfast.files.output import write_files
 from holdfast.present import results
-from holdfast.present.printing import Rows, number
-from holdfast.present.story import Story
-from holdfast.words import capitalised
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first
 
 ARM_FILE = "best-arm.yaml"
 
 
-def to_dict(d: EvolvedDesign) -> dict[str, Any]:
-    """The arm's numbers and what it is worth, rad, m, m^2 and whole turns."""
+def to_dict(design: EvolvedDesign) -> dict[str, Any]:
+    """Return the parameters of the arm and its value, rad, m, m^2 and full revolutions, as JSON data."""
     return {
-        **d.space.arm.entry(),
-        "objective": d.objective,
-        "values": dict(zip(d.space.names, d.values.tolist(), strict=True)),
-        "value": d.value,
-        "given": d.given,
-        "unit": d.unit,
-        "bound": d.bound,
-        "q": None if d.q is None else d.q.tolist(),
-        "winding": None if d.winding is None else d.winding.tolist(),
-        "limits": None if d.limits is None else d.limits.tolist(),
-        "generations": len(d.history),
-        "seed": d.seed,
-        "seconds": d.seconds,
+        **design.space.arm.entry(),
+        "objective": design.objective,
+        "values": dict(zip(design.space.names, design.values.tolist(), strict=True)),
+        "value": design.value,
+        "given": design.given,
+        "unit": design.unit,
+        "bound": design.bound,
+        "q": None if design.q is None else design.q.tolist(),
+        "winding": None if design.winding is None else design.winding.tolist(),
+        "limits": None if design.limits is None else design.limits.tolist(),
+        "generations": len(design.history),
+        "seed": design.seed,
+        "seconds": design.seconds,
     }
 
 
-def tables(d: EvolvedDesign) -> list[Rows]:
-    """The given arm and the one found, number by number."""
-    return [key_table(d)]
+def tables(design: EvolvedDesign) -> list[TextTable]:
+    """Return the baseline arm and the best design, number by number."""
+    return [key_table(design)]
 
 
-def key_table(d: EvolvedDesign) -> Rows:
-    """The same for notebooks."""
-    pairs = zip(d.space.parameters, d.space.start.tolist(), d.values.tolist(), strict=True)
-    rows = [[p.name, p.text(before), p.text(after)] for p, before, after in pairs]
-    return Rows(["", "given arm", "best design"], [*rows, [f"{d.objective}, {d.unit}", f"{d.given:.5g}", f"{d.value:.5g}"]])
+def key_table(design: EvolvedDesign) -> TextTable:
+    """Return the baseline arm and the best design, number by number, for notebooks."""
+    parameter_values = zip(design.space.parameters, design.space.start.tolist(), design.values.tolist(), strict=True)
+    table_rows = [
+        [parameter.name, parameter.text(before), parameter.text(after)] for parameter, before, after in parameter_values
+    ]
+    return TextTable(
+        ["", "given arm", "best design"],
+        [*table_rows, [f"{design.objective}, {design.unit}", f"{design.given:.5g}", f"{design.value:.5g}"]],
+    )
 
 
-def figures(d: EvolvedDesign) -> dict[str, Figure]:
-    """The best value after each generation, beside what no arm can beat."""
-    from holdfast.report.motions import Panel, motion_figure
+def figures(design: EvolvedDesign) -> dict[str, Figure]:
+    """Draw the best value after each generation, with the upper bound for arms within the same limits."""
+    from holdfast.report.motions import TimePanel, motion_figure
 
-    level = d.bound, "no arm of these bounds has more"
-    panel = Panel(np.arange(1.0, len(d.history) + 1), d.history, f"{d.objective}, {d.unit}", "Best so far", level=level)
-    return {"search": motion_figure([panel], _searched(d), "generation")}
+    level = design.bound, "no arm of these bounds has more"
+    panel = TimePanel(
+        np.arange(1.0, len(design.history) + 1),
+        design.history,
+        f"{design.objective}, {design.unit}",
+        "Best so far",
+        reference_level=level,
+    )
+    return {"search": motion_figure([panel], _describe_search(design), "generation")}
 
 
-def story(d: EvolvedDesign) -> Story:
-    """What the arm is worth, beside the given one and what none can beat."""
-    first, *others = (f"{capitalised(line)}." for line in d.describe())
-    return Story(
-        f"Design of {d.space.arm.name} for {d.objective.replace('-', ' ')}",
-        first,
-        about=", ".join(d.space.names),
-        facts=[(f"{number(d.value)} {d.unit}", "the best design"), (f"{number(d.given)} {d.unit}", "the given arm")],
+def story(design: EvolvedDesign) -> PageContent:
+    """Compose the report: the value of the arm, compared with the baseline arm and the upper bound."""
+    first_sentence, *others = (f"{capitalise_first(line)}." for line in design.describe())
+    return PageContent(
+        f"Design of {design.space.arm.name} for {design.objective.replace('-', ' ')}",
+        first_sentence,
+        about=", ".join(design.space.names),
+        facts=[
+            (f"{format_significant(design.value)} {design.unit}", "the best design"),
+            (f"{format_significant(design.given)} {design.unit}", "the given arm"),
+        ],
         lines=others,
         figures={
             "search": ("How it was found", "The best value after each generation of the search; dashed what none can beat.")
         },
-        method=[("Search", _searched(d))],
-        arm=d.space.arm,
+        method=[("Search", _describe_search(design))],
+        arm=design.space.arm,
     )
 
 
-def _searched(d: EvolvedDesign) -> str:
-    return f"an evolution strategy, {len(d.history):,} generations in {number(d.seconds)} s, seed {d.seed}"
+def _describe_search(design: EvolvedDesign) -> str:
+    return (
+        f"an evolution strategy, {len(design.history):,} generations in {format_significant(design.seconds)} s, seed "
+        f"{design.seed}"
+    )
 
 
-def next_steps(d: EvolvedDesign, name: str) -> list[str]:
-    """The same measured by what shares nothing with the search."""
-    if d.q is not None:
+def next_steps(design: EvolvedDesign, name: str) -> list[str]:
+    """Suggest the measurement of the same value by independent code."""
+    if design.q is not None:
         return [f"hf.self_motion({name}.arm(), {name}.arm().forward_kinematics({name}.q), spacing=0.02).size"]
     return [f'hf.tolerant_workspace({name}.arm(), "planar", {name}.limits).size']
 
 
-def save(d: EvolvedDesign, folder: Path, command: str = "") -> list[Path]:
-    """best-arm.yaml and report.html."""
-    return [*put(folder, {ARM_FILE: d.arm_file()}), *results.save(d, folder, command)]
+def save(design: EvolvedDesign, folder: Path, command: str = "") -> list[Path]:
+    """Save best-arm.yaml and report.html."""
+    return [*write_files(folder, {ARM_FILE: design.arm_file()}), *results.save(design, folder, command)]

@@ -12,47 +12,47 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.present.stick_figure import views_of
+from holdfast.present.stick_figure import choose_views
 from holdfast.regions.region import Region
-from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
-from holdfast.report.scenes import Scale, Scene, draw_view, view_spans
+from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, format_label, style
+from holdfast.report.scenes import Scale, Scene, draw_view, fit_view_spans
 from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
 
 
-def front_figure(
+def draw_pareto_front(
     reach: Array,
-    value: Array,
+    quantiles: Array,
     front: Sequence[int],
     best: int,
-    start: tuple[float, float] | None,
+    baseline: tuple[float, float] | None,
     label: str,
     bound: float | None,
 ) -> Figure:
-    """Every design by its reach and its index quantile, with those that no other one beats in both.
+    """Draw every design by its reach and its index quantile, with the non-dominated designs.
 
     Args:
         reach: (D,) m.
-        value: (D,) lower quantiles of the index.
+        quantiles: (D,) lower quantiles of the index.
         front: Numbers of the designs of the front, by reach.
         best: Number of the design of the greatest value.
-        start: Reach and value of the given arm, if known.
+        baseline: Reach and value of the given arm, if known.
         label: Of the value.
         bound: What no configuration can exceed, drawn if it is near.
     """
     with style():
         figure = Figure(figsize=(WIDTH, 4.6))
         axes = figure.add_subplot()
-        axes.scatter(reach, value, s=14, color=SKY, linewidths=0, rasterized=True)
-        line = np.asarray(front, dtype=int)
-        axes.step(reach[line], value[line], where="pre", color=BLUE, linewidth=1.4, zorder=2.5)
-        axes.plot(reach[line], value[line], "o", color=BLUE, markersize=5, zorder=2.6)
-        if start is not None:
-            axes.plot(*start, "s", color=ORANGE, markeredgecolor="white", markersize=10, zorder=3)
-        axes.plot(reach[best], value[best], "*", color=INK, markeredgecolor="white", markersize=17, zorder=3.1)
-        top = max(float(value.max(initial=0.0)), 0.0 if start is None else start[1])
-        if bound is not None and bound < 1.6 * top:
+        axes.scatter(reach, quantiles, s=14, color=SKY, linewidths=0, rasterized=True)
+        front_rows = np.asarray(front, dtype=int)
+        axes.step(reach[front_rows], quantiles[front_rows], where="pre", color=BLUE, linewidth=1.4, zorder=2.5)
+        axes.plot(reach[front_rows], quantiles[front_rows], "o", color=BLUE, markersize=5, zorder=2.6)
+        if baseline is not None:
+            axes.plot(*baseline, "s", color=ORANGE, markeredgecolor="white", markersize=10, zorder=3)
+        axes.plot(reach[best], quantiles[best], "*", color=INK, markeredgecolor="white", markersize=17, zorder=3.1)
+        largest_value = max(float(quantiles.max(initial=0.0)), 0.0 if baseline is None else baseline[1])
+        if bound is not None and bound < 1.6 * largest_value:
             axes.axhline(bound, color=SOFT, linewidth=1.3, linestyle=(0, (1.2, 1.6)))
             axes.annotate(
                 f"no configuration can exceed {bound:.3f}",
@@ -76,72 +76,82 @@ def front_figure(
         return finished(figure)
 
 
-def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
-    """The given arm and the best one, to one scale, each with its tool at the middle of the region if it gets there."""
+def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
+    """Draw the baseline arm and the best one, to one scale, with the tool at the region centre where the arm reaches it."""
     box = None
     if region.kind == "box":
         c, s = np.array(region.center[:3]), np.array(region.size[:3])
         box = np.array([c - s / 2, c + s / 2])
     scenes = []
-    none = np.zeros((0, 3))
-    for arm in (given, best):
-        posture = arm.frames(_posture(arm, task, region, seed))[:, :3, 3]
-        scenes.append(Scene(none, np.zeros(0), none, chain=posture, nodes=posture[1:-1], square=arm.prismatic, box=box))
-    view = views_of(given, np.concatenate([scene.chain for scene in scenes]))[0]
+    no_points = np.zeros((0, 3))
+    for arm in (baseline, best):
+        joint_positions = arm.frames(_choose_configuration(arm, task, region, seed))[:, :3, 3]
+        scenes.append(
+            Scene(
+                no_points,
+                np.zeros(0),
+                no_points,
+                chain=joint_positions,
+                nodes=joint_positions[1:-1],
+                square=arm.prismatic,
+                box=box,
+            )
+        )
+    view = choose_views(baseline, np.concatenate([scene.chain for scene in scenes]))[0]
     # Both panels show the same part of the world.
-    both = np.concatenate([s.extent for s in scenes])
-    everything = Scene(both, np.full(len(both), np.nan), none)
+    extents = np.concatenate([s.extent for s in scenes])
+    common_scene = Scene(extents, np.full(len(extents), np.nan), no_points)
     with style():
         figure = Figure(figsize=(WIDTH, 5.4))
         panels: Sequence[Axes] = figure.subplots(1, 2)
-        spans, height = view_spans(everything, [view], 4.4, 2.2, 4.6)
+        spans, height = fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
-        middle = view.of(everything.extent.mean(axis=0))
-        for axes, scene, title in zip(panels, scenes, ("before: " + given.name, "after: " + best.name), strict=True):
+        middle = view.of(common_scene.extent.mean(axis=0))
+        for axes, scene, title in zip(panels, scenes, ("before: " + baseline.name, "after: " + best.name), strict=True):
             draw_view(axes, scene, view, Scale(0.0, 1.0), 1.0, spans, 4.4)
             axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
             axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
-            axes.set_title(plain(title, 44))
+            axes.set_title(format_label(title, 44))
         return finished(figure)
 
 
-def _posture(arm: Arm, task: Task, region: Region, seed: int) -> Array:
-    low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
-    high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> Array:
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
     if region.kind == "box":
         poses = region.poses(np.array(region.center)[None])
-        found = solver(arm, task).solve(poses, np.random.SeedSequence(seed), 50, 1e-6)
-        if found.success[0]:
-            q: Array = found.q[0]
+        solutions = solver(arm, task).solve(poses, np.random.SeedSequence(seed), 50, 1e-6)
+        if solutions.success[0]:
+            q: Array = solutions.q[0]
             return q
-    return np.asarray((low + high) / 2)
+    return np.asarray((lower + upper) / 2)
 
 
-def parameters_figure(
-    names: Sequence[str], values: Array, value: Array, start: tuple[Array, float] | None, label: str
+def draw_parameters(
+    names: Sequence[str], values: Array, quantiles: Array, baseline: tuple[Array, float] | None, label: str
 ) -> Figure:
-    """Index quantile against each parameter, one panel for each parameter.
+    """Draw the index quantile against each parameter, one panel for each parameter.
 
     Args:
         names: Of the parameters, with their units.
         values: (D, k) as people read them.
-        value: (D,) lower quantiles of the index.
-        start: The given arm's values (k,), and its index quantile, if known.
+        quantiles: (D,) lower quantiles of the index.
+        baseline: The given arm's values (k,), and its index quantile, if known.
         label: Of the value.
     """
-    columns = 2 if len(names) == 4 else min(3, len(names))
-    rows = -(-len(names) // columns)
+    column_count = 2 if len(names) == 4 else min(3, len(names))
+    row_count = -(-len(names) // column_count)
     with style():
-        figure = Figure(figsize=(WIDTH, 2.5 * rows + 0.5))
-        panels = figure.subplots(rows, columns, squeeze=False, sharey=True)
-        for k, axes in enumerate(panels.flat):
-            if k >= len(names):
+        figure = Figure(figsize=(WIDTH, 2.5 * row_count + 0.5))
+        panels = figure.subplots(row_count, column_count, squeeze=False, sharey=True)
+        for index, axes in enumerate(panels.flat):
+            if index >= len(names):
                 axes.set_axis_off()
                 continue
-            axes.scatter(values[:, k], value, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
-            if start is not None:
-                axes.plot(start[0][k], start[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
-            axes.set(xlabel=plain(names[k]), ylim=(0, None))
+            axes.scatter(values[:, index], quantiles, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
+            if baseline is not None:
+                axes.plot(baseline[0][index], baseline[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
+            axes.set(xlabel=format_label(names[index]), ylim=(0, None))
         figure.supylabel(label, fontsize=9.5)
         handles = [
             Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="a design"),

@@ -1,4 +1,4 @@
-"""Arms judged as wholes, in one table of numbers and words."""
+"""Numbers and text of a comparison of whole arms in one table."""
 
 from __future__ import annotations
 
@@ -6,90 +6,99 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.ceilings.ceiling import when
-from holdfast.designs.judging.judgement import Judgement
-from holdfast.present.printing import Rows, number, print_rows
-from holdfast.present.story import Story
-from holdfast.words import capitalised
+from holdfast.ceilings.ceiling import failure_phrase
+from holdfast.designs.judging.judgement import ArmComparison
+from holdfast.present.printing import TextTable, format_significant, print_table
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 
-def to_dict(j: Judgement) -> dict[str, Any]:
-    """Each column with its unit, its samples, and of every arm the value with its interval."""
+def to_dict(comparison: ArmComparison) -> dict[str, Any]:
+    """Return each column with its unit and samples, and the value and interval of every arm, as JSON data."""
     return {
-        "arms": [arm.entry() for arm in j.arms],
-        "task": j.task.name,
-        "failures": j.failures,
-        "region": j.region.name,
-        "level": j.level,
+        "arms": [arm.entry() for arm in comparison.arms],
+        "task": comparison.task.name,
+        "failures": comparison.failures,
+        "region": comparison.region.name,
+        "level": comparison.level,
         "columns": [
             {
                 "measure": column.measure,
                 "name": column.name,
                 "unit": column.unit,
                 "samples": column.samples,
-                "values": j.values[:, c].tolist(),
-                "low": j.low[:, c].tolist(),
-                "high": j.high[:, c].tolist(),
+                "values": comparison.values[:, index].tolist(),
+                "low": comparison.low[:, index].tolist(),
+                "high": comparison.high[:, index].tolist(),
             }
-            for c, column in enumerate(j.columns)
+            for index, column in enumerate(comparison.columns)
         ],
-        "left_out": list(j.left_out),
-        "front": j.front().tolist(),
-        "seed": j.seed,
-        "seconds": j.seconds,
+        "left_out": list(comparison.left_out),
+        "front": comparison.front().tolist(),
+        "seed": comparison.seed,
+        "seconds": comparison.seconds,
     }
 
 
-def show(j: Judgement, out: Console) -> None:
-    """What was judged on, and the table."""
-    for line in (j.describe()[0], *j.left_out):
+def show(comparison: ArmComparison, out: Console) -> None:
+    """Print the question and the table."""
+    for line in (comparison.describe()[0], *comparison.left_out):
         out.print(line, markup=False, soft_wrap=True)
-    print_rows(out, key_table(j))
+    print_table(out, key_table(comparison))
 
 
-def story(j: Judgement) -> Story:
-    """Which arms no other beats, and how it was measured."""
-    names = [arm.name for arm in j.arms]
+def story(comparison: ArmComparison) -> PageContent:
+    """Compose the report: the non-dominated arms, and how they were measured."""
+    names = [arm.name for arm in comparison.arms]
     if len(names) > 1:
-        answer = f"Of {len(names)} arms beaten by no other in everything: {', '.join(names[k] for k in j.front())}."
+        answer = (
+            f"Of {len(names)} arms beaten by no other in everything: "
+            f"{', '.join(names[arm_index] for arm_index in comparison.front())}."
+        )
     else:
-        first = int(np.argmax(j.values[0] > 0))
-        unit = "" if j.columns[first].unit == "1" else f" {j.columns[first].unit}"
-        answer = f"{capitalised(j.columns[first].name)}: {number(j.values[0, first])}{unit}."
-    return Story(
+        first_column = int(np.argmax(comparison.values[0] > 0))
+        unit_text = "" if comparison.columns[first_column].unit == "1" else f" {comparison.columns[first_column].unit}"
+        answer = (
+            f"{capitalise_first(comparison.columns[first_column].name)}: "
+            f"{format_significant(comparison.values[0, first_column])}{unit_text}."
+        )
+    return PageContent(
         f"{', '.join(names)}: judged as {'wholes' if len(names) > 1 else 'a whole'}",
         answer,
-        lines=[f"{capitalised(said)}." for said in j.left_out],
-        tables=tables(j),
+        lines=[f"{capitalise_first(remark)}." for remark in comparison.left_out],
+        tables=tables(comparison),
         method=[
-            ("Task", j.task.describe()),
-            ("Region", j.region.describe()),
-            ("Failures", f"{when(j.failures)}; of a workspace one"),
-            ("Draws", f"seed {j.seed}, the same poses for all arms"),
+            ("Task", comparison.task.describe()),
+            ("Region", comparison.region.describe()),
+            ("Failures", f"{failure_phrase(comparison.failures)}; of a workspace one"),
+            ("Draws", f"seed {comparison.seed}, the same poses for all arms"),
             ("Intervals", "95 %: exact for fractions, by order statistics for quantiles"),
         ],
     )
 
 
-def tables(j: Judgement) -> list[Rows]:
-    """A row for each column, arms side by side."""
-    head = ["measure", "unit", "samples", *(arm.name for arm in j.arms)]
-    rows = []
-    for c, column in enumerate(j.columns):
-        ends = zip(j.values[:, c], j.low[:, c], j.high[:, c], strict=True)
-        cells = [f"{number(x)} ({number(low, 3)} to {number(high, 3)})" for x, low, high in ends]
-        rows.append([column.name, column.unit, f"{column.samples:,}" if column.samples else "exact", *cells])
-    return [Rows(head, rows, "Values with their intervals: larger is better in all")]
+def tables(comparison: ArmComparison) -> list[TextTable]:
+    """Return a row for each column, arms side by side."""
+    header = ["measure", "unit", "samples", *(arm.name for arm in comparison.arms)]
+    table_rows = []
+    for index, column in enumerate(comparison.columns):
+        intervals = zip(comparison.values[:, index], comparison.low[:, index], comparison.high[:, index], strict=True)
+        cells = [
+            f"{format_significant(value)} ({format_significant(lower, 3)} to {format_significant(upper, 3)})"
+            for value, lower, upper in intervals
+        ]
+        table_rows.append([column.name, column.unit, f"{column.samples:,}" if column.samples else "exact", *cells])
+    return [TextTable(header, table_rows, "Values with their intervals: larger is better in all")]
 
 
-def key_table(j: Judgement) -> Rows:
-    """The same for notebooks."""
-    return tables(j)[0]
+def key_table(comparison: ArmComparison) -> TextTable:
+    """Return a row for each column, arms side by side, for notebooks."""
+    return tables(comparison)[0]
 
 
-def next_steps(j: Judgement, name: str) -> list[str]:
-    """Which arms no other beats."""
-    return [f'{name}.front("{j.columns[0].name}")  # what intervals do not tell apart counts as equal']
+def next_steps(comparison: ArmComparison, name: str) -> list[str]:
+    """Suggest the non-dominated arms."""
+    return [f'{name}.front("{comparison.columns[0].name}")  # what intervals do not tell apart counts as equal']

@@ -1,4 +1,4 @@
-"""Records and their checks, and arms made from null spaces, in numbers and words."""
+"""Numbers and text of records and their checks, and of arms made from null spaces."""
 
 from __future__ import annotations
 
@@ -6,88 +6,112 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.arms.dh_file import text
+from holdfast.arms.dh_file import format_dh_file
 from holdfast.arms.dh_rows import dh_table
-from holdfast.designs.book.entries import Book, Record, RecordCheck
-from holdfast.designs.judging.orders import Orders
+from holdfast.designs.book.entries import DesignRecord, RecordBook, RecordCheck
+from holdfast.designs.judging.orders import JointOrders
 from holdfast.designs.synthesis.arms import Synthesis
-from holdfast.present.printing import Rows
-from holdfast.words import percent
+from holdfast.present.printing import TextTable
+from holdfast.words import format_percent
 
-Shown = Book | Record | RecordCheck | Synthesis | Orders
+BookResult = RecordBook | DesignRecord | RecordCheck | Synthesis | JointOrders
 
-_BEST = 10  # orders in a table
-_HEAD = ["record", "task", "joints", "locked", "value", "no arm can beat", "by", "gap"]
-
-
-def row(r: Record) -> list[str]:
-    """A record in a line of a table."""
-    c, bound = r.data.kind, r.data.proven_bound
-    task, gap = c.task or f"any of {c.rows} rows", "0" if r.gap < 1e-8 else percent(r.gap)
-    return [r.id, task, f"{c.joints}", f"{c.failures}", r.amount, f"{bound.value:.7g}", bound.by, gap]
+_MAX_ORDERS = 10  # orders in a table
+_RECORD_HEADER = ["record", "task", "joints", "locked", "value", "no arm can beat", "by", "gap"]
 
 
-def to_dict(found: Shown) -> dict[str, Any]:
-    """What the file says; of a check each claim; of a synthesis the tables."""
-    if isinstance(found, Book):
-        return {"records": [to_dict(r) for r in found.values()]}
-    if isinstance(found, Record):
-        return found.data.model_dump(by_alias=True, exclude_none=True)
-    if isinstance(found, RecordCheck):
-        return {"record": found.record.id, "ok": found.ok, "claims": [{"said": s, "holds": h} for s, h in found.claims]}
-    if isinstance(found, Orders):
-        numbers = {"samples": found.samples, "seed": found.seed, "at_home": found.at_home, "thresholds": list(found.thresholds)}
+def format_record_row(record: DesignRecord) -> list[str]:
+    """Format a record as a row of a table."""
+    kind, bound = record.data.kind, record.data.proven_bound
+    task_text, gap_text = kind.task or f"any of {kind.rows} rows", "0" if record.gap < 1e-8 else format_percent(record.gap)
+    return [record.id, task_text, f"{kind.joints}", f"{kind.failures}", record.amount, f"{bound.value:.7g}", bound.by, gap_text]
+
+
+def to_dict(result: BookResult) -> dict[str, Any]:
+    """Return the content of the file, the claims of a check, or the tables of a synthesis, as JSON data."""
+    if isinstance(result, RecordBook):
+        return {"records": [to_dict(record) for record in result.values()]}
+    if isinstance(result, DesignRecord):
+        return result.data.model_dump(by_alias=True, exclude_none=True)
+    if isinstance(result, RecordCheck):
+        return {
+            "record": result.record.id,
+            "ok": result.ok,
+            "claims": [{"said": claim, "holds": holds} for claim, holds in result.claims],
+        }
+    if isinstance(result, JointOrders):
+        numbers = {
+            "samples": result.samples,
+            "seed": result.seed,
+            "at_home": result.at_home,
+            "thresholds": list(result.thresholds),
+        }
         return (
             numbers
-            | {"orders": found.orders.tolist(), "fractions": found.fractions.tolist(), "mean": found.mean.tolist()}
+            | {"orders": result.orders.tolist(), "fractions": result.fractions.tolist(), "mean": result.mean.tolist()}
             | {
-                "lengths": found.lengths.tolist(),
-                "front": found.front.tolist(),
-                "fresh": found.fresh.tolist(),
+                "lengths": result.lengths.tolist(),
+                "front": result.front.tolist(),
+                "fresh": result.fresh.tolist(),
             }
         )
-    tables = [text(dh_table(arm), arm.name) for arm in found.arms]
-    numbers = {"task": found.task, "failures": found.failures, "value": found.value, "bound": found.bound}
-    return numbers | {"residual": found.residual, "losses": found.losses, "tables": tables}
+    arm_tables = [format_dh_file(dh_table(arm), arm.name) for arm in result.arms]
+    numbers = {"task": result.task, "failures": result.failures, "value": result.value, "bound": result.bound}
+    return numbers | {"residual": result.residual, "losses": result.losses, "tables": arm_tables}
 
 
-def tables(found: Shown) -> list[Rows]:
-    """A row for each record or arm."""
-    if isinstance(found, Book):
-        return [Rows(_HEAD, [row(r) for r in found.values()])]
-    if isinstance(found, Orders):
-        best = found.mean.argsort()[::-1][:_BEST]
-        head = ["order", *(f"at least {h:g}" for h in found.thresholds), "mean"]
-        shown = [[" ".join(str(k + 1) for k in found.orders[d]), *map(percent, found.fractions[d])] for d in best]
-        return [Rows(head, [[*cells, f"{found.mean[d]:.4f}"] for d, cells in zip(best, shown, strict=True)], "best means")]
-    if isinstance(found, Synthesis):
-        rows = []
-        for k, (arm, loss) in enumerate(zip(found.arms, found.losses, strict=True), 1):
+def tables(result: BookResult) -> list[TextTable]:
+    """Return a row for each record, order or arm."""
+    if isinstance(result, RecordBook):
+        return [TextTable(_RECORD_HEADER, [format_record_row(item) for item in result.values()])]
+    if isinstance(result, JointOrders):
+        best_orders = result.mean.argsort()[::-1][:_MAX_ORDERS]
+        header = ["order", *(f"at least {threshold:g}" for threshold in result.thresholds), "mean"]
+        order_cells = [
+            [
+                " ".join(str(index + 1) for index in result.orders[order_index]),
+                *map(format_percent, result.fractions[order_index]),
+            ]
+            for order_index in best_orders
+        ]
+        return [
+            TextTable(
+                header,
+                [
+                    [*cells, f"{result.mean[order_index]:.4f}"]
+                    for order_index, cells in zip(best_orders, order_cells, strict=True)
+                ],
+                "best means",
+            )
+        ]
+    if isinstance(result, Synthesis):
+        table_rows = []
+        for index, (arm, loss) in enumerate(zip(result.arms, result.losses, strict=True), 1):
             table = dh_table(arm).rows
             condition = np.linalg.cond(arm.jacobian(np.zeros(arm.n)))
-            lengths = sum(abs(r.a) + abs(r.d) for r in table[:-1])
-            rows.append([f"{k}", f"{found.value - loss:.6g}", f"{loss:.1e}", f"{condition:.3g}", f"{lengths:.3f}"])
-        return [Rows(["arm", "value", "lost by rounding", "condition", "sum of |a| and |d|, m"], rows)]
+            lengths = sum(abs(item.a) + abs(item.d) for item in table[:-1])
+            table_rows.append([f"{index}", f"{result.value - loss:.6g}", f"{loss:.1e}", f"{condition:.3g}", f"{lengths:.3f}"])
+        return [TextTable(["arm", "value", "lost by rounding", "condition", "sum of |a| and |d|, m"], table_rows)]
     return []
 
 
-def key_table(found: Shown) -> Rows:
-    """The same for notebooks."""
-    if isinstance(found, Record):
-        return Rows(_HEAD, [row(found)])
-    if isinstance(found, RecordCheck):
-        return Rows(["claim", "holds"], [[said, "yes" if holds else "no"] for said, holds in found.claims])
-    return tables(found)[0]
+def key_table(result: BookResult) -> TextTable:
+    """Return a row for each record, order, arm or claim, for notebooks."""
+    if isinstance(result, DesignRecord):
+        return TextTable(_RECORD_HEADER, [format_record_row(result)])
+    if isinstance(result, RecordCheck):
+        return TextTable(["claim", "holds"], [[claim, "yes" if holds else "no"] for claim, holds in result.claims])
+    return tables(result)[0]
 
 
-def next_steps(found: Shown, name: str) -> list[str]:
-    """What one does with it."""
-    if isinstance(found, Book):
+def next_steps(result: BookResult, name: str) -> list[str]:
+    """Suggest a use of the result."""
+    if isinstance(result, RecordBook):
         return [f'{name}["pose-9R-k2-001"].check()  # measures it again']
-    if isinstance(found, Record):
+    if isinstance(result, DesignRecord):
         return [f"{name}.check()  # measures it again"]
-    if isinstance(found, RecordCheck):
+    if isinstance(result, RecordCheck):
         return [f"{name}.ok  # every claim holds"]
-    if isinstance(found, Orders):
-        return [f"{name}.interval({int(found.mean.argmax())}, 0)  # of the order with the best mean, at the first threshold"]
+    if isinstance(result, JointOrders):
+        return [f"{name}.interval({int(result.mean.argmax())}, 0)  # of the order with the best mean, at the first threshold"]
     return [f"hf.arms.dh_table({name}.arms[0])  # to build it"]

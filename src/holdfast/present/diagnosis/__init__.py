@@ -1,1 +1,1 @@
-"""What a record of an arm showed, as words, numbers and a page."""
+"""Reports and figures of diagnoses."""

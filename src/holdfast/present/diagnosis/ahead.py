@@ -1,4 +1,4 @@
-"""What a motion or a self-motion will show of locks, and what a record of one showed, in numbers and words."""
+"""Text, tables, and JSON of the predicted detectability of locks, and of the evaluation of a record."""
 
 from __future__ import annotations
 
@@ -7,92 +7,100 @@ from typing import Any
 import numpy as np
 
 from holdfast.diagnosis.foresight.observability import Observability
-from holdfast.diagnosis.foresight.probe import Finding, Probe
-from holdfast.present.printing import Rows, number
-from holdfast.present.story import Story
-from holdfast.words import capitalised
+from holdfast.diagnosis.foresight.probe import Identification, ProbingMotion
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first
 
-MAP = (
+SEPARATION_CAPTION = (
     "Which locks can be told apart",
     "Two explanations of the tool's pose, in nats: how much more likely the true one becomes by this motion. Below 9.2, a "
     "factor of 10,000, the two are not told apart; the colour ends at three times that. None: no joint is locked.",
 )
 
 
-def to_dict(found: Observability | Probe | Finding) -> dict[str, Any]:
-    """By joint what is seen and what stays together; or the decision."""
-    if isinstance(found, Finding):
+def to_dict(result: Observability | ProbingMotion | Identification) -> dict[str, Any]:
+    """Return for each joint its detectability and the locks that cannot be distinguished; or the decision."""
+    if isinstance(result, Identification):
         return {
-            "joint": found.joint,
-            "remaining": list(found.remaining),
-            "cleared": list(found.cleared),
-            "time_s": found.time,
-            "tool_displacement_m": found.displacement,
+            "joint": result.joint,
+            "remaining": list(result.remaining),
+            "cleared": list(result.cleared),
+            "time_s": result.time,
+            "tool_displacement_m": result.displacement,
         }
     data: dict[str, Any] = {
-        **found.arm.entry(),
-        "separation_nats": found.separation,
-        "together": list(map(list, found.together)),
+        **result.arm.entry(),
+        "separation_nats": result.separation,
+        "together": list(map(list, result.together)),
     }
-    if isinstance(found, Observability):
+    if isinstance(result, Observability):
         return {
             **data,
-            "duration_s": found.duration,
-            "not_shown": list(found.unseen),
-            "delays_s": found.delays,
-            "locked_or_free_swinging": found.alike,
+            "duration_s": result.duration,
+            "not_shown": list(result.unseen),
+            "delays_s": result.delays,
+            "locked_or_free_swinging": result.alike,
         }
     return {
         **data,
-        "task": found.task.name,
-        "duration_s": found.t[-1],
-        "suspects": [found.arm.joint_names[i] for i in found.suspects],
-        "told_apart": list(found.told_apart),
-        "not_testable": list(found.untestable),
-        "largest_rates": found.visible,
-        "tool_strays_m": found.tool,
+        "task": result.task.name,
+        "duration_s": result.t[-1],
+        "suspects": [result.arm.joint_names[joint] for joint in result.suspects],
+        "told_apart": list(result.told_apart),
+        "not_testable": list(result.untestable),
+        "largest_rates": result.visible,
+        "tool_strays_m": result.tool,
     }
 
 
-def tables(found: Observability | Probe | Finding) -> list[Rows]:
-    """A row for each joint."""
-    if isinstance(found, Finding):
-        rows = [[name, "possible"] for name in found.remaining] + [[name, "not locked"] for name in found.cleared]
-        return [Rows(["locked joint", "after the record"], rows, "what the tool's pose says")]
-    names, unseen = found.arm.joint_names, found.untestable if isinstance(found, Probe) else found.unseen
-    told = dict.fromkeys(names, "yes") | {name: "not from all" for pair in found.together for name in pair}
-    told |= dict.fromkeys(unseen, "no")
-    least = np.array([np.delete(row, k).min() for k, row in enumerate(found.separation)][1:])
-    if isinstance(found, Probe):
-        rows = [[names[i], number(found.visible[i], 2), number(least[i], 3), told[names[i]]] for i in found.suspects]
-        return [Rows(["joint", "largest rate", "nats to the nearest", "told apart"], rows, "suspects")]
-    rows = [[name, number(least[i], 3), told[name]] for i, name in enumerate(names)]
-    return [Rows(["joint", "nats to the nearest", "told apart by the tool's pose"], rows, "locks")]
+def tables(result: Observability | ProbingMotion | Identification) -> list[TextTable]:
+    """Tabulate the joints, one row for each."""
+    if isinstance(result, Identification):
+        rows = [[name, "possible"] for name in result.remaining] + [[name, "not locked"] for name in result.cleared]
+        return [TextTable(["locked joint", "after the record"], rows, "what the tool's pose says")]
+    names, unseen = result.arm.joint_names, result.untestable if isinstance(result, ProbingMotion) else result.unseen
+    distinguishable = dict.fromkeys(names, "yes") | {name: "not from all" for locks in result.together for name in locks}
+    distinguishable |= dict.fromkeys(unseen, "no")
+    nearest_separation = np.array([np.delete(row, row_index).min() for row_index, row in enumerate(result.separation)][1:])
+    if isinstance(result, ProbingMotion):
+        rows = [
+            [
+                names[joint],
+                format_significant(result.visible[joint], 2),
+                format_significant(nearest_separation[joint], 3),
+                distinguishable[names[joint]],
+            ]
+            for joint in result.suspects
+        ]
+        return [TextTable(["joint", "largest rate", "nats to the nearest", "told apart"], rows, "suspects")]
+    rows = [[name, format_significant(nearest_separation[joint], 3), distinguishable[name]] for joint, name in enumerate(names)]
+    return [TextTable(["joint", "nats to the nearest", "told apart by the tool's pose"], rows, "locks")]
 
 
-def key_table(found: Observability | Probe | Finding) -> Rows:
-    """The joints."""
-    return tables(found)[0]
+def key_table(result: Observability | ProbingMotion | Identification) -> TextTable:
+    """Return the table of the joints."""
+    return tables(result)[0]
 
 
-def next_steps(found: Observability | Probe | Finding, name: str) -> list[str]:
-    """Look at the separations; record the motion."""
-    if isinstance(found, Finding):
+def next_steps(result: Observability | ProbingMotion | Identification, name: str) -> list[str]:
+    """Suggest a plot of the separations, and the recording of the motion."""
+    if isinstance(result, Identification):
         return [f"{name}.remaining"]
-    if isinstance(found, Probe):
+    if isinstance(result, ProbingMotion):
         return [f"{name}.plot()", f"{name}.to_csv('probe.csv')", f"{name}.at(1000.0)"]
     return [f"{name}.plot()", f"{name}.unseen"]
 
 
-def story(found: Observability | Probe) -> Story:
-    """What the page says."""
-    first, *others = found.describe()
-    probe = isinstance(found, Probe)
-    return Story(
-        "A self-motion that tells which joint is locked" if probe else "What a motion shows of locked joints",
-        f"{capitalised(first)}.",
-        about=found.arm.title,
-        lines=[f"{capitalised(line)}." for line in others],
-        figures={"separation": MAP},
-        arm=found.arm,
+def story(result: Observability | ProbingMotion) -> PageContent:
+    """Compose the report of a predicted or planned motion."""
+    headline, *remarks = result.describe()
+    is_probe = isinstance(result, ProbingMotion)
+    return PageContent(
+        "A self-motion that tells which joint is locked" if is_probe else "What a motion shows of locked joints",
+        f"{capitalise_first(headline)}.",
+        about=result.arm.title,
+        lines=[f"{capitalise_first(line)}." for line in remarks],
+        figures={"separation": SEPARATION_CAPTION},
+        arm=result.arm,
     )

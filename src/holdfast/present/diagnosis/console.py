@@ -1,4 +1,4 @@
-"""Bounds of residuals and diagnoses in numbers and words."""
+"""Text, tables, and JSON of residual bounds and diagnoses."""
 
 from __future__ import annotations
 
@@ -8,73 +8,83 @@ import numpy as np
 
 from holdfast.diagnosis.answer import Diagnosis
 from holdfast.diagnosis.bounds import Bounds
-from holdfast.present.printing import Rows, number
-from holdfast.present.story import Story
-from holdfast.words import capitalised
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first
 
-NEVER = "A record without an alarm does not prove that nothing is wrong. This is no certified safety function."
+NO_ALARM_NOTE = "A record without an alarm does not prove that nothing is wrong. This is no certified safety function."
 
 
-def to_dict(found: Bounds | Diagnosis) -> dict[str, Any]:
-    """The bounds with their rate of false alarms; or the verdict with what could not be told."""
-    if isinstance(found, Bounds):
-        told = found.false_alarms()
-        return {**vars(found), "false_alarms_per_hour": told and told[0], "upper_limit_per_hour": told and told[1]}
-    v = found.verdict
+def to_dict(result: Bounds | Diagnosis) -> dict[str, Any]:
+    """Return the bounds with their rate of false alarms; or the verdict with the joints that could not be diagnosed."""
+    if isinstance(result, Bounds):
+        false_alarm_rate = result.false_alarms()
+        return {
+            **vars(result),
+            "false_alarms_per_hour": false_alarm_rate and false_alarm_rate[0],
+            "upper_limit_per_hour": false_alarm_rate and false_alarm_rate[1],
+        }
+    verdict = result.verdict
     return {
-        **found.arm.entry(),
-        "alarm": v.alarm,
-        "time_s": v.time,
-        "joint": v.joint,
-        "suspect": v.suspect,
-        "kind": v.kind if v.alarm else None,
-        "loss": v.loss,
-        "uncertainty": v.uncertainty,
-        "candidates": list(v.candidates),
-        "evidence": list(v.evidence),
-        "not_looked_at_s": [list(gap) for gap in found.gaps],
-        "did_not_move_enough": list(found.untold),
-        "not_watched": list(found.off),
-        "faster_than_calibrated": list(found.beyond),
+        **result.arm.entry(),
+        "alarm": verdict.alarm,
+        "time_s": verdict.time,
+        "joint": verdict.joint,
+        "suspect": verdict.suspect,
+        "kind": verdict.kind if verdict.alarm else None,
+        "loss": verdict.loss,
+        "uncertainty": verdict.uncertainty,
+        "candidates": list(verdict.candidates),
+        "evidence": list(verdict.evidence),
+        "not_looked_at_s": [list(interval) for interval in result.gaps],
+        "did_not_move_enough": list(result.inconclusive),
+        "not_watched": list(result.off),
+        "faster_than_calibrated": list(result.beyond),
     }
 
 
-def tables(found: Bounds | Diagnosis) -> list[Rows]:
-    """A row for each joint: its bounds, or how near to them it came."""
-    if isinstance(found, Bounds):
-        head = ["joint", "residual torque, N m (N)", "tracking, rad (m)", "fastest, rad/s (m/s)"]
-        columns = (found.torque, found.tracking, found.speed)
-        rows = [[name, *(number(x[k], 3) for x in columns)] for k, name in enumerate(found.joints)]
-        return [Rows(head, rows, "bounds")]
-    scaled, off = found.scaled, "torque" not in found.signals.levels
+def tables(result: Bounds | Diagnosis) -> list[TextTable]:
+    """Tabulate the joints: their bounds, or the largest residuals relative to them."""
+    if isinstance(result, Bounds):
+        header = ["joint", "residual torque, N m (N)", "tracking, rad (m)", "fastest, rad/s (m/s)"]
+        columns = (result.torque, result.tracking, result.speed)
+        rows = [
+            [name, *(format_significant(column[joint], 3) for column in columns)] for joint, name in enumerate(result.joints)
+        ]
+        return [TextTable(header, rows, "bounds")]
+    scaled, has_no_torque = result.scaled, "torque" not in result.signals.levels
     rows = []
-    for k, name in enumerate(found.arm.joint_names):
-        torque = "-" if off else number(np.fmax.reduce(scaled.torque[:, k]), 3)
-        moved = "too little to tell" if name in found.untold else "yes"
-        rows.append([name, torque, number(np.fmax.reduce(scaled.tracking[:, k]), 3), moved])
-    return [Rows(["joint", "residual torque", "tracking", "moved"], rows, "largest, in units of the bounds")]
+    for joint, name in enumerate(result.arm.joint_names):
+        torque = "-" if has_no_torque else format_significant(np.fmax.reduce(scaled.torque[:, joint]), 3)
+        motion_text = "too little to tell" if name in result.inconclusive else "yes"
+        rows.append([name, torque, format_significant(np.fmax.reduce(scaled.tracking[:, joint]), 3), motion_text])
+    return [TextTable(["joint", "residual torque", "tracking", "moved"], rows, "largest, in units of the bounds")]
 
 
-def key_table(found: Bounds | Diagnosis) -> Rows:
-    """The joints."""
-    return tables(found)[0]
+def key_table(result: Bounds | Diagnosis) -> TextTable:
+    """Return the table of the joints."""
+    return tables(result)[0]
 
 
-def next_steps(found: Bounds | Diagnosis, name: str) -> list[str]:
-    """Watch with the bounds; look at the residuals."""
-    if isinstance(found, Bounds):
+def next_steps(result: Bounds | Diagnosis, name: str) -> list[str]:
+    """Suggest a monitor with the bounds; or a plot of the residuals."""
+    if isinstance(result, Bounds):
         return [f"{name}.to_json('bounds.json')", f"hf.diagnosis.Monitor(arm, {name})"]
     return [f"{name}.plot()", f"{name}.signals.torque"]
 
 
-def story(found: Diagnosis) -> Story:
-    """What the page says."""
-    first, *others = found.describe()
-    return Story(
+def story(result: Diagnosis) -> PageContent:
+    """Compose the report of a diagnosis."""
+    headline, *remarks = result.describe()
+    return PageContent(
         "Diagnosis of a record",
-        f"{capitalised(first)}.",
-        about=f"{found.arm.title}, {found.log.duration:.4g} s at {found.log.rate:.4g} samples a second",
-        lines=[*(f"{capitalised(line)}." for line in others), *(f"{capitalised(x)}." for x in found.bounds.describe()), NEVER],
+        f"{capitalise_first(headline)}.",
+        about=f"{result.arm.title}, {result.log.duration:.4g} s at {result.log.rate:.4g} samples a second",
+        lines=[
+            *(f"{capitalise_first(line)}." for line in remarks),
+            *(f"{capitalise_first(remark)}." for remark in result.bounds.describe()),
+            NO_ALARM_NOTE,
+        ],
         figures={
             "residuals": (
                 "Residuals and their bounds",
@@ -82,5 +92,5 @@ def story(found: Diagnosis) -> Story:
                 "alarm: 10 ms of torque, 20 ms of tracking, 50 ms of the tool, each at twice its bound.",
             )
         },
-        arm=found.arm,
+        arm=result.arm,
     )

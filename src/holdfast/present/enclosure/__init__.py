@@ -1,1 +1,1 @@
-"""Words of configurations that were enclosed."""
+"""Reports of enclosed configurations."""

@@ -1,4 +1,4 @@
-"""All configurations of a pose, in numbers and words."""
+"""Text, tables, and JSON of all configurations of a pose."""
 
 from __future__ import annotations
 
@@ -7,29 +7,43 @@ from typing import Any
 import numpy as np
 
 from holdfast.enclosure.search import Configurations
-from holdfast.present.printing import Rows, alike
+from holdfast.present.printing import TextTable, format_column
 
 
-def to_dict(found: Configurations) -> dict[str, Any]:
-    """What is known, the configurations, and how much was looked at; rad and m."""
+def to_dict(configurations: Configurations) -> dict[str, Any]:
+    """Return the finding, the configurations, and the search effort; rad and m."""
     names = ("pose", "lower", "upper", "q", "boxes", "open", "widest", "seconds")
-    known = {"task": found.task.name, "finding": found.finding.name.lower(), "sentence": found.finding.sentence}
-    return {**found.arm.entry(), **known, **{name: getattr(found, name) for name in names}}
+    known = {
+        "task": configurations.task.name,
+        "finding": configurations.finding.name.lower(),
+        "sentence": configurations.finding.sentence,
+    }
+    return {**configurations.arm.entry(), **known, **{name: getattr(configurations, name) for name in names}}
 
 
-def next_steps(found: Configurations, name: str) -> list[str]:
-    """What it is drawn with."""
-    return [f"{name}.arm.show({name}.q[0])"] if len(found.q) else [f"{name}.none  # True only if that is proved"]
+def next_steps(configurations: Configurations, name: str) -> list[str]:
+    """Suggest a view of the first configuration."""
+    return [f"{name}.arm.show({name}.q[0])"] if len(configurations.q) else [f"{name}.none  # True only if that is proved"]
 
 
-def tables(found: Configurations) -> list[Rows]:
-    """A row for each configuration."""
-    prismatic = found.arm.prismatic
-    head = ["", *(f"{name}, {'m' if slides else 'deg'}" for name, slides in zip(found.arm.joint_names, prismatic, strict=True))]
-    shown = np.where(prismatic, found.q, np.rad2deg(found.q))
-    return [Rows(head, [[str(k + 1), *alike(q)] for k, q in enumerate(shown)])] if len(shown) else []
+def tables(configurations: Configurations) -> list[TextTable]:
+    """Tabulate the configurations, one row for each."""
+    prismatic = configurations.arm.prismatic
+    header = [
+        "",
+        *(
+            f"{name}, {'m' if is_prismatic else 'deg'}"
+            for name, is_prismatic in zip(configurations.arm.joint_names, prismatic, strict=True)
+        ),
+    ]
+    displayed = np.where(prismatic, configurations.q, np.rad2deg(configurations.q))
+    return (
+        [TextTable(header, [[str(row_index + 1), *format_column(q)] for row_index, q in enumerate(displayed)])]
+        if len(displayed)
+        else []
+    )
 
 
-def key_table(found: Configurations) -> Rows:
-    """The configurations."""
-    return (tables(found) or [Rows(["finding"], [[found.finding.sentence]])])[0]
+def key_table(configurations: Configurations) -> TextTable:
+    """Return the table of the configurations."""
+    return (tables(configurations) or [TextTable(["finding"], [[configurations.finding.sentence]])])[0]

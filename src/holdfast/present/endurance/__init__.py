@@ -1,1 +1,1 @@
-"""What a motion survives, shown."""
+"""Reports and figures of lock survival."""

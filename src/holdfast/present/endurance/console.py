@@ -1,4 +1,4 @@
-"""What a motion survives in numbers and words."""
+"""Text, tables, and JSON of the lock survival of a motion."""
 
 from __future__ import annotations
 
@@ -7,187 +7,208 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import capitalised, number, percent
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first, format_number, format_percent
 
 if TYPE_CHECKING:
-    from holdfast.endurance.endurance import Endurance
-    from holdfast.endurance.injection import Injection
+    from holdfast.endurance.endurance import LockSurvival
+    from holdfast.endurance.injection import LockTests
 
 Array = NDArray[np.float64]
 
-_NOTHING = 1e-9  # m/s
+_NEGLIGIBLE_SPEED_M_S = 1e-9  # m/s
 
 
-def to_dict(e: Endurance) -> dict[str, Any]:
-    """The survival with what bounds it, over time and by joint."""
-    names = e.arm.joint_names
-    low, high = e.interval or (None, None)
-    when, least = e.worst
+def to_dict(survival: LockSurvival) -> dict[str, Any]:
+    """Return the survival with its bounds, over time and by joint."""
+    names = survival.arm.joint_names
+    lower, upper = survival.interval or (None, None)
+    worst_time, worst_survival = survival.worst
     return {
-        **e.arm.entry(),
-        "task": e.task.name,
-        "mode": e.mode,
-        "kind": e.kind,
-        "keep": [kept.to_dict() for kept in e.keep],
-        "rates": dict(zip(names, e.rates.each, strict=True)),
-        "rates_per_second": e.rates.per_second,
-        "survival": e.survival,
-        "bound": e.bound,
-        "gap": e.gap,
-        "best_within_velocity_limits": low,
-        "best_with_spacing_on_top": high,
-        "guaranteed": e.guaranteed,
-        "lost": e.lost,
-        "safe_from_s": e.safe_from,
-        "safe_until_s": e.safe_until,
-        "worst": {"at_s": when, "survival": least},
-        "never": None if e.never is None else {"at_s": e.never[0], "joint": e.never[1]},
-        "by_joint": e.by_joint,
-        "fraction_of_velocity_limits": e.speed,
+        **survival.arm.entry(),
+        "task": survival.task.name,
+        "mode": survival.mode,
+        "kind": survival.kind,
+        "keep": [constraint.to_dict() for constraint in survival.keep],
+        "rates": dict(zip(names, survival.rates.each, strict=True)),
+        "rates_per_second": survival.rates.per_second,
+        "survival": survival.survival,
+        "bound": survival.bound,
+        "gap": survival.gap,
+        "best_within_velocity_limits": lower,
+        "best_with_spacing_on_top": upper,
+        "guaranteed": survival.guaranteed,
+        "lost": survival.lost,
+        "safe_from_s": survival.safe_from,
+        "safe_until_s": survival.safe_until,
+        "worst": {"at_s": worst_time, "survival": worst_survival},
+        "never": None if survival.never is None else {"at_s": survival.never[0], "joint": survival.never[1]},
+        "by_joint": survival.by_joint,
+        "fraction_of_velocity_limits": survival.speed,
         "velocity_jump": {
-            "most_linear_m_per_s": e.jump.most_linear,
-            "most_angular_rad_per_s": e.jump.most_angular,
-            "mean_linear_m_per_s": e.jump.mean_linear,
-            "mean_angular_rad_per_s": e.jump.mean_angular,
-            "linear_m_per_s": e.jump.linear,
-            "angular_rad_per_s": e.jump.angular,
+            "most_linear_m_per_s": survival.jump.most_linear,
+            "most_angular_rad_per_s": survival.jump.most_angular,
+            "mean_linear_m_per_s": survival.jump.mean_linear,
+            "mean_angular_rad_per_s": survival.jump.mean_angular,
+            "linear_m_per_s": survival.jump.linear,
+            "angular_rad_per_s": survival.jump.angular,
         },
-        "beside": {other.name: other.survival for other in e.beside},
-        "injected": None if e.injected is None else _injected(e.injected),
-        "time_s": e.time,
-        "survival_at": e.curve(),
-        "q": e.q,
+        "beside": {baseline.name: baseline.survival for baseline in survival.comparisons},
+        "injected": None if survival.injected is None else _lock_test_entries(survival.injected),
+        "time_s": survival.time,
+        "survival_at": survival.curve(),
+        "q": survival.q,
     }
 
 
-def _injected(tried: Injection) -> dict[str, Any]:
-    p = tried.interval
+def _lock_test_entries(lock_tests: LockTests) -> dict[str, Any]:
+    interval = lock_tests.interval
     return {
-        "locks": len(tried.time),
-        "survived": p.value,
-        "low": p.low,
-        "high": p.high,
-        "confidence": p.confidence,
-        "alike": tried.alike,
-        "told": int(tried.told.sum()),
-        "disagreements": tried.disagreements,
+        "locks": len(lock_tests.time),
+        "survived": interval.value,
+        "low": interval.low,
+        "high": interval.high,
+        "confidence": interval.confidence,
+        "alike": lock_tests.agreement,
+        "told": int(lock_tests.told.sum()),
+        "disagreements": lock_tests.disagreements,
     }
 
 
-def key_table(e: Endurance) -> Rows:
-    """The survival, what bounds it, and when it is least."""
-    when, least = e.worst
-    at = {"exact": "locks survived", "upper bound": "locks survived, at most", "lower bound": "locks survived, at least"}
-    rows = [[at[e.kind], percent(e.survival)]]
-    if e.bound is not None:
-        rows.append(["no motion survives more than", percent(e.bound)])
+def key_table(survival: LockSurvival) -> TextTable:
+    """Tabulate the survival, its bounds, and its worst instant."""
+    worst_time, worst_survival = survival.worst
+    label_by_kind = {
+        "exact": "locks survived",
+        "upper bound": "locks survived, at most",
+        "lower bound": "locks survived, at least",
+    }
+    rows = [[label_by_kind[survival.kind], format_percent(survival.survival)]]
+    if survival.bound is not None:
+        rows.append(["no motion survives more than", format_percent(survival.bound)])
     rows += [
-        ["at the worst instant", f"{percent(least)}, at {number(when)} s"],
-        [f"every lock {_is(e)} survived from", f"{number(e.safe_from)} s on"],
-        ["largest loss of tool velocity at a lock", f"{number(e.jump.most_linear)} m/s"],
+        ["at the worst instant", f"{format_percent(worst_survival)}, at {format_number(worst_time)} s"],
+        [f"every lock {_survival_verb(survival)} survived from", f"{format_number(survival.safe_from)} s on"],
+        ["largest loss of tool velocity at a lock", f"{format_number(survival.jump.most_linear)} m/s"],
     ]
-    return Rows(["", ""], rows)
+    return TextTable(["", ""], rows)
 
 
-def next_steps(e: Endurance, name: str) -> list[str]:
-    """The motion as a table, and the page."""
-    del e
+def next_steps(survival: LockSurvival, name: str) -> list[str]:
+    """Suggest the motion as a table, and the page."""
+    del survival
     return [f'{name}.to_csv("motion.csv")', f'{name}.report("endurance.html")']
 
 
-def tables(e: Endurance) -> list[Rows]:
-    """Survival of each joint."""
-    share = e.rates.each / e.rates.total
-    lost = zip(e.by_joint.items(), share, e.jump.linear.T, strict=True)
-    rows = [[name, percent(s), percent(x), _largest(v, e.time)] for (name, x), s, v in lost]
+def tables(survival: LockSurvival) -> list[TextTable]:
+    """Tabulate the survival of each joint, and that of other motions."""
+    lock_fractions = survival.rates.each / survival.rates.total
+    joint_results = zip(survival.by_joint.items(), lock_fractions, survival.jump.linear.T, strict=True)
+    rows = [
+        [name, format_percent(fraction), format_percent(survived), _format_largest(velocity_loss, survival.time)]
+        for (name, survived), fraction, velocity_loss in joint_results
+    ]
     header = ["joint", "part of all locks", "of its locks survived", "largest loss of tool velocity"]
-    found = [Rows(header, rows, "Survival by joint")]
-    if e.beside:
-        mine = "most locks survived" if e.found is not None else "this motion"
-        others = [[other.name, percent(other.survival), percent(other.off)] for other in e.beside]
-        each = [[mine, percent(e.survival), percent(0.0)], *others]
-        found.append(Rows(["motion", "locks survived", "off the path"], each, "Other motions along the path"))
-    return found
+    result_tables = [TextTable(header, rows, "Survival by joint")]
+    if survival.comparisons:
+        motion_name = "most locks survived" if survival.found is not None else "this motion"
+        baseline_rows = [
+            [baseline.name, format_percent(baseline.survival), format_percent(baseline.off)]
+            for baseline in survival.comparisons
+        ]
+        motion_rows = [[motion_name, format_percent(survival.survival), format_percent(0.0)], *baseline_rows]
+        result_tables.append(
+            TextTable(["motion", "locks survived", "off the path"], motion_rows, "Other motions along the path")
+        )
+    return result_tables
 
 
-def story(e: Endurance) -> Story:
-    """How many locks are survived, and how many could be."""
-    _, *lines = map(capitalised, e.describe())
-    answer = f"{capitalised(e.headline)}"
-    if e.beside:
-        other = max(e.beside, key=lambda x: x.survival)
-        answer += f"; of the motions beside it {other.name} survives most, {percent(other.survival)}"
-    bound = "" if e.kind == "exact" else f" ({e.kind})"
-    facts = [(percent(e.survival), f"of the locks on the way are survived{bound}")]
-    if e.bound is not None:
-        facts.append((percent(e.bound), "is the most that any motion could survive, up to the grid"))
-    if e.safe_from < e.time[-1] and e.safe_from > 0:
-        facts.append((f"{number(e.safe_from)} s", f"from then on every lock {_is(e)} survived"))
-    about = f"{e.arm.title}, task {e.task.name}, {e.path.describe()}"
-    return Story(
+def story(survival: LockSurvival) -> PageContent:
+    """Compose the report: the survival of the motion, and the largest one possible."""
+    _, *lines = map(capitalise_first, survival.describe())
+    answer = f"{capitalise_first(survival.headline)}"
+    if survival.comparisons:
+        best_baseline = max(survival.comparisons, key=lambda baseline: baseline.survival)
+        answer += f"; of the motions beside it {best_baseline.name} survives most, {format_percent(best_baseline.survival)}"
+    bound = "" if survival.kind == "exact" else f" ({survival.kind})"
+    facts = [(format_percent(survival.survival), f"of the locks on the way are survived{bound}")]
+    if survival.bound is not None:
+        facts.append((format_percent(survival.bound), "is the most that any motion could survive, up to the grid"))
+    if survival.safe_from < survival.time[-1] and survival.safe_from > 0:
+        facts.append((f"{format_number(survival.safe_from)} s", f"from then on every lock {_survival_verb(survival)} survived"))
+    about = f"{survival.arm.title}, task {survival.task.name}, {survival.path.describe()}"
+    return PageContent(
         "Which locks a motion survives",
         f"{answer}.",
         about=about,
         facts=[fact for fact in facts if fact[0] != "0 %"],
         lines=[f"{line}." for line in lines],
-        views=_moving(e),
+        views=_animate_motion(survival),
         figures={
             "survival": ("Survival over time", "Probability that the rest of the path can be followed if a joint locks now."),
             "map": (
                 "Which locks are survivable where",
                 "Configurations found of every pose, by the joint that self-motion moves most; of several with the same "
                 "value the best. Line: the motion. First the part of all locks that is survivable there, then for each joint "
-                f"whether its lock is (yellow).{_holding(e)}",
+                f"whether its lock is (yellow).{_describe_constraints(survival)}",
             ),
             "jump": (
                 "What a lock takes from the tool",
                 "Velocity of the tool point that is lost when a joint stops at once, for each joint.",
             ),
         },
-        tables=[key_table(e), *tables(e)],
+        tables=[key_table(survival), *tables(survival)],
         method=[
             ("Failure", "one joint locks, at a random time, and stays; later locks are not counted"),
-            ("Mode", e.mode),
-            *(("Kept before a lock and after it", str(kept)) for kept in e.keep),
-            ("Rates", "per second" if e.rates.per_second else "relative"),
-            ("Poses", f"{len(e.time)}, evenly spaced in time"),
+            ("Mode", survival.mode),
+            *(("Kept before a lock and after it", str(constraint)) for constraint in survival.keep),
+            ("Rates", "per second" if survival.rates.per_second else "relative"),
+            ("Poses", f"{len(survival.time)}, evenly spaced in time"),
         ],
-        arm=e.arm,
+        arm=survival.arm,
     )
 
 
-def _largest(values: Array, time: Array) -> str:
-    """The largest of speeds (T,) and when it is; 0 where it is rounding."""
-    most = float(values.max())
-    return f"{number(most)} m/s, at {number(time[values.argmax()])} s" if most > _NOTHING else "0 m/s"
+def _format_largest(values: Array, time: Array) -> str:
+    """Format the largest of speeds (T,) with its time; 0 where it is rounding."""
+    largest = float(values.max())
+    return (
+        f"{format_number(largest)} m/s, at {format_number(time[values.argmax()])} s"
+        if largest > _NEGLIGIBLE_SPEED_M_S
+        else "0 m/s"
+    )
 
 
-def _is(e: Endurance) -> str:
-    return "may be" if e.kind == "upper bound" else "is"
+def _survival_verb(survival: LockSurvival) -> str:
+    return "may be" if survival.kind == "upper bound" else "is"
 
 
-def _holding(e: Endurance) -> str:
-    """What all configurations of the map hold, a sentence."""
-    if e.found is None or not e.found.held:
+def _describe_constraints(survival: LockSurvival) -> str:
+    """Return a sentence with the constraints that all configurations of the map satisfy."""
+    if survival.found is None or not survival.found.held:
         return ""
-    return f" All of them hold {' and '.join(e.found.held)}, as the motion does."
+    return f" All of them hold {' and '.join(survival.found.held)}, as the motion does."
 
 
-def _moving(e: Endurance) -> list[tuple[str, list[Any]]]:
-    """The arm on its way."""
+def _animate_motion(survival: LockSurvival) -> list[tuple[str, list[Any]]]:
+    """Animate the arm along its path."""
     from holdfast.present.arm.view import scene
     from holdfast.report.page import Picture
 
-    curve = e.curve()
-    shown = scene(
-        e.arm,
-        e.q,
-        time=np.linspace(0.0, e.time[-1], len(e.time)),
-        path=e.poses[:, :3, 3],
-        readings=[f"{t:.2f} s, {percent(p)} of the locks survived" for t, p in zip(e.time, curve, strict=True)],
-        cell=None if e.kept is None else e.kept[0].cell,
+    curve = survival.curve()
+    motion_scene = scene(
+        survival.arm,
+        survival.q,
+        time=np.linspace(0.0, survival.time[-1], len(survival.time)),
+        path=survival.poses[:, :3, 3],
+        readings=[
+            f"{instant:.2f} s, {format_percent(survived)} of the locks survived"
+            for instant, survived in zip(survival.time, curve, strict=True)
+        ],
+        cell=None if survival.kept is None else survival.kept[0].cell,
     )
-    picture = Picture(shown.html("motion", f"{e.arm.name} moving along its path"), "The arm on its path (orange).")
+    picture = Picture(
+        motion_scene.to_html("motion", f"{survival.arm.name} moving along its path"), "The arm on its path (orange)."
+    )
     return [("The motion", [picture])]

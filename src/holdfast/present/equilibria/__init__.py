@@ -1,1 +1,1 @@
-"""Figures of stationary points and basins."""
+"""Reports and figures of stationary points and basins."""

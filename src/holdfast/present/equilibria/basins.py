@@ -1,4 +1,4 @@
-"""Basins in numbers and words."""
+"""Text, tables, and JSON of basins of attraction."""
 
 from __future__ import annotations
 
@@ -7,98 +7,132 @@ from typing import TYPE_CHECKING, Any
 from holdfast.equilibria.attraction import Basins
 from holdfast.equilibria.stability import Kind
 from holdfast.present.equilibria import points as points_of
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import counted, percent
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import format_count, format_percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def to_dict(found: Basins) -> dict[str, Any]:
-    """The stationary points, and which fraction of the starts ends at each."""
+def to_dict(basins: Basins) -> dict[str, Any]:
+    """Return the stationary points, and the fraction of the initial configurations that end at each."""
     return {
-        **points_of.to_dict(found.points),
-        "starts": len(found.end),
-        "fractions": [{"end": name, "fraction": i.value, "low": i.low, "high": i.high} for name, i in found.shares],
-        "converged": {"fraction": found.converged.value, "low": found.converged.low, "high": found.converged.high},
-        "confidence": found.confidence,
+        **points_of.to_dict(basins.points),
+        "starts": len(basins.end),
+        "fractions": [
+            {"end": name, "fraction": interval.value, "low": interval.low, "high": interval.high}
+            for name, interval in basins.shares
+        ],
+        "converged": {"fraction": basins.converged.value, "low": basins.converged.low, "high": basins.converged.high},
+        "confidence": basins.confidence,
     }
 
 
-def tables(found: Basins) -> list[Rows]:
-    """A row for each end of a start."""
-    off = dict(zip(map(found.name, range(len(found.points))), points_of.off_target(found.points), strict=True))
-    rows = [[name, str(share), off.get(name, "")] for name, share in found.shares]
-    return [Rows(["ends at", "fraction of starts", "error"], rows)]
+def tables(basins: Basins) -> list[TextTable]:
+    """Tabulate the outcomes of the initial configurations, one row for each."""
+    error_by_name = dict(
+        zip(map(basins.name, range(len(basins.points))), points_of.format_target_errors(basins.points), strict=True)
+    )
+    rows = [[name, str(fraction), error_by_name.get(name, "")] for name, fraction in basins.shares]
+    return [TextTable(["ends at", "fraction of starts", "error"], rows)]
 
 
-def story(found: Basins) -> Story:
-    """Which fraction of the starts reaches the target, and where the others end."""
-    p, points = found.converged, found.points
-    told, count = points_of.story(points), counted(len(found.end), "start")
-    away = max((x for x in found.shares if not _reached(found, x[0])), key=lambda x: x[1].value, default=None)
-    lost = points_of.where(points)
-    sure = f"{100 * p.confidence:.4g} %"
-    if p.value == 0:
-        out = "" if (points.kind == Kind.SOLUTION).any() else ": it is out of reach"
-        answer = f"With {lost} none of {count} reaches the target{out} (at most {percent(p.high)} would, {sure})."
+def story(basins: Basins) -> PageContent:
+    """Compose the report: the fraction of the initial configurations that reach the target, and the outcomes of the others."""
+    converged, points = basins.converged, basins.points
+    points_report, start_count = points_of.story(points), format_count(len(basins.end), "start")
+    largest_miss = max(
+        (outcome for outcome in basins.shares if not _is_target(basins, outcome[0])),
+        key=lambda outcome: outcome[1].value,
+        default=None,
+    )
+    lock_text = points_of.describe_locks(points)
+    confidence_text = f"{100 * converged.confidence:.4g} %"
+    if converged.value == 0:
+        reach_note = "" if (points.kind == Kind.SOLUTION).any() else ": it is out of reach"
+        answer = (
+            f"With {lock_text} none of {start_count} reaches the target{reach_note} (at most "
+            f"{format_percent(converged.high)} would, {confidence_text})."
+        )
     else:
-        answer = f"With {lost} {percent(p.value)} of {count} reach the target ({percent(p.low)} to {percent(p.high)}, {sure})."
-    off = _off(found)
-    if away is not None and away[1].value:
-        answer = answer[:-1] + f"; {percent(away[1].value)} end {_words(away[0])}{off.get(away[0], '')}."
+        answer = (
+            f"With {lock_text} {format_percent(converged.value)} of {start_count} reach the target "
+            f"({format_percent(converged.low)} to {format_percent(converged.high)}, {confidence_text})."
+        )
+    error_by_name = _target_errors(basins)
+    if largest_miss is not None and largest_miss[1].value:
+        answer = (
+            answer[:-1] + f"; {format_percent(largest_miss[1].value)} end "
+            f"{_outcome_phrase(largest_miss[0])}{error_by_name.get(largest_miss[0], '')}."
+        )
     facts = [
-        *([(percent(p.value), f"of the starts reach the target; {percent(p.low)} to {percent(p.high)}")] if p.value else []),
-        *[(percent(s.value), f"end {_words(name)}{off.get(name, '')}") for name, s in found.shares if s.value][:4],
+        *(
+            [
+                (
+                    format_percent(converged.value),
+                    f"of the starts reach the target; {format_percent(converged.low)} to {format_percent(converged.high)}",
+                )
+            ]
+            if converged.value
+            else []
+        ),
+        *[
+            (format_percent(fraction.value), f"end {_outcome_phrase(name)}{error_by_name.get(name, '')}")
+            for name, fraction in basins.shares
+            if fraction.value
+        ][:4],
     ]
-    many = f"{found.shape[0]} by {found.shape[1]} cells" if found.shape else "starts drawn uniformly within the limits"
-    return Story(
+    sampling_text = (
+        f"{basins.shape[0]} by {basins.shape[1]} cells" if basins.shape else "starts drawn uniformly within the limits"
+    )
+    return PageContent(
         f"Starts from which {points.law.arm.name} still reaches its target",
         answer,
-        about=told.about,
-        facts=facts if p.value else facts[:4],
-        views=told.views,
-        figures={"basins": ("Where the starts end", f"{count}, by where each ends; {many}.")},
+        about=points_report.about,
+        facts=facts if converged.value else facts[:4],
+        views=points_report.views,
+        figures={"basins": ("Where the starts end", f"{start_count}, by where each ends; {sampling_text}.")},
         method=[
-            ("Starts", f"{count}: {many}; each is simulated until it stops or the time limit comes"),
+            ("Starts", f"{start_count}: {sampling_text}; each is simulated until it stops or the time limit comes"),
             (
                 "Intervals",
-                f"{100 * p.confidence:.4g} %, exact (Clopper-Pearson); of a grid those that as many random starts would have",
+                f"{100 * converged.confidence:.4g} %, exact (Clopper-Pearson); of a grid those that as many random "
+                f"starts would have",
             ),
-            *told.method[:-1],
+            *points_report.method[:-1],
         ],
         arm=points.law.arm,
     )
 
 
-def _reached(found: Basins, name: str) -> bool:
+def _is_target(basins: Basins, name: str) -> bool:
     return name == "target" or name.startswith("solution")
 
 
-def _words(name: str) -> str:
-    """Where a start ends, behind the verb."""
+def _outcome_phrase(name: str) -> str:
+    """Return the outcome of an initial configuration as words after the verb."""
     return {"moving": "nowhere: they keep moving", "undecided": "undecided", "target": "at the target"}.get(
         name, name if name.startswith("stuck") else f"at {name}"
     )
 
 
-def _off(found: Basins) -> dict[str, str]:
+def _target_errors(basins: Basins) -> dict[str, str]:
     return {
-        found.name(k): f", {error} off it"
-        for k, error in enumerate(points_of.off_target(found.points))
-        if found.points.kind[k] != Kind.SOLUTION
+        basins.name(point): f", {error} off it"
+        for point, error in enumerate(points_of.format_target_errors(basins.points))
+        if basins.points.kind[point] != Kind.SOLUTION
     }
 
 
-def next_steps(found: Basins, name: str) -> list[str]:
-    """The points themselves."""
-    del found
+def next_steps(basins: Basins, name: str) -> list[str]:
+    """Suggest the stationary points."""
+    del basins
     return [f"{name}.points  # where they are"]
 
 
-def figures(found: Basins) -> dict[str, Figure]:
-    """``basins``: a map where the starts are a grid over two joints, else bars."""
-    from holdfast.present.equilibria.figures import basins_figure
+def figures(basins: Basins) -> dict[str, Figure]:
+    """Draw ``basins``: a map where the initial configurations are a grid over two joints, else bars."""
+    from holdfast.present.equilibria.figures import draw_basins
 
-    return {"basins": basins_figure(found)}
+    return {"basins": draw_basins(basins)}

@@ -1,1 +1,1 @@
-"""Words of faults that were drawn."""
+"""Reports of sampled faults."""

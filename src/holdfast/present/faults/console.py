@@ -1,39 +1,39 @@
-"""Episodes of faults in numbers and words."""
+"""Text, tables, and JSON of fault episodes."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from holdfast.faults.batch import FaultBatch
-from holdfast.present.printing import Rows
+from holdfast.present.printing import TextTable
 
 
 def to_dict(batch: FaultBatch) -> dict[str, Any]:
-    """The events of each episode with the digest that names them."""
+    """Return the events of each episode with the digest that identifies them."""
     return {
         "joints": list(batch.joints),
         "seed": batch.seed,
         "episodes": [
-            {"episode": batch.first + k, "id": events.id, "events": [event.stored() for event in events]}
-            for k, events in enumerate(batch.episodes)
+            {"episode": batch.first + index, "id": events.id, "events": [event.stored() for event in events]}
+            for index, events in enumerate(batch.episodes)
         ],
     }
 
 
-def tables(batch: FaultBatch) -> list[Rows]:
-    """A row for each fault."""
+def tables(batch: FaultBatch) -> list[TextTable]:
+    """Tabulate the faults, one row for each."""
     rows = []
-    for k, events in enumerate(batch.episodes):
+    for index, events in enumerate(batch.episodes):
         for sentence in [event.sentence() for event in events] or ["no fault"]:
-            rows.append([str(batch.first + k), events.id[:12], sentence])
-    return [Rows(["episode", "id", "fault"], rows)]
+            rows.append([str(batch.first + index), events.id[:12], sentence])
+    return [TextTable(["episode", "id", "fault"], rows)]
 
 
-def key_table(batch: FaultBatch) -> Rows:
-    """The faults."""
+def key_table(batch: FaultBatch) -> TextTable:
+    """Return the table of the faults."""
     return tables(batch)[0]
 
 
 def next_steps(batch: FaultBatch, name: str) -> list[str]:
-    """One episode, and the arrays."""
+    """Suggest one episode, and the arrays."""
     return [f"{name}.episodes[{min(1, len(batch) - 1)}]", f"{name}.onset"]

@@ -1,1 +1,1 @@
-"""What a configuration is worth, as people read it."""
+"""Reports of indices at one configuration."""

@@ -1,4 +1,4 @@
-"""Indices and susceptibilities at one configuration (n,), in numbers and words."""
+"""Text and JSON of indices and susceptibilities at one configuration (n,)."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
 from holdfast.indices.susceptibility.measure import Susceptibility
-from holdfast.present.arm.console import print_outside, shown_positions
-from holdfast.present.printing import alike, number
+from holdfast.present.arm.console import format_positions, print_limit_violations
+from holdfast.present.printing import format_column, format_significant
 from holdfast.status import Status
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 def index_values(index: Index, q: Array) -> dict[str, Any]:
-    """The index after each failure, the worst of them, and its gradient."""
+    """Return the index after each failure, the worst of them, and its gradient."""
     result, names = index.evaluate(q), index.arm.joint_names
     singular = bool(result.status == Status.SINGULAR)
     return {
@@ -47,7 +47,7 @@ def index_values(index: Index, q: Array) -> dict[str, Any]:
 
 
 def susceptibility_values(measure: Susceptibility, q: Array) -> dict[str, Any]:
-    """The susceptibility, what each joint adds, and its gradient."""
+    """Return the susceptibility, the contribution of each joint, and the gradient."""
     result, names = measure.evaluate(q), measure.arm.joint_names
     return {
         **measure.arm.entry(),
@@ -61,49 +61,54 @@ def susceptibility_values(measure: Susceptibility, q: Array) -> dict[str, Any]:
         "value": result.value,
         "by_joint": dict(zip(names, result.by_joint.tolist(), strict=True)),
         "joint_unit": dict(zip(names, measure.joint_unit, strict=True)),
-        "joint_status": {name: Status(int(s)).name.lower() for name, s in zip(names, result.joint_status, strict=True)},
+        "joint_status": {
+            name: Status(int(status)).name.lower() for name, status in zip(names, result.joint_status, strict=True)
+        },
         "gradient": dict(zip(names, measure.gradient(q).tolist(), strict=True)),
     }
 
 
 def show_index(index: Index, q: Array, out: Console) -> None:
-    """The worst case, then a table of the failures."""
+    """Print the worst case, then a table of the failures."""
     from rich.markup import escape
 
-    r, unit = index_values(index, q), _unit(index)
+    results, unit = index_values(index, q), _unit_suffix(index)
     verdict = "[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]"
-    if not r["singular"]:
-        bound = f"; at most {number(index.bound)} for any configuration" if index.bound is not None else ""
+    if not results["singular"]:
+        bound = f"; at most {format_significant(index.bound)} for any configuration" if index.bound is not None else ""
         if index.ceiling is not None:
-            bound = f"; {index.ceiling.compared(r['value'])}"
-        verdict = f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}"
-    values = zip(r["by_failure"], alike(r["by_failure"].values(), digits=6), strict=True)
-    rows = [(name, text, "[bold]worst[/]" if name == r["worst"] else "") for name, text in values]
-    _show(index, q, verdict, ("failure", f"{index.name}{unit}", ""), rows, out)
-    _show_gradient("worst case", r, out)
+            bound = f"; {index.ceiling.compare_value(results['value'])}"
+        verdict = (
+            f"[bold]{format_significant(results['value'], 6)}{unit}[/], worst when "
+            f"[bold]{escape(results['worst'])}[/] locks{bound}"
+        )
+    values = zip(results["by_failure"], format_column(results["by_failure"].values(), digits=6), strict=True)
+    rows = [(name, value_text, "[bold]worst[/]" if name == results["worst"] else "") for name, value_text in values]
+    _show_measure(index, q, verdict, ("failure", f"{index.name}{unit}", ""), rows, out)
+    _show_gradient("worst case", results, out)
 
 
 def show_susceptibility(measure: Susceptibility, q: Array, out: Console) -> None:
-    """The value, then a table of the joints, and what their states mean."""
-    r = susceptibility_values(measure, q)
-    kinds, values = list(r["joint_unit"].values()), list(r["by_joint"].values())
-    states = ["" if state == "ok" else state.replace("_", " ") for state in r["joint_status"].values()]
-    rows = list(zip(r["by_joint"], shown_positions(np.array(values), kinds, 6), states, strict=True))
-    verdict = f"[bold]{number(r['value'], 6)}{_unit(measure)}[/], smaller is better"
-    _show(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
-    for state in dict.fromkeys(r["joint_status"].values()):
+    """Print the value, then a table of the joints, and the meaning of their states."""
+    results = susceptibility_values(measure, q)
+    kinds, values = list(results["joint_unit"].values()), list(results["by_joint"].values())
+    states = ["" if state == "ok" else state.replace("_", " ") for state in results["joint_status"].values()]
+    rows = list(zip(results["by_joint"], format_positions(np.array(values), kinds, 6), states, strict=True))
+    verdict = f"[bold]{format_significant(results['value'], 6)}{_unit_suffix(measure)}[/], smaller is better"
+    _show_measure(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
+    for state in dict.fromkeys(results["joint_status"].values()):
         if state != "ok":
             out.print(f"[yellow]{state.replace('_', ' ')}: {Status[state.upper()].sentence}[/]", soft_wrap=True)
-    _show_gradient("value", r, out)
+    _show_gradient("value", results, out)
 
 
-def _unit(measure: Objective) -> str:
+def _unit_suffix(measure: Objective) -> str:
     from rich.markup import escape
 
     return "" if measure.unit == "1" else f" {escape(measure.unit)}"
 
 
-def _show(
+def _show_measure(
     measure: Index | Susceptibility,
     q: Array,
     verdict: str,
@@ -113,19 +118,19 @@ def _show(
 ) -> None:
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
     out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.title)}", soft_wrap=True)
     out.print(verdict, soft_wrap=True)
-    print_outside(measure.arm, q, out)
-    table = Grid(*head)
+    print_limit_violations(measure.arm, q, out)
+    table = BandedTable(*head)
     for name, *cells in rows:
         table.add_row(escape(name), *cells)
     out.print(table)
 
 
-def _show_gradient(of: str, r: dict[str, Any], out: Console) -> None:
+def _show_gradient(quantity: str, results: dict[str, Any], out: Console) -> None:
     from rich.markup import escape
 
-    gradient = ", ".join(f"{name} {number(value)}" for name, value in r["gradient"].items())
-    out.print(f"gradient of the {of}, per rad or m: {escape(gradient)}", soft_wrap=True)
+    gradient = ", ".join(f"{name} {format_significant(value)}" for name, value in results["gradient"].items())
+    out.print(f"gradient of the {quantity}, per rad or m: {escape(gradient)}", soft_wrap=True)

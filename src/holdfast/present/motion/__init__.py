@@ -1,1 +1,1 @@
-"""Page and figures of a motion along a path."""
+"""Reports and figures of a motion along a path."""

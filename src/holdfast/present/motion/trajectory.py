@@ -1,4 +1,4 @@
-"""The report of a motion along a path: one HTML file that begins with the answer."""
+"""HTML report of a motion along a path, which begins with the answer."""
 
 from __future__ import annotations
 
@@ -9,288 +9,369 @@ import numpy as np
 from markupsafe import Markup
 
 from holdfast.errors import ArmError
-from holdfast.files.output import made
+from holdfast.files.output import make_folder
 from holdfast.motion.slowness import SlowMotion
-from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
-from holdfast.notice import says
+from holdfast.motion.trajectory import PATH_TOLERANCE, Trajectory, find_susceptibilities
+from holdfast.notice import reports_progress
 from holdfast.present.arm.view import scene
-from holdfast.present.clearance.shape import shape_text
-from holdfast.present.printing import number
-from holdfast.present.story import how
+from holdfast.present.clearance.shape import describe_shape
+from holdfast.present.printing import format_significant
+from holdfast.present.story import build_method_blocks
 from holdfast.report import page
 from holdfast.report.page import Block, Callout, Page, Picture, Section, Table, Text
-from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
-from holdfast.words import as_given, capitalised, percent
+from holdfast.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
+from holdfast.words import capitalise_first, format_as_given, format_percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_FRAMES = 201
-_SAME, _FOLD = 5e-3, 10.0  # changes that are none, and those that a fraction would not tell
-SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump", "too near"}
+_MAX_VIEW_FRAMES = 201
+_NEGLIGIBLE_CHANGE, _MAX_RELATIVE_CHANGE = 5e-3, 10.0  # changes that are none, and those that a fraction would not tell
+SPEED_FACTORS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
+_SERIOUS_EVENTS = {
+    "end effector slowed",
+    "not at an extremum",
+    "algorithmic singularity",
+    "value not kept",
+    "value jump",
+    "too near",
+}
 
 
-def figures(t: Trajectory) -> dict[str, Figure]:
-    """The arm at start and end, the way of its tool, and the objective over time."""
-    from holdfast.present.stick_figure import views_of
-    from holdfast.report.motions import Motion, Panel, drawn_motion
+def figures(trajectory: Trajectory) -> dict[str, Figure]:
+    """Draw the arm at start and end, the path of its tool, and the objective over time."""
+    from holdfast.present.stick_figure import choose_views
+    from holdfast.report.motions import StickMotion, TimePanel, stick_motion_figure
 
-    chain = t.arm.frames(t.q)[..., :3, 3]
-    moving = Motion(chain, np.r_[False, t.arm.prismatic, False], t.poses[:, :3, 3])
-    unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
-    panel = Panel(t.time, t.value, f"{t.objective.name}{unit}", f"{capitalised(t.objective.better)} is better")
-    caption = f"{t.arm.name}, {t.method}, {len(t.time):,} samples"
-    return {"motion": drawn_motion(moving, views_of(t.arm, chain), panel, caption, "time, s", wanted="path asked for")}
-
-
-@says("drawing the report")
-def write(t: Trajectory, path: Path, command: str = "") -> Path:
-    """The motion as a page."""
-    return page.write(build(t, command), path)
-
-
-def save(t: Trajectory, folder: Path, command: str = "") -> list[Path]:
-    """trajectory.csv and report.html."""
-    folder = made(folder)
-    return [t.to_csv(folder / "trajectory.csv"), t.report(folder / "report.html", command=command)]
+    chain = trajectory.arm.frames(trajectory.q)[..., :3, 3]
+    moving = StickMotion(chain, np.r_[False, trajectory.arm.prismatic, False], trajectory.poses[:, :3, 3])
+    unit = "" if trajectory.objective.unit in ("1", "mixed") else f", {trajectory.objective.unit}"
+    panel = TimePanel(
+        trajectory.time,
+        trajectory.value,
+        f"{trajectory.objective.name}{unit}",
+        f"{capitalise_first(trajectory.objective.better)} is better",
+    )
+    caption = f"{trajectory.arm.name}, {trajectory.method}, {len(trajectory.time):,} samples"
+    return {
+        "motion": stick_motion_figure(
+            moving, choose_views(trajectory.arm, chain), panel, caption, "time, s", path_label="path asked for"
+        )
+    }
 
 
-def build(t: Trajectory, command: str = "") -> Page:
-    """The page as blocks."""
-    slowness = None if t.torque_bound is None else t.slowness(t.torque_bound)  # first: it may be refused
-    f = _Facts(t)
-    alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad")]
+@reports_progress("drawing the report")
+def write(trajectory: Trajectory, path: Path, command: str = "") -> Path:
+    """Write the report of the motion as a page."""
+    return page.write(build(trajectory, command), path)
+
+
+def save(trajectory: Trajectory, folder: Path, command: str = "") -> list[Path]:
+    """Write trajectory.csv and report.html."""
+    folder = make_folder(folder)
+    return [trajectory.to_csv(folder / "trajectory.csv"), trajectory.report(folder / "report.html", command=command)]
+
+
+def build(trajectory: Trajectory, command: str = "") -> Page:
+    """Build the page as blocks."""
+    slowness = (
+        None if trajectory.torque_bound is None else trajectory.slowness(trajectory.torque_bound)
+    )  # first: it may be refused
+    report = _TrajectoryReport(trajectory)
+    alerts = [] if trajectory.on_path else [Callout(f"{trajectory.headline}.", "bad")]
     parts = [
-        Section("Key numbers", f.numbers()),
-        Section("The motion", f.motion()),
-        Section(f"{capitalised(t.objective.name)} along the path", f.criterion()),
-        Section("What happened", f.events()),
-        Section("Clearance", f.clearance()),
-        Section("Joint rates", f.rates()),
-        Section("Joint positions", f.joints()),
-        Section("Torques, and how slow is slow enough", f.torques(slowness)),
-        Section("Curvature along the self-motion", f.curvature()),
-        Section("Error of the end effector", f.hand()),
+        Section("Key numbers", report.tabulate_numbers()),
+        Section("The motion", report.animate_motion()),
+        Section(f"{capitalise_first(trajectory.objective.name)} along the path", report.draw_objective()),
+        Section("What happened", report.tabulate_events()),
+        Section("Clearance", report.draw_clearance()),
+        Section("Joint rates", report.draw_rates()),
+        Section("Joint positions", report.draw_joints()),
+        Section("Torques, and how slow is slow enough", report.draw_torques(slowness)),
+        Section("Curvature along the self-motion", report.draw_curvature()),
+        Section("Error of the end effector", report.draw_tool_error()),
     ]
     return Page(
-        f"Motion of {t.arm.name} along a path",
-        f.headline,
+        f"Motion of {trajectory.arm.name} along a path",
+        report.headline,
         parts,
-        subtitle=f"{t.method}, {t.objective.name}, {t.objective.better} is better",
+        subtitle=f"{trajectory.method}, {trajectory.objective.name}, {trajectory.objective.better} is better",
         warnings=alerts,
-        facts=f.facts(),
-        method=f.method(),
+        facts=report.list_facts(),
+        method=report.describe_method(),
         again=command,
     )
 
 
-class _Facts:
-    def __init__(self, t: Trajectory) -> None:
-        self.t = t
-        self.unit = "" if t.objective.unit in ("1", "mixed") else f" {t.objective.unit}"
-        self.singular = [e.start for e in t.events if e.kind == "algorithmic singularity"]
+class _TrajectoryReport:
+    def __init__(self, trajectory: Trajectory) -> None:
+        self.trajectory = trajectory
+        self.unit_suffix = "" if trajectory.objective.unit in ("1", "mixed") else f" {trajectory.objective.unit}"
+        self.singular_times = [event.start for event in trajectory.events if event.kind == "algorithmic singularity"]
 
     @property
     def headline(self) -> str:
-        """The worst of the objective on the way, and how much the objective changes that."""
-        t, name, plain = self.t, self.t.objective.name, self.t.without
-        text = f"The worst {name} on the way is {number(t.worst)}{self.unit}"
-        if plain is not None:
-            change = (t.worst - plain.worst) / abs(plain.worst) if plain.worst else np.inf
-            if abs(change) < _SAME:
+        """Worst value of the objective along the path, and its change by the objective."""
+        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without
+        text = f"The worst {name} on the way is {format_significant(trajectory.worst)}{self.unit_suffix}"
+        if baseline is not None:
+            change = (trajectory.worst - baseline.worst) / abs(baseline.worst) if baseline.worst else np.inf
+            if abs(change) < _NEGLIGIBLE_CHANGE:
                 text += ", as on the same path without it"
             else:
-                much = (
-                    f"{percent(abs(change))} {'less' if change < 0 else 'more'} than on"
-                    if abs(change) < _FOLD
+                comparison = (
+                    f"{format_percent(abs(change))} {'less' if change < 0 else 'more'} than on"
+                    if abs(change) < _MAX_RELATIVE_CHANGE
                     else "against that on"
                 )
-                text += f", {much} the same path without it ({number(plain.worst)}{self.unit})"
-        where = (
+                text += f", {comparison} the same path without it ({format_significant(baseline.worst)}{self.unit_suffix})"
+        path_note = (
             "; the end effector stays on its path."
-            if t.on_path
-            else f". The end effector leaves its path, by up to {t.tool_error}."
+            if trajectory.on_path
+            else f". The end effector leaves its path, by up to {trajectory.tool_error}."
         )
-        return f"{text}{where}"
+        return f"{text}{path_note}"
 
-    def facts(self) -> list[tuple[str, str]]:
-        """The answer in a few numbers."""
-        t, name, plain = self.t, self.t.objective.name, self.t.without
-        found = [(f"{number(t.worst)}{self.unit}", f"worst {name} on the way")]
-        if plain is not None:
-            found.append((f"{number(plain.worst)}{self.unit}", "on the same path without it, with least-norm rates"))
-        found.append((f"{number(float(t.value.mean()))}{self.unit}", "mean on the way"))
-        found.append((f"{number(t.peak_rate)} rad/s", f"largest norm of the joint rates, at {t.peak_time:.3g} s"))
-        return found
-
-    def numbers(self) -> list[Block]:
-        """The motion in a few numbers."""
-        t, unit = self.t, self.unit
-        rows: list[tuple[str, str]] = [
-            ("At the start, at the end", f"{t.value[0]:.4g}, {t.value[-1]:.4g}{unit}"),
-            ("Mean, smallest, largest", f"{t.value.mean():.4g}, {t.value.min():.4g}, {t.value.max():.4g}{unit}"),
-        ]
-        if t.best_value is not None:
-            rows.append(("Best over the whole self-motion, mean", f"{np.nanmean(t.best_value):.4g}{unit}"))
-        rows += [
-            ("Largest norm of the joint rates", f"{t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s"),
-            ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
-            ("End effector off its path by at most", t.tool_error),
-        ]
-        if t.clearance is not None and t.nearest is not None:
-            rows.append(("Smallest clearance", f"{1000 * t.clearance[t.nearest[0]]:.4g} mm, {t.nearest[1]}"))
-        if t.rate_cap is not None:
-            rows.append(
-                ("Self-motion slowed by the cap", f"{percent(float(np.mean(t.self_motion < 1 - 1e-9)))} of the samples")
+    def list_facts(self) -> list[tuple[str, str]]:
+        """List the key facts of the motion."""
+        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without
+        entries = [(f"{format_significant(trajectory.worst)}{self.unit_suffix}", f"worst {name} on the way")]
+        if baseline is not None:
+            entries.append(
+                (
+                    f"{format_significant(baseline.worst)}{self.unit_suffix}",
+                    "on the same path without it, with least-norm rates",
+                )
             )
-        if (t.task_share < 1 - 1e-9).any():
+        entries.append((f"{format_significant(float(trajectory.value.mean()))}{self.unit_suffix}", "mean on the way"))
+        entries.append(
+            (
+                f"{format_significant(trajectory.peak_rate)} rad/s",
+                f"largest norm of the joint rates, at {trajectory.peak_time:.3g} s",
+            )
+        )
+        return entries
+
+    def tabulate_numbers(self) -> list[Block]:
+        """Tabulate the motion in a few numbers."""
+        trajectory, unit = self.trajectory, self.unit_suffix
+        rows: list[tuple[str, str]] = [
+            ("At the start, at the end", f"{trajectory.value[0]:.4g}, {trajectory.value[-1]:.4g}{unit}"),
+            (
+                "Mean, smallest, largest",
+                f"{trajectory.value.mean():.4g}, {trajectory.value.min():.4g}, {trajectory.value.max():.4g}{unit}",
+            ),
+        ]
+        if trajectory.best_value is not None:
+            rows.append(("Best over the whole self-motion, mean", f"{np.nanmean(trajectory.best_value):.4g}{unit}"))
+        rows += [
+            ("Largest norm of the joint rates", f"{trajectory.peak_rate:.4g} rad/s at {trajectory.peak_time:.4g} s"),
+            ("Median of that norm", f"{np.median(trajectory.rate_norm):.4g} rad/s"),
+            ("End effector off its path by at most", trajectory.tool_error),
+        ]
+        if trajectory.clearance is not None and trajectory.nearest is not None:
             rows.append(
-                ("End effector slowed by joint limits", f"{percent(float(np.mean(t.task_share < 1 - 1e-9)))} of the samples")
+                ("Smallest clearance", f"{1000 * trajectory.clearance[trajectory.nearest[0]]:.4g} mm, {trajectory.nearest[1]}")
+            )
+        if trajectory.rate_cap is not None:
+            rows.append(
+                (
+                    "Self-motion slowed by the cap",
+                    f"{format_percent(float(np.mean(trajectory.self_motion < 1 - 1e-9)))} of the samples",
+                )
+            )
+        if (trajectory.task_share < 1 - 1e-9).any():
+            rows.append(
+                (
+                    "End effector slowed by joint limits",
+                    f"{format_percent(float(np.mean(trajectory.task_share < 1 - 1e-9)))} of the samples",
+                )
             )
         return [Table(rows)]
 
     # ---- the arm -----------------------------------------------------------------------------------------------
 
-    def motion(self) -> list[Block]:
-        """The arm moving, beside the motion without the objective."""
-        t, plain = self.t, self.t.without
-        few = np.unique(np.linspace(0, len(t.time) - 1, min(_FRAMES, len(t.time))).astype(int))
+    def animate_motion(self) -> list[Block]:
+        """Animate the arm, with the motion without the objective for comparison."""
+        trajectory, baseline = self.trajectory, self.trajectory.without
+        samples = np.unique(np.linspace(0, len(trajectory.time) - 1, min(_MAX_VIEW_FRAMES, len(trajectory.time))).astype(int))
         readings = []
-        for k in few:
-            other = "" if plain is None else f", without it {plain.value[k]:.4g}"
-            readings.append(f"{t.time[k]:.2f} s, {t.objective.name} {t.value[k]:.4g}{other}")
-        q = t.q[few] if plain is None else np.stack([t.q[few], plain.q[few]])
-        shown = scene(
-            t.arm,
+        for sample in samples:
+            comparison = "" if baseline is None else f", without it {baseline.value[sample]:.4g}"
+            readings.append(
+                f"{trajectory.time[sample]:.2f} s, {trajectory.objective.name} {trajectory.value[sample]:.4g}{comparison}"
+            )
+        q = trajectory.q[samples] if baseline is None else np.stack([trajectory.q[samples], baseline.q[samples]])
+        motion_scene = scene(
+            trajectory.arm,
             q,
-            labels=() if plain is None else (t.method, "without the objective"),
-            time=np.linspace(t.time[0], t.time[-1], len(few)),
-            path=t.poses[few, :3, 3],
+            labels=() if baseline is None else (trajectory.method, "without the objective"),
+            time=np.linspace(trajectory.time[0], trajectory.time[-1], len(samples)),
+            path=trajectory.poses[samples, :3, 3],
             readings=readings,
-            cell=None if t.clear_of is None else t.clear_of.cell,
+            cell=None if trajectory.clear_of is None else trajectory.clear_of.cell,
         )
         caption = "The arm on its path (orange)."
-        if plain is not None:
+        if baseline is not None:
             caption += " See-through: the same path from the same configuration without the objective, by least-norm rates."
-        return [Picture(shown.html("motion", f"{t.arm.name} moving along its path"), caption)]
+        return [Picture(motion_scene.to_html("motion", f"{trajectory.arm.name} moving along its path"), caption)]
 
     # ---- curves ------------------------------------------------------------------------------------------------
 
-    def _figure(self, panels: list[Timeline], about: str, caption: str) -> Picture:
-        return Picture(stacked_panels(self.t.time, panels, about), caption)
+    def _stack_panels(self, panels: list[Timeline], description: str, caption: str) -> Picture:
+        return Picture(draw_stacked_panels(self.trajectory.time, panels, description), caption)
 
-    def criterion(self) -> list[Block]:
-        """The objective, and each joint's measure."""
-        t = self.t
-        lines = [Line(t.value, t.method, "first")]
-        if t.without is not None:
-            lines.append(Line(t.without.value, "without the objective", "third"))
-        caption = f"{capitalised(t.objective.name)} at {len(t.time):,} samples; {t.objective.better} is better."
-        if t.best_value is not None:
-            lines.append(Line(t.best_value, "best of each pose", "compared"))
+    def draw_objective(self) -> list[Block]:
+        """Draw the objective, and each joint's measure."""
+        trajectory = self.trajectory
+        lines = [TimelineLine(trajectory.value, trajectory.method, "first")]
+        if trajectory.without is not None:
+            lines.append(TimelineLine(trajectory.without.value, "without the objective", "third"))
+        caption = (
+            f"{capitalise_first(trajectory.objective.name)} at {len(trajectory.time):,} samples; "
+            f"{trajectory.objective.better} is better."
+        )
+        if trajectory.best_value is not None:
+            lines.append(TimelineLine(trajectory.best_value, "best of each pose", "compared"))
             caption += (
                 " Best of each pose: over the whole self-motion manifold, traced at up to 101 poses, whether a motion leads "
                 "there or not."
             )
-        if t.best_path is not None:
-            ok = np.isfinite(t.best_path).all(axis=1)
-            if ok.any():
-                value = np.full(len(t.time), np.nan)
-                value[ok] = t.objective(t.best_path[ok])
-                lines.append(Line(value, "best continuous motion", "second"))
+        if trajectory.best_path is not None:
+            has_motion = np.isfinite(trajectory.best_path).all(axis=1)
+            if has_motion.any():
+                value = np.full(len(trajectory.time), np.nan)
+                value[has_motion] = trajectory.objective(trajectory.best_path[has_motion])
+                lines.append(TimelineLine(value, "best continuous motion", "second"))
                 caption += (
                     " Best continuous motion: dynamic programming over these manifolds, on points between 0.05 rad apart."
                 )
-            if not ok.all():
-                caption += f" No continuous motion was found for {percent(float(np.mean(~ok)))} of the samples."
-        unit = "" if t.objective.unit == "1" else f", {t.objective.unit}"
-        panels = [Timeline(lines, f"objective{unit}" if len(unit) < 24 else "objective", t.objective.name, self.singular)]
-        for measure in susceptibilities(t.objective):
-            values = measure.by_joint(t.q)
+            if not has_motion.all():
+                caption += f" No continuous motion was found for {format_percent(float(np.mean(~has_motion)))} of the samples."
+        unit = "" if trajectory.objective.unit == "1" else f", {trajectory.objective.unit}"
+        panels = [
+            Timeline(
+                lines, f"objective{unit}" if len(unit) < 24 else "objective", trajectory.objective.name, self.singular_times
+            )
+        ]
+        for measure in find_susceptibilities(trajectory.objective):
+            values = measure.by_joint(trajectory.q)
             units = ", ".join(dict.fromkeys(measure.joint_unit))
-            each = [Line(v, j.name) for v, j in zip(values.T, t.arm.joints, strict=True)]
+            joint_lines = [
+                TimelineLine(joint_values, joint.name)
+                for joint_values, joint in zip(values.T, trajectory.arm.joints, strict=True)
+            ]
             name = measure.formula.name
-            panels.append(Timeline(each, f"{name}, {units}", f"{capitalised(name)} of each joint if it fails"))
+            panels.append(Timeline(joint_lines, f"{name}, {units}", f"{capitalise_first(name)} of each joint if it fails"))
         if len(panels) > 1:
             caption += " Below: the signed measure of each joint, without weights."
-        return [self._figure(panels, f"{t.objective.name} along the path", caption)]
+        return [self._stack_panels(panels, f"{trajectory.objective.name} along the path", caption)]
 
-    def rates(self) -> list[Block]:
-        """Norm of the joint rates and each of them."""
-        t = self.t
-        cap = [] if t.rate_cap is None else [Line(np.full(len(t.time), t.rate_cap), "cap", "compared")]
-        mixed = bool(t.arm.prismatic.any())
-        unit = "rad/s and m/s" if mixed else "rad/s"
+    def draw_rates(self) -> list[Block]:
+        """Draw the norm of the joint rates, and each of them."""
+        trajectory = self.trajectory
+        cap_lines = (
+            []
+            if trajectory.rate_cap is None
+            else [TimelineLine(np.full(len(trajectory.time), trajectory.rate_cap), "cap", "compared")]
+        )
+        has_slides = bool(trajectory.arm.prismatic.any())
+        unit = "rad/s and m/s" if has_slides else "rad/s"
         panels = [
-            Timeline([Line(t.rate_norm, "norm", "first"), *cap], unit, "Norm of the joint rates", self.singular),
-            Timeline([Line(v, j.name) for v, j in zip(t.qd.T, t.arm.joints, strict=True)], unit, "Joint rates"),
+            Timeline(
+                [TimelineLine(trajectory.rate_norm, "norm", "first"), *cap_lines],
+                unit,
+                "Norm of the joint rates",
+                self.singular_times,
+            ),
+            Timeline(
+                [TimelineLine(rates, joint.name) for rates, joint in zip(trajectory.qd.T, trajectory.arm.joints, strict=True)],
+                unit,
+                "Joint rates",
+            ),
         ]
-        caption = f"Rates at the samples; between them the norm reaches {t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s."
-        if t.rate_cap is not None:
+        caption = (
+            f"Rates at the samples; between them the norm reaches {trajectory.peak_rate:.4g} rad/s at "
+            f"{trajectory.peak_time:.4g} s."
+        )
+        if trajectory.rate_cap is not None:
             caption += " The cap slows only the self-motion, so the norm passes it where the task alone needs more."
-        return [self._figure(panels, "Joint rates over time", caption)]
+        return [self._stack_panels(panels, "Joint rates over time", caption)]
 
-    def joints(self) -> list[Block]:
-        """Each joint with its limits."""
-        t = self.t
+    def draw_joints(self) -> list[Block]:
+        """Draw the position of each joint with its limits."""
+        trajectory = self.trajectory
         panels = []
-        for k, joint in enumerate(t.arm.joints):
+        for index, joint in enumerate(trajectory.arm.joints):
             scale, unit = joint.shown
-            lines = [Line(scale * t.q[:, k], "position", "first")]
-            reach = np.ptp(scale * t.q[:, k]) + (0.1 if joint.prismatic else 10.0)
+            lines = [TimelineLine(scale * trajectory.q[:, index], "position", "first")]
+            reach = np.ptp(scale * trajectory.q[:, index]) + (0.1 if joint.prismatic else 10.0)
             for limit in (joint.lower, joint.upper):
                 # A limit far away would only flatten the curve.
-                if np.isfinite(limit) and np.abs(scale * (t.q[:, k] - limit)).min() < reach:
-                    lines.append(Line(np.full(len(t.time), scale * limit), "limit", "compared"))
+                if np.isfinite(limit) and np.abs(scale * (trajectory.q[:, index] - limit)).min() < reach:
+                    lines.append(TimelineLine(np.full(len(trajectory.time), scale * limit), "limit", "compared"))
             panels.append(Timeline(lines, unit, joint.name))
-        image = small_multiples(t.time, panels, "Joint positions over time")
+        image = draw_small_multiples(trajectory.time, panels, "Joint positions over time")
         return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
 
-    def clearance(self) -> list[Block]:
-        """How far the arm was from what it keeps clear of."""
-        t = self.t
-        if t.clear_of is None or t.clearance is None or t.nearest is None:
+    def draw_clearance(self) -> list[Block]:
+        """Draw the smallest distance of the arm from everything that it must avoid."""
+        trajectory = self.trajectory
+        if trajectory.clear_of is None or trajectory.clearance is None or trajectory.nearest is None:
             return []
-        lines = [Line(1000 * t.clearance, "smallest distance", "first")]
-        kept = 1000 * (t.margin + float(t.clear_of.margins.max(initial=0.0)))
-        lines.append(Line(np.full(len(t.time), kept), "to be kept", "level"))
-        caption = f"Smallest distance of any pair, nearest: {t.nearest[1]}. {capitalised(shape_text(t.clear_of, t.margin))}."
-        return [self._figure([Timeline(lines, "mm", "Smallest distance")], "Clearance over time", caption)]
+        lines = [TimelineLine(1000 * trajectory.clearance, "smallest distance", "first")]
+        required_mm = 1000 * (trajectory.margin + float(trajectory.clear_of.margins.max(initial=0.0)))
+        lines.append(TimelineLine(np.full(len(trajectory.time), required_mm), "to be kept", "level"))
+        caption = (
+            f"Smallest distance of any pair, nearest: {trajectory.nearest[1]}. "
+            f"{capitalise_first(describe_shape(trajectory.clear_of, trajectory.margin))}."
+        )
+        return [self._stack_panels([Timeline(lines, "mm", "Smallest distance")], "Clearance over time", caption)]
 
-    def torques(self, slowness: list[SlowMotion] | None) -> list[Block]:
-        """Torques that hold the arm, and those of the motion at three speeds."""
-        t = self.t
+    def draw_torques(self, slowness: list[SlowMotion] | None) -> list[Block]:
+        """Draw the torques that hold the arm, and those of the motion at three speeds."""
+        trajectory = self.trajectory
         try:
-            gravity = t.arm.gravity_torque(t.q)
-            fast = {share: t.torques(share) for share in SPEEDS}
+            gravity = trajectory.arm.gravity_torque(trajectory.q)
+            torques_by_speed = {speed_factor: trajectory.torques(speed_factor) for speed_factor in SPEED_FACTORS}
         except ArmError as error:
             return [Text(f"No torques: {error}.", quiet=True)]
-        looks = ("first", "second", "third")
+        line_styles = ("first", "second", "third")
         panels = []
-        for k, joint in enumerate(t.arm.joints):
-            lines = [Line(gravity[:, k], "gravity alone", "compared")]
+        for index, joint in enumerate(trajectory.arm.joints):
+            lines = [TimelineLine(gravity[:, index], "gravity alone", "compared")]
             lines += [
-                Line(fast[share][:, k], f"in {share * t.time[-1]:.4g} s", look)  # type: ignore[arg-type]
-                for share, look in zip(SPEEDS, looks, strict=True)
+                TimelineLine(
+                    torques_by_speed[speed_factor][:, index],
+                    f"in {speed_factor * trajectory.time[-1]:.4g} s",
+                    line_style,  # type: ignore[arg-type]
+                )
+                for speed_factor, line_style in zip(SPEED_FACTORS, line_styles, strict=True)
             ]
             panels.append(Timeline(lines, "N" if joint.prismatic else "N m", joint.name))
-        image = small_multiples(t.time, panels, "Joint torques over time")
+        image = draw_small_multiples(trajectory.time, panels, "Joint torques over time")
         blocks: list[Block] = [
             Picture(
                 image,
                 f"Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
-                f"motion takes {', '.join(f'{s * t.time[-1]:.4g}' for s in SPEEDS)} s, drawn over the time of the first; "
+                f"motion takes "
+                f"{', '.join(f'{joint_slowness * trajectory.time[-1]:.4g}' for joint_slowness in SPEED_FACTORS)} s, drawn "
+                f"over the time of the first; "
                 "dashed: at rest. The susceptibilities assume that these hardly differ. English and Maciejewski 1998, eq. "
                 "(5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
             )
         ]
         if slowness is None:
             return blocks
-        worst = max(slowness, key=lambda s: s.time_scale)
+        worst = max(slowness, key=lambda joint_slowness: joint_slowness.time_scale)
         rows = [
-            [j.name, f"{s.time_scale:.3g}", f"{s.time_scale * t.time[-1]:.4g}", f"{t.time[s.worst_time_index]:.4g}"]
-            for j, s in zip(t.arm.joints, slowness, strict=True)
+            [
+                arm_joint.name,
+                f"{joint_slowness.time_scale:.3g}",
+                f"{joint_slowness.time_scale * trajectory.time[-1]:.4g}",
+                f"{trajectory.time[joint_slowness.worst_time_index]:.4g}",
+            ]
+            for arm_joint, joint_slowness in zip(trajectory.arm.joints, slowness, strict=True)
         ]
         verdict = "The motion is slow enough" if worst.time_scale <= 1 else "The motion is too fast for gravity alone to matter"
         blocks.append(
@@ -298,30 +379,31 @@ class _Facts:
                 rows,
                 ("joint", "time scale", "duration, s", "decided at, s"),
                 frozenset({1, 2, 3}),
-                caption=f"{verdict}: to stay within {t.torque_bound:g} N m (N) of the gravity torque it must take at least "
+                caption=f"{verdict}: to stay within {trajectory.torque_bound:g} N m (N) of the gravity torque it must "
+                f"take at least "
                 f"{worst.time_scale:.3g} times as long. Eq. (6).",
             )
         )
         return blocks
 
-    def curvature(self) -> list[Block]:
-        """Smallest curvature of the objective along the self-motion."""
-        t = self.t
-        good = np.isfinite(t.curvature)
-        if not good.any():
+    def draw_curvature(self) -> list[Block]:
+        """Draw the smallest curvature of the objective along the self-motion."""
+        trajectory = self.trajectory
+        is_finite = np.isfinite(trajectory.curvature)
+        if not is_finite.any():
             return []
-        typical = float(np.median(np.abs(t.curvature[good])))
-        level = Line(np.zeros(len(t.time)), "zero", "compared")
+        typical = float(np.median(np.abs(trajectory.curvature[is_finite])))
+        level = TimelineLine(np.zeros(len(trajectory.time)), "zero", "compared")
         panel = Timeline(
-            [Line(t.curvature, "smallest curvature", "first"), level],
+            [TimelineLine(trajectory.curvature, "smallest curvature", "first"), level],
             "per rad^2",
             "Curvature of the objective along the self-motion",
-            self.singular,
-            "symlog" if typical > 0 and np.abs(t.curvature[good]).max() > 30 * typical else "linear",
+            self.singular_times,
+            "symlog" if typical > 0 and np.abs(trajectory.curvature[is_finite]).max() > 30 * typical else "linear",
             typical or 1.0,
         )
         return [
-            self._figure(
+            self._stack_panels(
                 [panel],
                 "Curvature along the self-motion over time",
                 "Above 0 at a local best. Where it reaches 0 while the arm is not singular the local best ends or splits: an "
@@ -329,53 +411,65 @@ class _Facts:
             )
         ]
 
-    def hand(self) -> list[Block]:
-        """How far the end effector was off its path."""
-        t = self.t
+    def draw_tool_error(self) -> list[Block]:
+        """Draw the error of the end effector relative to its path."""
+        trajectory = self.trajectory
         panels = [
             Timeline(
-                [Line(1000 * t.position_error, "off", "first")], "mm", "Position of the end effector off its path", (), "log"
+                [TimelineLine(1000 * trajectory.position_error, "off", "first")],
+                "mm",
+                "Position of the end effector off its path",
+                (),
+                "log",
             )
         ]
-        if t.task.angular:
-            lines = [Line(1000 * t.rotation_error, "off", "first")]
+        if trajectory.task.angular:
+            lines = [TimelineLine(1000 * trajectory.rotation_error, "off", "first")]
             panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
         caption = (
-            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the end "
+            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * PATH_TOLERANCE:g} mm or "
+            f"mrad the end "
             f"effector is off."
         )
-        return [self._figure(panels, "Error of the end effector over time", caption)]
+        return [self._stack_panels(panels, "Error of the end effector over time", caption)]
 
     # ---- words -------------------------------------------------------------------------------------------------
 
-    def events(self) -> list[Block]:
-        """A table of events."""
-        t = self.t
-        if not t.events:
+    def tabulate_events(self) -> list[Block]:
+        """Tabulate the events."""
+        trajectory = self.trajectory
+        if not trajectory.events:
             return [Text("Nothing: no algorithmic singularity, no joint at a limit, no outlying rate.")]
         rows = [
             [
-                Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,
-                f"{e.start:.4g}",
-                f"{e.end:.4g}",
-                capitalised(e.text.split(": ", 1)[1]),  # the times have columns of their own
+                Markup('<span class="fatal">{}</span>').format(event.kind) if event.kind in _SERIOUS_EVENTS else event.kind,
+                f"{event.start:.4g}",
+                f"{event.end:.4g}",
+                capitalise_first(event.text.split(": ", 1)[1]),  # the times have columns of their own
             ]
-            for e in t.events
+            for event in trajectory.events
         ]
         return [Table(rows, ("what", "from, s", "to, s", ""), frozenset({1, 2}), wide=True)]
 
-    def method(self) -> list[Block]:
-        """How it was computed."""
-        t = self.t
-        return how(
-            t.arm,
-            ("Law", t.method),
-            ("Objective", f"{t.objective.name}, {t.objective.better} is better"),
-            ("Task", t.task.describe()),
-            ("Gain", as_given(t.gain)),
-            ("Kept clear", "nothing" if t.clear_of is None else shape_text(t.clear_of, t.margin)),
-            ("Rate cap", "none" if t.rate_cap is None else f"{t.rate_cap:g} rad/s"),
-            ("Steps", f"{t.steps:,} of {t.time[-1] / t.steps:.3g} s; {len(t.time):,} samples of them are kept"),
+    def describe_method(self) -> list[Block]:
+        """Describe the computation."""
+        trajectory = self.trajectory
+        return build_method_blocks(
+            trajectory.arm,
+            ("Law", trajectory.method),
+            ("Objective", f"{trajectory.objective.name}, {trajectory.objective.better} is better"),
+            ("Task", trajectory.task.describe()),
+            ("Gain", format_as_given(trajectory.gain)),
+            (
+                "Kept clear",
+                "nothing" if trajectory.clear_of is None else describe_shape(trajectory.clear_of, trajectory.margin),
+            ),
+            ("Rate cap", "none" if trajectory.rate_cap is None else f"{trajectory.rate_cap:g} rad/s"),
+            (
+                "Steps",
+                f"{trajectory.steps:,} of {trajectory.time[-1] / trajectory.steps:.3g} s; {len(trajectory.time):,} "
+                f"samples of them are kept",
+            ),
             ("Without the objective", "least-norm rates, from the same configuration; everything else alike"),
-            ("Seed", str(t.seed)),
+            ("Seed", str(trajectory.seed)),
         )

@@ -1,1 +1,1 @@
-"""Paths, as people read them."""
+"""Notebook views of paths."""

@@ -1,1 +1,1 @@
-"""Console text of runs with masses."""
+"""Reports and figures of simulations with masses."""

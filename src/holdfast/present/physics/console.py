@@ -1,14 +1,14 @@
-"""The same run in MuJoCo beside the kinematic one, in numbers and words."""
+"""Text, tables, and JSON of the same run in MuJoCo and in the kinematic simulation."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.clearance.contacts import contact_entries, contact_table
-from holdfast.present.printing import Rows, number, print_rows
+from holdfast.present.clearance.contacts import list_contacts, tabulate_contacts
+from holdfast.present.printing import TextTable, format_significant, print_table
 from holdfast.present.simulation import console as simulation
-from holdfast.present.simulation.errors import error_text
+from holdfast.present.simulation.errors import format_errors
 from holdfast.simulation.errors import error_history
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(run: PhysicalRun) -> dict[str, Any]:
-    """The kinematic run, and under "physics" what differs."""
+    """Return the kinematic run, and under "physics" the differences."""
     names = run.law.arm.joint_names
     physics = {
         "outcome": run.outcome,
@@ -37,7 +37,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
         "damping": dict(zip(names, run.damping.tolist(), strict=True)),
         "control_rate_hz": run.servos.rate,
-    } | ({} if run.contacts is None else {"contacts": contact_entries(run.contacts)})
+    } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
     return run.kinematic.to_dict() | {"physics": physics}
 
 
@@ -45,52 +45,60 @@ def _last_errors(run: PhysicalRun) -> tuple[str, str]:
     """Return the last errors, kinematic and in MuJoCo."""
     history, (position, angle) = error_history(run.kinematic), run.errors_apart
     law, end = run.law, history.end
-    return error_text(law, end.position, end.angle), error_text(law, float(position[-1]), float(angle[-1]))
+    return format_errors(law, end.position, end.angle), format_errors(law, float(position[-1]), float(angle[-1]))
 
 
-def key_table(run: PhysicalRun) -> Rows:
-    """Both outcomes beside each other."""
-    told = run.kinematic
+def key_table(run: PhysicalRun) -> TextTable:
+    """Tabulate both outcomes side by side."""
+    kinematic_run = run.kinematic
     rows = [
-        ["outcome", str(told.outcome), run.ending],
+        ["outcome", str(kinematic_run.outcome), run.ending],
         ["error at the end", *_last_errors(run)],
-        ["simulated time, s", number(float(told.time)), number(run.time[-1])],
-        ["tool paths apart, at most, mm", "", number(1000 * run.path_distance, 3)],
+        ["simulated time, s", format_significant(float(kinematic_run.time)), format_significant(run.time[-1])],
+        ["tool paths apart, at most, mm", "", format_significant(1000 * run.path_distance, 3)],
     ]
     if run.contacts is not None:
-        rows.append(["first contact", *[_first(contacts) for contacts in (told.contacts, run.contacts)]])
-    return Rows(["", "kinematic", "in MuJoCo"], rows)
+        rows.append(
+            ["first contact", *[_format_first_contact(contacts) for contacts in (kinematic_run.contacts, run.contacts)]]
+        )
+    return TextTable(["", "kinematic", "in MuJoCo"], rows)
 
 
-def _first(contacts: Sequence[Contact] | None) -> str:
-    return f"{contacts[0].link} & {contacts[0].object}, {number(contacts[0].time)} s" if contacts else "none"
+def _format_first_contact(contacts: Sequence[Contact] | None) -> str:
+    return f"{contacts[0].link} & {contacts[0].object}, {format_significant(contacts[0].time)} s" if contacts else "none"
 
 
 def next_steps(run: PhysicalRun, name: str) -> list[str]:
-    """The kinematic run alone."""
+    """Suggest the plot of the kinematic run, and the report."""
     del run
     return [f"{name}.kinematic.plot()", f'{name}.report("run.html")']
 
 
 def show(run: PhysicalRun, out: Console) -> None:
-    """The kinematic run, and both outcomes beside each other."""
+    """Print the kinematic run, then both outcomes side by side."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
-    told = run.kinematic
-    simulation.show(told, out)
+    kinematic_run = run.kinematic
+    simulation.show(kinematic_run, out)
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
-    table = Grid("", "kinematic", "in MuJoCo", "")
-    table.add_row("outcome", str(told.outcome), f"[bold]{run.ending}[/]", "")
+    table = BandedTable("", "kinematic", "in MuJoCo", "")
+    table.add_row("outcome", str(kinematic_run.outcome), f"[bold]{run.ending}[/]", "")
     table.add_row("error at the end", *_last_errors(run), "")
-    table.add_row("simulated time", number(float(told.time)), number(run.time[-1]), "s")
+    table.add_row("simulated time", format_significant(float(kinematic_run.time)), format_significant(run.time[-1]), "s")
     out.print(table)
-    facts = Grid()
-    facts.add_row("tool paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
+    facts = BandedTable()
+    facts.add_row("tool paths apart, at most", f"[bold]{format_significant(1000 * run.path_distance, 3)}[/] mm")
     if run.contacts:
-        print_rows(out, contact_table(run.contacts))
-    facts.add_row("tools apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
-    full = [f"{n} {s:.1%}" for n, s in zip(run.law.arm.joint_names, run.saturated, strict=True) if s > 0]
-    facts.add_row("motors at their effort", f"{escape(', '.join(full))} of the time" if full else "none")
+        print_table(out, tabulate_contacts(run.contacts))
+    facts.add_row("tools apart at the end", f"{format_significant(1000 * run.terminal_distance, 3)} mm")
+    saturated_joints = [
+        f"{joint_name} {fraction:.1%}"
+        for joint_name, fraction in zip(run.law.arm.joint_names, run.saturated, strict=True)
+        if fraction > 0
+    ]
+    facts.add_row(
+        "motors at their effort", f"{escape(', '.join(saturated_joints))} of the time" if saturated_joints else "none"
+    )
     out.print(facts)

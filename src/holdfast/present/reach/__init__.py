@@ -1,1 +1,1 @@
-"""Figures of what can be reached."""
+"""Reports and figures of workspaces."""

@@ -1,4 +1,4 @@
-"""A failure-tolerant workspace: its numbers, its words and its picture."""
+"""Text, tables, JSON, and figure of a failure-tolerant workspace."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, number
-from holdfast.present.solvers.self_motions import ranges
-from holdfast.present.story import Story
-from holdfast.words import percent
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.solvers.self_motions import format_ranges
+from holdfast.present.story import PageContent
+from holdfast.words import format_percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
-    """Its size, its limits, and what the locks of each joint lose."""
+    """Return the size of the workspace, its limits, and the losses by the locks of each joint."""
     names, unit = region.arm.joint_names, region.unit.replace("^", "")
     return {
         **region.arm.entry(),
@@ -38,48 +38,66 @@ def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
     }
 
 
-def key_table(region: TolerantWorkspace) -> Rows:
-    """The artificial limits, and what the locks of each joint lose."""
-    each = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
-    return Rows(
+def key_table(region: TolerantWorkspace) -> TextTable:
+    """Tabulate the artificial limits, and the losses by the locks of each joint."""
+    joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
+    return TextTable(
         ["joint", "artificial limits", "lost by its lock"],
-        [[j.name, ranges([limits], j), percent(lost)] for j, limits, lost in each],
+        [[joint.name, format_ranges([limits], joint), format_percent(loss)] for joint, limits, loss in joint_rows],
     )
 
 
-def story(region: TolerantWorkspace) -> Story:
-    """How much is kept whichever joint locks, and which lock takes most."""
-    unit, lost = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
-    worst, names = int(lost.argmax()), region.arm.joint_names
+def story(region: TolerantWorkspace) -> PageContent:
+    """Compose the report: the workspace that remains after any lock, and the lock that costs most."""
+    unit, losses = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
+    worst_joint, names = int(losses.argmax()), region.arm.joint_names
     limits = "Under the limits that were found" if region.optimised else "Under the artificial limits"
     if not region.healthy_size:
         answer = "The healthy arm reaches none of the points that were tried, so there is nothing to compare."
     elif not region.within.any():
         answer = (
             f"{limits} the arm reaches no point even before a joint locks, of "
-            f"{number(region.healthy_size)} {unit} within its own."
+            f"{format_significant(region.healthy_size)} {unit} within its own."
         )
     elif not region.inside.any():
-        often = f"the locks of {names[worst]} alone lose {percent(lost[worst])} of the points"
-        answer = f"{limits} no point is kept through every lock: {often}."
+        loss_text = f"the locks of {names[worst_joint]} alone lose {format_percent(losses[worst_joint])} of the points"
+        answer = f"{limits} no point is kept through every lock: {loss_text}."
     else:
         answer = (
-            f"{limits} the arm keeps {number(region.size)} {unit}, {percent(region.share)} of "
+            f"{limits} the arm keeps {format_significant(region.size)} {unit}, {format_percent(region.share)} of "
             f"its workspace, wherever any single joint locks"
         )
-        answer += f"; the locks of {names[worst]} take most, {percent(lost[worst])} of the points." if lost[worst] else "."
+        answer += (
+            f"; the locks of {names[worst_joint]} take most, {format_percent(losses[worst_joint])} of the points."
+            if losses[worst_joint]
+            else "."
+        )
     facts = []
     if region.inside.any():
-        low, high = region.size_interval
-        about = "" if region.exact else f"; {number(low)} to {number(high)}, {100 * region.confidence:.4g} %"
+        lower, upper = region.size_interval
+        interval_text = (
+            ""
+            if region.exact
+            else f"; {format_significant(lower)} to {format_significant(upper)}, {100 * region.confidence:.4g} %"
+        )
         facts = [
-            (percent(region.share), "of the workspace is kept wherever a joint locks"),
-            (f"{number(region.size)} {unit}", f"of {number(region.healthy_size)} {unit}{about}"),
+            (format_percent(region.share), "of the workspace is kept wherever a joint locks"),
+            (
+                f"{format_significant(region.size)} {unit}",
+                f"of {format_significant(region.healthy_size)} {unit}{interval_text}",
+            ),
         ]
-    if lost[worst] and region.within.any():
-        facts.append((percent(lost[worst]), f"of the points within the artificial limits are lost to locks of {names[worst]}"))
-    how = f"{len(region.points):,} points, {region.angles} locked values of each joint; values between them are not tried"
-    return Story(
+    if losses[worst_joint] and region.within.any():
+        facts.append(
+            (
+                format_percent(losses[worst_joint]),
+                f"of the points within the artificial limits are lost to locks of {names[worst_joint]}",
+            )
+        )
+    sampling_text = (
+        f"{len(region.points):,} points, {region.angles} locked values of each joint; values between them are not tried"
+    )
+    return PageContent(
         f"What {region.arm.name} reaches before and after any lock",
         answer,
         about=f"Task {region.task.describe()}, limits {'optimised' if region.optimised else 'given'}",
@@ -103,7 +121,7 @@ def story(region: TolerantWorkspace) -> Story:
                     "wherever in them any one joint locks"
                 ),
             ),
-            ("Region", "in closed form for each radius" if region.exact else how),
+            ("Region", "in closed form for each radius" if region.exact else sampling_text),
             ("Limits", "optimised for the largest region" if region.optimised else "given, or the arm's own"),
         ],
         arm=region.arm,
@@ -111,29 +129,29 @@ def story(region: TolerantWorkspace) -> Story:
 
 
 def next_steps(region: TolerantWorkspace, name: str) -> list[str]:
-    """What is reached at each point, the whole report, and a proof for every point of a box."""
+    """Suggest the data of each point, the report, and a proof for every point of a box."""
     proof = [f"hf.certify({name}.claim())  # for every point of a box, not a sample"] if region.inside.sum() > 1 else []
     return [f"{name}.to_xarray()  # point by point", f'{name}.report("workspace.html")', *proof]
 
 
 def show(region: TolerantWorkspace, out: Console) -> None:
-    """A table of the artificial limits, and of what the locks of each joint lose."""
+    """Print a table of the artificial limits, and of the losses by the locks of each joint."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
     out.print(escape(region.describe()[0]), soft_wrap=True)
-    table = Grid("joint", "artificial limits", "points lost by its lock")
-    for joint, limits, lost in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
-        table.add_row(escape(joint.name), ranges([limits], joint), percent(lost))
+    table = BandedTable("joint", "artificial limits", "points lost by its lock")
+    for joint, limits, loss in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
+        table.add_row(escape(joint.name), format_ranges([limits], joint), format_percent(loss))
     out.print(table)
     if not region.exact:
         out.print("values between the tried ones, and configurations that were not found, are not in the interval")
 
 
 def figures(region: TolerantWorkspace) -> dict[str, Figure]:
-    """The region inside what the healthy arm reaches, seen along one or two directions, and the sizes."""
-    from holdfast.present.stick_figure import views_of
+    """Draw the region inside the workspace of the healthy arm, from one or two directions, and the sizes."""
+    from holdfast.present.stick_figure import choose_views
     from holdfast.report.manifolds import RegionMap, region_figure
 
     maps = [
@@ -145,17 +163,17 @@ def figures(region: TolerantWorkspace) -> dict[str, Figure]:
             region.inside,
             round(np.sqrt(len(region.points))) if region.exact else None,
         )
-        for view in views_of(region.arm, region.points[None])
+        for view in choose_views(region.arm, region.points[None])
     ]
-    each = region.healthy_size / max(int(region.healthy.sum()), 1)
-    bars = [("healthy arm", region.healthy_size), ("artificial limits", each * float(region.within.sum()))]
+    size_per_point = region.healthy_size / max(int(region.healthy.sum()), 1)
+    bars = [("healthy arm", region.healthy_size), ("artificial limits", size_per_point * float(region.within.sum()))]
     bars += [
-        (f"after a lock of {name}", each * float(count))
+        (f"after a lock of {name}", size_per_point * float(count))
         for name, count in zip(region.arm.joint_names, region.survives.sum(axis=0), strict=True)
     ]
     bars.append(("after any lock", region.size))
     error = np.abs(np.array(region.size_interval) - region.size)
-    chosen = "limits optimised" if region.optimised else "limits given"
-    caption = f"{region.describe()[0].replace(region.arm.title, region.arm.name, 1)}; {chosen}"
+    limits_text = "limits optimised" if region.optimised else "limits given"
+    caption = f"{region.describe()[0].replace(region.arm.title, region.arm.name, 1)}; {limits_text}"
     unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
     return {"region": region_figure(maps, bars, unit, error, caption)}

@@ -1,1 +1,1 @@
-"""What became of an arm with faults, as words, numbers and a page."""
+"""Reports and figures of runs with faults."""

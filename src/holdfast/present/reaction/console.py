@@ -1,4 +1,4 @@
-"""A run with faults in numbers and words: what happened, what was noticed, what was done."""
+"""Text, tables, and JSON of a run with faults: events, alarms, and actions."""
 
 from __future__ import annotations
 
@@ -6,69 +6,74 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.clearance.contacts import contact_entries
-from holdfast.present.clearance.shape import shape_text
-from holdfast.present.printing import Rows, number
-from holdfast.present.story import Story
-from holdfast.words import capitalised
+from holdfast.present.clearance.contacts import list_contacts
+from holdfast.present.clearance.shape import describe_shape
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.present.story import PageContent
+from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from holdfast.reaction.run import FaultRun
 
-SAFETY = "Everything here is simulated. The monitor and the reaction are no certified safety function."
+SIMULATION_NOTE = "Everything here is simulated. The monitor and the reaction are no certified safety function."
 
 
 def to_dict(run: FaultRun) -> dict[str, Any]:
-    """The faults, the actions and how it ended."""
+    """Return the faults, the alarms, the actions, and the outcome."""
     return {
         **run.arm.entry(),
         "outcome": run.outcome,
         "ok": run.ok,
         "react": run.react,
         "time_s": run.time[-1],
-        "miss_m": run.miss[-1],
-        "turn_rad": run.turn[-1] if run.law.task.angular else None,
+        "miss_m": run.position_error[-1],
+        "turn_rad": run.orientation_error[-1] if run.law.task.angular else None,
         "faults": [event.stored() for event in run.events],
         "id": run.events.id,
-        "noticed_s": run.noticed,
-        "alarms": [{"time_s": v.time, "joint": v.joint, "kind": v.kind} for v in run.verdicts],
-        "actions": [{"time_s": a.time, "what": a.what, "joint": a.joint, "why": a.why} for a in run.actions],
+        "noticed_s": run.detection_time,
+        "alarms": [{"time_s": verdict.time, "joint": verdict.joint, "kind": verdict.kind} for verdict in run.verdicts],
+        "actions": [
+            {"time_s": action.time, "what": action.what, "joint": action.joint, "why": action.why} for action in run.actions
+        ],
         "braked": {} if run.degraded is None else dict(run.degraded.locked),
         "q_final": dict(zip(run.arm.joint_names, run.q[-1], strict=True)),
         "body_seed": run.body.seed,
         "control_rate_hz": run.servos.rate,
-    } | ({} if run.contacts is None else {"contacts": contact_entries(run.contacts)})
+    } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
 
 
-def key_table(run: FaultRun) -> Rows:
-    """Faults and actions in order of time; elsewhere its sentences say them."""
-    happened: list[tuple[float, str, str, str]] = [(e.onset, "fault", e.joint, e.kind) for e in run.events]
-    happened += [(a.time, a.what, a.joint or "", a.why) for a in run.actions]
-    rows = [[number(t, 4), *cells] for t, *cells in sorted(happened, key=lambda row: row[0])]
-    end = [number(run.time[-1], 4), "end", "", run.outcome]
-    return Rows(["time, s", "what", "joint", "why"], [*rows, end], "in order of time")
+def key_table(run: FaultRun) -> TextTable:
+    """Tabulate faults and actions in order of time; the sentences contain them elsewhere."""
+    events: list[tuple[float, str, str, str]] = [(event.onset, "fault", event.joint, event.kind) for event in run.events]
+    events += [(action.time, action.what, action.joint or "", action.why) for action in run.actions]
+    rows = [[format_significant(instant, 4), *cells] for instant, *cells in sorted(events, key=lambda row: row[0])]
+    end = [format_significant(run.time[-1], 4), "end", "", run.outcome]
+    return TextTable(["time, s", "what", "joint", "why"], [*rows, end], "in order of time")
 
 
 def next_steps(run: FaultRun, name: str) -> list[str]:
-    """The record, and what is left of the arm."""
+    """Suggest the record, and the degraded arm."""
     if run.degraded is not None:
         return [f"{name}.degraded", f'{name}.log().save("run.npz")']
     return [f'{name}.log().save("run.npz")  # for hf.diagnosis.diagnose', f'{name}.report("run.html")']
 
 
-def story(run: FaultRun) -> Story:
-    """Whether the task was finished; when it happened, when it was noticed, and what was done."""
-    first, *others = run.describe()
-    facts = [(f"{number(1e3 * run.miss[-1], 3)} mm", "from the tool to its target at the end")]
+def story(run: FaultRun) -> PageContent:
+    """Compose the report: the outcome, the times of faults and alarms, and the actions."""
+    headline, *remarks = run.describe()
+    facts = [(f"{format_significant(1e3 * run.position_error[-1], 3)} mm", "from the tool to its target at the end")]
     if np.isfinite(run.delay) and run.delay >= 0:
-        facts.append((f"{number(1e3 * run.delay, 3)} ms", "from the fault to the alarm"))
-    return Story(
+        facts.append((f"{format_significant(1e3 * run.delay, 3)} ms", "from the fault to the alarm"))
+    return PageContent(
         f"{run.arm.name} with faults",
-        f"{capitalised(first)}.",
+        f"{capitalise_first(headline)}.",
         about=f"{run.arm.title}, {run.law.describe()}",
         facts=facts,
-        lines=[*(f"{line if line.split(':')[0] in run.arm.joint_names else capitalised(line)}." for line in others), SAFETY],
-        views=_moving(run),
+        lines=[
+            *(f"{remark if remark.split(':')[0] in run.arm.joint_names else capitalise_first(remark)}." for remark in remarks),
+            SIMULATION_NOTE,
+        ],
+        views=_animate_run(run),
         figures={
             "chain": (
                 "Over time",
@@ -77,28 +82,30 @@ def story(run: FaultRun) -> Story:
             )
         },
         method=[
-            ("Simulated", f"{number(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
-            ("Clearance", "not looked at" if run.clearance is None else shape_text(run.clearance, 0.0)),
+            ("Simulated", f"{format_significant(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
+            ("Clearance", "not looked at" if run.clearance is None else describe_shape(run.clearance, 0.0)),
         ],
         arm=run.arm,
     )
 
 
-def _moving(run: FaultRun) -> list[tuple[str, list[Any]]]:
+def _animate_run(run: FaultRun) -> list[tuple[str, list[Any]]]:
     from holdfast.present.arm.view import scene
     from holdfast.report.page import Picture
 
-    rows = np.linspace(0, len(run.time) - 1, min(201, len(run.time))).astype(int)
-    held = {} if run.degraded is None else run.degraded.locked
-    braked = {a.joint: a.time for a in run.actions if a.what == "brake" and a.joint in held}
-    words = "The arm as it moved; joints that were braked are marked from then on."
-    shown = scene(
+    frame_indices = np.linspace(0, len(run.time) - 1, min(201, len(run.time))).astype(int)
+    locked_joints = {} if run.degraded is None else run.degraded.locked
+    brake_times = {
+        action.joint: action.time for action in run.actions if action.what == "brake" and action.joint in locked_joints
+    }
+    caption = "The arm as it moved; joints that were braked are marked from then on."
+    motion_scene = scene(
         run.arm,
-        run.q[rows],
-        time=run.time[rows],
-        readings=[f"{t:.2f} s" for t in run.time[rows]],
-        locked=braked,
+        run.q[frame_indices],
+        time=run.time[frame_indices],
+        readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
+        locked=brake_times,
         targets=[run.target if run.law.task.angular else run.target[:3, 3]],
         cell=None if run.clearance is None else run.clearance.cell,
     )
-    return [("The motion", [Picture(shown.html("motion", words), words)])]
+    return [("The motion", [Picture(motion_scene.to_html("motion", caption), caption)])]

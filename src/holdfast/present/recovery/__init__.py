@@ -1,1 +1,1 @@
-"""Figures of a recovery."""
+"""Reports and figures of recoveries."""

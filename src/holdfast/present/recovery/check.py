@@ -1,11 +1,11 @@
-"""What a replay of waypoints found, in numbers and words."""
+"""Text, tables, and JSON of the replay of waypoints."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.printing import Rows, number
-from holdfast.words import capitalised
+from holdfast.present.printing import TextTable, format_significant
+from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(check: WaypointCheck) -> dict[str, Any]:
-    """What is kept and what is not, and where the end effector ends."""
+    """Return the satisfied and the violated constraints, and the final pose of the end effector."""
     return {
         "ok": check.ok,
         "waypoints": len(check.q),
@@ -27,14 +27,16 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
         "least_room_m": check.least_room,
         "closest": check.closest or None,
         "margin_m": check.margin,
-        "kept": [not trouble for trouble in check.kept],
+        "kept": [not violation for violation in check.kept],
         "tool_at_end": check.poses[-1],
     }
 
 
-def key_table(check: WaypointCheck) -> Rows:
-    """What is kept and what is not."""
-    clearance = "not looked at" if check.least_clearance is None else f"{number(check.least_clearance)} m {check.closest}"
+def key_table(check: WaypointCheck) -> TextTable:
+    """Tabulate the satisfied and the violated constraints."""
+    clearance = (
+        "not looked at" if check.least_clearance is None else f"{format_significant(check.least_clearance)} m {check.closest}"
+    )
     rows = [
         ["waypoints", str(len(check.q))],
         ["limits", ", ".join(check.beyond_limits) or "kept"],
@@ -44,16 +46,16 @@ def key_table(check: WaypointCheck) -> Rows:
         *([["kept all the way", ", ".join(filter(None, check.kept)) or "kept"]] if check.kept else []),
         ["least clearance", clearance],
     ]
-    return Rows(["", ""], rows)
+    return TextTable(["", ""], rows)
 
 
 def next_steps(check: WaypointCheck, name: str) -> list[str]:
-    """The verdict."""
+    """Suggest the verdict."""
     del check
     return [f"{name}.ok"]
 
 
 def show(check: WaypointCheck, out: Console) -> None:
-    """The sentences."""
-    for line in check.describe():
-        out.print(capitalised(line), markup=False, soft_wrap=True)
+    """Print the sentences of the check."""
+    for sentence in check.describe():
+        out.print(capitalise_first(sentence), markup=False, soft_wrap=True)

@@ -1,4 +1,4 @@
-"""What is left of the workspace: numbers, and maps."""
+"""Tables and maps of the remaining workspace."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.printing import Rows
-from holdfast.present.story import Story
-from holdfast.words import percent
+from holdfast.present.printing import TextTable
+from holdfast.present.story import PageContent
+from holdfast.words import format_percent
 
 if TYPE_CHECKING:
     from holdfast.present.results import Drawings
-    from holdfast.recovery.remainder import WhatIsLeft
-FIGURES = {
+    from holdfast.recovery.remainder import RemainingWorkspace
+FIGURE_CAPTIONS = {
     "left": (
         "What is left of the workspace",
         "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side.",
@@ -21,73 +21,75 @@ FIGURES = {
 }
 
 
-def to_dict(left: WhatIsLeft) -> dict[str, Any]:
-    """How many targets were reached before, and how many still are."""
+def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
+    """Return the number of targets that the healthy arm reaches, and that the failed arm still reaches."""
     fractions = {
-        "fraction_left": left.left,
-        "fraction_of_region": left.of_region,
-        "healthy_fraction_of_region": left.healthy_of_region,
+        "fraction_left": remainder.left,
+        "fraction_of_region": remainder.of_region,
+        "healthy_fraction_of_region": remainder.healthy_of_region,
     }
     return {
-        "what": left.region,
-        "rows": left.rows,
-        "targets": len(left.healthy),
-        "reached_healthy": left.healthy.sum(),
-        "still_reached": left.locked.sum(),
-        **{name: None if found is None else asdict(found) for name, found in fractions.items()},
-        "starts": left.starts,
+        "what": remainder.region,
+        "rows": remainder.rows,
+        "targets": len(remainder.healthy),
+        "reached_healthy": remainder.healthy.sum(),
+        "still_reached": remainder.locked.sum(),
+        **{name: None if interval is None else asdict(interval) for name, interval in fractions.items()},
+        "starts": remainder.starts,
     }
 
 
-def key_table(left: WhatIsLeft) -> Rows:
-    """How many targets were reached before, and how many still are."""
-    told = [["targets", f"{len(left.healthy):,}"], ["the healthy arm reaches", f"{int(left.healthy.sum()):,}"]]
-    return Rows(["", ""], [*told, ["the failed arm still reaches", f"{int(left.locked.sum()):,}"]])
+def key_table(remainder: RemainingWorkspace) -> TextTable:
+    """Tabulate the targets that the healthy arm reaches, and that the failed arm still reaches."""
+    table_rows = [["targets", f"{len(remainder.healthy):,}"], ["the healthy arm reaches", f"{int(remainder.healthy.sum()):,}"]]
+    return TextTable(["", ""], [*table_rows, ["the failed arm still reaches", f"{int(remainder.locked.sum()):,}"]])
 
 
-def story(left: WhatIsLeft) -> Story:
-    """How much of the workspace is left."""
-    title = f"What is left of the workspace with {left.degraded.describe()}"
-    told = [f"{line.removesuffix('.')}." for line in left.describe()]
-    found, failed = left.left, left.degraded.describe()
-    if found is None:
-        return Story(title, told[0], about=left.region)
+def story(remainder: RemainingWorkspace) -> PageContent:
+    """Compose the report: the remaining fraction of the workspace."""
+    title = f"What is left of the workspace with {remainder.degraded.describe()}"
+    paragraphs = [f"{sentence.removesuffix('.')}." for sentence in remainder.describe()]
+    remaining, lock_text = remainder.left, remainder.degraded.describe()
+    if remaining is None:
+        return PageContent(title, paragraphs[0], about=remainder.region)
     answer = (
-        f"With {failed}, {percent(found.value)} of what the healthy arm reaches is "
-        f"still reached ({percent(found.low)} to {percent(found.high)}, 95 %)."
+        f"With {lock_text}, {format_percent(remaining.value)} of what the healthy arm reaches is "
+        f"still reached ({format_percent(remaining.low)} to {format_percent(remaining.high)}, 95 %)."
     )
-    if not found.value:
+    if not remaining.value:
         answer = (
-            f"With {failed}, none of the {int(left.healthy.sum()):,} targets that the "
-            f"healthy arm reaches was found to be reached in {left.starts} starts each, which does not prove that none is."
+            f"With {lock_text}, none of the {int(remainder.healthy.sum()):,} targets that the "
+            f"healthy arm reaches was found to be reached in {remainder.starts} starts each, which does not prove that none is."
         )
-    facts = [(percent(found.value), "of what the healthy arm reaches is left")] if found.value else []
-    return Story(
+    facts = [(format_percent(remaining.value), "of what the healthy arm reaches is left")] if remaining.value else []
+    return PageContent(
         title,
         answer,
-        about=left.region,
-        facts=[*facts, (f"{int(left.healthy.sum()):,}", "targets that the healthy arm reaches were tried")],
-        figures=FIGURES,
-        tables=[key_table(left)],
+        about=remainder.region,
+        facts=[*facts, (f"{int(remainder.healthy.sum()):,}", "targets that the healthy arm reaches were tried")],
+        figures=FIGURE_CAPTIONS,
+        tables=[key_table(remainder)],
         method=[
-            ("Reached", f"a configuration was found in {left.starts} random starts; the fraction is a lower bound"),
-            ("Rows that count", ", ".join(left.rows)),
+            ("Reached", f"a configuration was found in {remainder.starts} random starts; the fraction is a lower bound"),
+            ("Rows that count", ", ".join(remainder.rows)),
         ],
     )
 
 
-def next_steps(left: WhatIsLeft, name: str) -> list[str]:
-    """The whole report."""
-    del left
+def next_steps(remainder: RemainingWorkspace, name: str) -> list[str]:
+    """Suggest the full report."""
+    del remainder
     return [f'{name}.report("left.html")']
 
 
-def drawings(left: WhatIsLeft) -> Drawings:
-    """Maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm reaches none."""
-    from holdfast.present.assessment.sections.survival import before_and_after_figure
-    from holdfast.report.views import SIDE, sides
+def drawings(remainder: RemainingWorkspace) -> Drawings:
+    """Draw maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm
+    reaches none.
+    """
+    from holdfast.present.assessment.sections.survival import draw_before_and_after
+    from holdfast.report.views import SIDE_VIEW, choose_side_and_top_views
 
-    if not left.healthy.any():
+    if not remainder.healthy.any():
         return {}
-    view, failed = (sides(left.position) or [SIDE])[0], left.degraded.describe()
-    return {"left": partial(before_and_after_figure, left.position, left.healthy, left.locked, view, failed)}
+    view, lock_text = (choose_side_and_top_views(remainder.position) or [SIDE_VIEW])[0], remainder.degraded.describe()
+    return {"left": partial(draw_before_and_after, remainder.position, remainder.healthy, remainder.locked, view, lock_text)}

@@ -1,1 +1,1 @@
-"""Regions, as people read them."""
+"""Notebook views of regions."""

@@ -1,4 +1,4 @@
-"""A region, as a notebook shows it."""
+"""Notebook view of a region."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import numpy as np
 
 from holdfast import arms
 from holdfast.arm.model import Arm
-from holdfast.present.arm.console import redundant_task
-from holdfast.present.notebook import variables
-from holdfast.present.printing import Rows
+from holdfast.present.arm.console import find_redundant_task
+from holdfast.present.notebook import list_variables
+from holdfast.present.printing import TextTable
 from holdfast.regions.region import Region
 
-_BOX = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
+_BOX_COLUMNS = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
 _CONE_COLUMNS = (
-    *_BOX[:3],
+    *_BOX_COLUMNS[:3],
     ("cosine of the angle from the axis", ""),
     ("direction about the axis", "deg"),
     ("turn about z", "deg"),
@@ -21,40 +21,45 @@ _CONE_COLUMNS = (
 
 
 def sentences(region: Region) -> list[str]:
-    """Its name, and what it is."""
+    """Return the name and the description of the region."""
     return [region.name, region.describe()]
 
 
-def key_table(region: Region) -> Rows:
-    """The bounds of a box; of a list how many poses it has."""
+def key_table(region: Region) -> TextTable:
+    """Tabulate the bounds of the region; for a list the number of poses."""
     if region.listed is not None:
-        return Rows(["", ""], [["poses", f"{len(region.listed):,}"]])
+        return TextTable(["", ""], [["poses", f"{len(region.listed):,}"]])
     if region.draw is not None:
-        return Rows(["", ""], [["drawn by", getattr(region.draw[0], "__name__", "a function")]])
-    joints = [(f"joint {k + 1}", "") for k in range(len(region.center))]
-    named = {"box": _BOX, "cone": _CONE_COLUMNS}.get(region.kind, joints)
+        return TextTable(["", ""], [["drawn by", getattr(region.draw[0], "__name__", "a function")]])
+    joints = [(f"joint {joint + 1}", "") for joint in range(len(region.center))]
+    columns = {"box": _BOX_COLUMNS, "cone": _CONE_COLUMNS}.get(region.kind, joints)
     rows = []
-    for (name, unit), center, size in zip(named, region.center, region.size, strict=True):
-        ends = np.array([center - size / 2, center + size / 2])
-        low, high = np.round(np.degrees(ends) if unit == "deg" else ends, 9) + 0.0
-        rows.append([f"{name}{unit and ', '}{unit}", f"{low:.4g}", f"{high:.4g}"])
-    return Rows(["" if region.kind in ("box", "cone") else "rad or m", "from", "to"], rows)
+    for (name, unit), center, size in zip(columns, region.center, region.size, strict=True):
+        bounds = np.array([center - size / 2, center + size / 2])
+        lower, upper = np.round(np.degrees(bounds) if unit == "deg" else bounds, 9) + 0.0
+        rows.append([f"{name}{unit and ', '}{unit}", f"{lower:.4g}", f"{upper:.4g}"])
+    return TextTable(["" if region.kind in ("box", "cone") else "rad or m", "from", "to"], rows)
 
 
 def picture(region: Region, about: str) -> str:
-    """It with the notebook's own arm, where there is one and the region is a box."""
+    """Draw the region with the notebook's own arm, if there is one and the region is a box."""
     from holdfast.present.arm import view
 
-    known = [arm for _, arm in variables() if isinstance(arm, Arm)] if region.kind == "box" else []
-    return view.picture(known[0], about, region) if known else ""
+    notebook_arms = [arm for _, arm in list_variables() if isinstance(arm, Arm)] if region.kind == "box" else []
+    return view.picture(notebook_arms[0], about, region) if notebook_arms else ""
 
 
 def next_steps(region: Region, name: str) -> list[str]:
-    """An arm over it: the notebook's own where there is one, else one that comes with holdfast."""
+    """Suggest an assessment over the region, with the notebook's own arm if there is one, else with a built-in one."""
     joints = len(region.center) if region.kind == "joints" else None
-    known = next((each for each in arms.names() if arms.about(each).n == (joints or 9)), None)
-    mine = [(each, arm) for each, arm in variables() if isinstance(arm, Arm) and arm.n == (joints or arm.n)]
-    for text, arm in [*mine, *([] if known is None else [(f"hf.arms.load({known!r})", arms.load(known))])]:
-        if (task := redundant_task(arm)) is not None:
+    library_arm = next((arm_name for arm_name in arms.names() if arms.about(arm_name).n == (joints or 9)), None)
+    notebook_arms = [
+        (arm_name, arm) for arm_name, arm in list_variables() if isinstance(arm, Arm) and arm.n == (joints or arm.n)
+    ]
+    for text, arm in [
+        *notebook_arms,
+        *([] if library_arm is None else [(f"hf.arms.load({library_arm!r})", arms.load(library_arm))]),
+    ]:
+        if (task := find_redundant_task(arm)) is not None:
             return [f"hf.assess({text}, {name}, task={task!r}, poses=200)"]
     return []

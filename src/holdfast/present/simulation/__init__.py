@@ -1,1 +1,1 @@
-"""Page and figures of a closed loop."""
+"""Reports and figures of closed-loop simulations."""

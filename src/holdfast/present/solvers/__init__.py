@@ -1,1 +1,1 @@
-"""Configurations of poses, as people read them."""
+"""Reports of configurations of poses."""

@@ -1,4 +1,4 @@
-"""The best configurations of poses in numbers and words."""
+"""Text, tables, and JSON of the best configurations of poses."""
 
 from __future__ import annotations
 
@@ -11,183 +11,237 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.files.output import writing
-from holdfast.files.spreadsheet import cell
+from holdfast.files.output import open_replacement
+from holdfast.files.spreadsheet import escape_cell
 from holdfast.indices.index import Index
-from holdfast.indices.objective import Objective, Opposite, WeightedSum
+from holdfast.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
-from holdfast.present.arm.console import print_outside, shown_position, shown_positions
-from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import Rows, number, plain
-from holdfast.present.story import Story
+from holdfast.present.arm.console import format_position, format_positions, print_limit_violations
+from holdfast.present.clearance.shape import describe_shape, summarize_shape
+from holdfast.present.printing import TextTable, format_significant, to_json_types
+from holdfast.present.story import PageContent
 from holdfast.solvers.optima import Optima
 from holdfast.status import Status
-from holdfast.words import capitalised, percent
+from holdfast.words import capitalise_first, format_percent
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 Array = NDArray[np.float64]
 
-_SAME, _FOLD = 1e-4, 10.0  # changes that are none, and those that a fraction would not tell
-MANY = 0.5  # fraction of starts that agree, below which more starts are worth it
+_NEGLIGIBLE_CHANGE, _MAX_RELATIVE_CHANGE = 1e-4, 10.0  # changes that are none, and those that a fraction would not tell
+MANY_AGREEING_FRACTION = 0.5  # fraction of starts that agree, below which more starts are worth it
 
 
 def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
-    """All poses by name; ``asked`` is the objective as it was written."""
-    found, names = optima.rows, optima.arm.joint_names
-    value_before, before, worse = found.value_before, found.before, found.worse
-    apart, apart_after = found.apart(found.before), found.apart(found.q)
-    measures = list(_measures(found))
+    """Return all poses by name; ``asked`` contains the objective in the wording of the command line."""
+    optima_rows, names = optima.rows, optima.arm.joint_names
+    value_before, before, is_worse = optima_rows.value_before, optima_rows.before, optima_rows.worse
+    clearance_before, clearance_after = optima_rows.apart(optima_rows.before), optima_rows.apart(optima_rows.q)
+    measures = list(_compare_measures(optima_rows))
 
-    def by_joint(values: Array) -> dict[str, Any]:
+    def map_by_joint(values: Array) -> dict[str, Any]:
         return dict(zip(names, values.tolist(), strict=True))
 
-    def row(k: int) -> dict[str, Any]:
+    def build_row(pose_index: int) -> dict[str, Any]:
         return {
-            "pose": found.poses[k],
-            "status": _name(found.status[k]),
-            "value_before": value_before[k],
-            "value": found.value[k],
-            "worse_than_given": worse[k],
-            "q_before": by_joint(before[k]),
-            "q": by_joint(found.q[k]),
-            "clearance_before_m": apart[k],
-            "clearance_m": apart_after[k],
-            "blocked": found.blocked[k] if found.clearance is not None else None,
-            "blocked_by": found.obstacles[k] or None,
-            "starts": found.starts[k],
-            "agreeing": found.agreeing[k],
-            "position_error_m": found.position_error[k],
-            "rotation_error_rad": found.rotation_error[k],
+            "pose": optima_rows.poses[pose_index],
+            "status": _status_name(optima_rows.status[pose_index]),
+            "value_before": value_before[pose_index],
+            "value": optima_rows.value[pose_index],
+            "worse_than_given": is_worse[pose_index],
+            "q_before": map_by_joint(before[pose_index]),
+            "q": map_by_joint(optima_rows.q[pose_index]),
+            "clearance_before_m": clearance_before[pose_index],
+            "clearance_m": clearance_after[pose_index],
+            "blocked": optima_rows.blocked[pose_index] if optima_rows.clearance is not None else None,
+            "blocked_by": optima_rows.obstacles[pose_index] or None,
+            "starts": optima_rows.starts[pose_index],
+            "agreeing": optima_rows.agreeing[pose_index],
+            "position_error_m": optima_rows.position_error[pose_index],
+            "rotation_error_rad": optima_rows.rotation_error[pose_index],
             "measures": {
                 label: {
-                    name: {"unit": unit, "before": old[k, i], "after": new[k, i]}
-                    for i, (name, unit) in enumerate(zip(names, units, strict=True))
+                    name: {"unit": unit, "before": before_values[pose_index, joint], "after": after_values[pose_index, joint]}
+                    for joint, (name, unit) in enumerate(zip(names, units, strict=True))
                 }
-                for label, units, old, new in measures
+                for label, units, before_values, after_values in measures
             },
         }
 
     data = {
         **optima.arm.entry(),
-        "objective": asked or _wish(optima),
+        "objective": asked or _describe_objective(optima),
         "better": optima.objective.better,
         "unit": optima.objective.unit,
         "task": optima.task.name,
         "before": "found" if optima.initial is None else "given",
         "seed": optima.seed,
-        "clearance": None if optima.clearance is None else shape_summary(optima.clearance, optima.margin),
-        "failures": _failures(optima),
-        "cap": None if optima.cap is None else asdict(optima.cap) | {"remaining": _remaining(optima)},
-        "poses": [row(k) for k in range(len(found.poses))],
+        "clearance": None if optima.clearance is None else summarize_shape(optima.clearance, optima.margin),
+        "failures": _format_failures(optima),
+        "cap": None if optima.cap is None else asdict(optima.cap) | {"remaining": _format_remaining_failures(optima)},
+        "poses": [build_row(k) for k in range(len(optima_rows.poses))],
     }
-    made: dict[str, Any] = plain(data)
-    return made
+    json_data: dict[str, Any] = to_json_types(data)
+    return json_data
 
 
-def key_table(optima: Optima) -> Rows:
-    """One pose joint by joint, or a row for each."""
-    found, arm = optima.rows, optima.arm
-    if len(found.poses) == 1:
-        pairs = zip(arm.joints, found.before[0], found.q[0], strict=True)
-        return Rows(
-            ["joint", "before", "best"], [[j.name, shown_position(a, j.unit), shown_position(b, j.unit)] for j, a, b in pairs]
+def key_table(optima: Optima) -> TextTable:
+    """Tabulate one pose joint by joint, or one row for each pose."""
+    optima_rows, arm = optima.rows, optima.arm
+    if len(optima_rows.poses) == 1:
+        pairs = zip(arm.joints, optima_rows.before[0], optima_rows.q[0], strict=True)
+        return TextTable(
+            ["joint", "before", "best"],
+            [
+                [joint.name, format_position(before, joint.unit), format_position(best, joint.unit)]
+                for joint, before, best in pairs
+            ],
         )
-    each = enumerate(zip(found.value_before, found.value, found.status, strict=True), 1)
-    return Rows(
-        ["pose", "before", "best", ""], [[str(k), number(a), number(b), _name(s).replace("_", " ")] for k, (a, b, s) in each]
+    pose_rows = enumerate(zip(optima_rows.value_before, optima_rows.value, optima_rows.status, strict=True), 1)
+    return TextTable(
+        ["pose", "before", "best", ""],
+        [
+            [str(pose_number), format_significant(before), format_significant(best), _status_name(status).replace("_", " ")]
+            for pose_number, (before, best, status) in pose_rows
+        ],
     )
 
 
-def story(optima: Optima) -> Story:
-    """What the best configurations gain over those before."""
-    found, unit = optima.rows, "" if optima.objective.unit in ("1", "mixed") else f" {optima.objective.unit}"
-    some, name = found.success, optima.objective.name
-    values = [x[some] for x in (found.value_before, found.value)]
-    before, after = (float(np.median(x)) if x.size else np.nan for x in values)
-    first = f"the {_first(optima)}"
-    many = len(found.poses) > 1
-    middle = "the median of " * many
+def story(optima: Optima) -> PageContent:
+    """Compose the report: the gain of the best configurations over those before."""
+    optima_rows, unit = optima.rows, "" if optima.objective.unit in ("1", "mixed") else f" {optima.objective.unit}"
+    is_solved, name = optima_rows.success, optima.objective.name
+    values = [pose_values[is_solved] for pose_values in (optima_rows.value_before, optima_rows.value)]
+    before, after = (float(np.median(pose_values)) if pose_values.size else np.nan for pose_values in values)
+    reference = f"the {_name_reference(optima)}"
+    has_many_poses = len(optima_rows.poses) > 1
+    median_prefix = "the median of " * has_many_poses
     change = abs(after - before) / abs(before) if before else np.inf
-    how = "raises" if optima.objective.better == "larger" else "lowers"
-    if not some.any():
-        worst = Status(int(found.status[0])).sentence
-        answer = f"No configuration of {'any pose' if many else 'the pose'} was found: {worst}."
-    elif optima.initial is not None and found.worse[some].all():
-        answer = f"No configuration better than {first} was found: {middle}{name} stays {number(before)}{unit}."
-    elif np.isfinite(change) and change < _SAME:
-        answer = f"{capitalised(first)} is the best that was found already: {middle}{name} is {number(after)}{unit}."
-    elif found.free:
-        answer = f"The best configuration found has a {name} of {number(after)}{unit}; {first} has {number(before)}{unit}."
-    else:
-        share = f", {percent(change)} {'more' if how == 'raises' else 'less'}" if np.isfinite(change) and change < _FOLD else ""
+    verb = "raises" if optima.objective.better == "larger" else "lowers"
+    if not is_solved.any():
+        worst = Status(int(optima_rows.status[0])).sentence
+        answer = f"No configuration of {'any pose' if has_many_poses else 'the pose'} was found: {worst}."
+    elif optima.initial is not None and optima_rows.worse[is_solved].all():
         answer = (
-            f"Moving the arm on the spot {how} {middle}{name} from {number(before)} to "
-            f"{number(after)}{unit}{share}; the tool stays where it is."
+            f"No configuration better than {reference} was found: {median_prefix}{name} stays "
+            f"{format_significant(before)}{unit}."
         )
-    if many and some.any():
-        answer = answer[:-1] + f" ({int(some.sum())} of {len(some)} poses have a configuration)."
+    elif np.isfinite(change) and change < _NEGLIGIBLE_CHANGE:
+        answer = (
+            f"{capitalise_first(reference)} is the best that was found already: {median_prefix}{name} is "
+            f"{format_significant(after)}{unit}."
+        )
+    elif optima_rows.free:
+        answer = (
+            f"The best configuration found has a {name} of {format_significant(after)}{unit}; {reference} has "
+            f"{format_significant(before)}{unit}."
+        )
+    else:
+        change_text = (
+            f", {format_percent(change)} {'more' if verb == 'raises' else 'less'}"
+            if np.isfinite(change) and change < _MAX_RELATIVE_CHANGE
+            else ""
+        )
+        answer = (
+            f"Moving the arm on the spot {verb} {median_prefix}{name} from {format_significant(before)} to "
+            f"{format_significant(after)}{unit}{change_text}; the tool stays where it is."
+        )
+    if has_many_poses and is_solved.any():
+        answer = answer[:-1] + f" ({int(is_solved.sum())} of {len(is_solved)} poses have a configuration)."
     facts = []
-    if some.any():
+    if is_solved.any():
         facts = [
-            (f"{number(after)}{unit}", f"{name} at the best configuration{'s, median' if many else ''}"),
-            (f"{number(before)}{unit}", f"before: {first}"),
+            (f"{format_significant(after)}{unit}", f"{name} at the best configuration{'s, median' if has_many_poses else ''}"),
+            (f"{format_significant(before)}{unit}", f"before: {reference}"),
         ]
-        agreeing = found.agreeing[some]
-        if not many and not np.isnan(agreeing).any():
-            facts.append((percent(float(agreeing[0])), f"of the {found.starts[0]} starts that were followed to the end agree"))
-    if many:
-        facts.append((f"{int(some.sum())} of {len(some)}", "poses have a configuration"))
-    facts = [x for x in facts if x[0].split()[0] not in ("0", "–")]
-    tables = [key_table(optima)._replace(title="Configurations, before and best" if not many else "Objective, before and best")]
-    for label, units, old, new in _measures(found) if not many else ():
+        agreeing = optima_rows.agreeing[is_solved]
+        if not has_many_poses and not np.isnan(agreeing).any():
+            facts.append(
+                (
+                    format_percent(float(agreeing[0])),
+                    f"of the {optima_rows.starts[0]} starts that were followed to the end agree",
+                )
+            )
+    if has_many_poses:
+        facts.append((f"{int(is_solved.sum())} of {len(is_solved)}", "poses have a configuration"))
+    facts = [pose_values for pose_values in facts if pose_values[0].split()[0] not in ("0", "–")]
+    tables = [
+        key_table(optima)._replace(
+            title="Configurations, before and best" if not has_many_poses else "Objective, before and best"
+        )
+    ]
+    for label, joint_units, before_values, after_values in _compare_measures(optima_rows) if not has_many_poses else ():
         rows = [
-            list(row) for row in zip(found.arm.joint_names, *(shown_positions(x[0], units) for x in (old, new)), strict=True)
+            list(row)
+            for row in zip(
+                optima_rows.arm.joint_names,
+                *(format_positions(pose_values[0], joint_units) for pose_values in (before_values, after_values)),
+                strict=True,
+            )
         ]
-        tables.append(Rows(["joint that fails", "before", "best"], rows, capitalised(label.replace("-", " "))))
-    return Story(
+        tables.append(TextTable(["joint that fails", "before", "best"], rows, capitalise_first(label.replace("-", " "))))
+    return PageContent(
         f"The best {'of all configurations' if optima.free else 'configuration'} of {optima.arm.name} before a failure",
         answer,
-        about=f"{capitalised(_wish(optima))}, task {optima.task.describe()}",
+        about=f"{capitalise_first(_describe_objective(optima))}, task {optima.task.describe()}",
         facts=facts,
         lines=[
-            *([] if optima.cap is None else [_advice(optima)]),
-            *[f"{Status(int(s)).sentence.capitalize()}." for s in sorted({*map(int, found.status)}) if s != Status.OK and many],
+            *([] if optima.cap is None else [_compose_cap_advice(optima)]),
+            *[
+                f"{Status(int(status_code)).sentence.capitalize()}."
+                for status_code in sorted({*map(int, optima_rows.status)})
+                if status_code != Status.OK and has_many_poses
+            ],
         ],
-        views=_beside(found, first) if some.any() else [],
+        views=_draw_comparison(optima_rows, reference) if is_solved.any() else [],
         tables=tables,
         method=[
             ("Objective", f"{name}, {optima.objective.better} is better"),
             ("Task", optima.task.describe()),
             (
                 "Starts",
-                f"{', '.join(map(str, sorted({*map(int, found.starts)})))} random ones{' for each pose' * (not optima.free)}, "
+                f"{', '.join(map(str, sorted({*map(int, optima_rows.starts)})))} random "
+                f"ones{' for each pose' * (not optima.free)}, "
                 f"seed {optima.seed}",
             ),
-            ("Clearance", "not looked at" if optima.clearance is None else shape_text(optima.clearance, optima.margin)),
+            ("Clearance", "not looked at" if optima.clearance is None else describe_shape(optima.clearance, optima.margin)),
         ],
         arm=optima.arm,
     )
 
 
-def _beside(found: Optima, first: str) -> list[tuple[str, list[Any]]]:
+def _draw_comparison(optima_rows: Optima, reference: str) -> list[tuple[str, list[Any]]]:
     from holdfast.present.arm.view import scene
     from holdfast.report.page import Picture
 
-    k = int(found.success.argmax())
-    stays = "" if found.free else "; the tool is in the same place"
-    words = f"The arm at its best configuration and, see-through, at {first}{stays}."
-    both = np.array([found.q[k], found.before[k]])
-    cell = None if found.clearance is None else found.clearance.cell
-    shown = scene(found.arm, both, labels=("best", "before"), targets=[] if found.free else [found.poses[k]], cell=cell)
+    pose_index = int(optima_rows.success.argmax())
+    pose_note = "" if optima_rows.free else "; the tool is in the same place"
+    caption = f"The arm at its best configuration and, see-through, at {reference}{pose_note}."
+    configurations = np.array([optima_rows.q[pose_index], optima_rows.before[pose_index]])
+    cell = None if optima_rows.clearance is None else optima_rows.clearance.cell
+    comparison_scene = scene(
+        optima_rows.arm,
+        configurations,
+        labels=("best", "before"),
+        targets=[] if optima_rows.free else [optima_rows.poses[pose_index]],
+        cell=cell,
+    )
     return [
-        ("Before and best", [Picture(shown.html("both", words), words + (f" Pose {k + 1}." if len(found.poses) > 1 else ""))])
+        (
+            "Before and best",
+            [
+                Picture(
+                    comparison_scene.to_html("both", caption),
+                    caption + (f" Pose {pose_index + 1}." if len(optima_rows.poses) > 1 else ""),
+                )
+            ],
+        )
     ]
 
 
 def next_steps(optima: Optima, name: str) -> list[str]:
-    """The objective at the best configurations, joint by joint where it has joints."""
+    """Suggest the objective at the best configurations, joint by joint where it has values for joints."""
     steps = [f"{name}.objective({name}.q)"]
     if isinstance(optima.objective, (Index, Susceptibility)):
         steps = [f"{name}.objective.by_joint({name}.q)  # whichever joint fails"]
@@ -197,163 +251,201 @@ def next_steps(optima: Optima, name: str) -> list[str]:
 
 
 def show(optima: Optima, out: Console, asked: str = "") -> None:
-    """One pose joint by joint, or a line for each."""
+    """Print one pose joint by joint, or a line for each pose."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
-    found = optima.rows
-    value_before = found.value_before
+    optima_rows = optima.rows
+    value_before = optima_rows.value_before
     unit = "" if optima.objective.unit in ("1", "mixed") else f" {escape(optima.objective.unit)}"
-    first = _first(optima)
-    over = _failures(optima)
-    wish = (asked or _wish(optima)) + ("" if over is None else f" over failures {over}")
-    head = f"{wish}, arm {optima.arm.title}, task {optima.task.describe()}"
-    out.print(escape(head), soft_wrap=True)
-    if len(found.poses) == 1:
-        _show_one(found, out, first, unit)
+    reference = _name_reference(optima)
+    failure_text = _format_failures(optima)
+    objective_text = (asked or _describe_objective(optima)) + ("" if failure_text is None else f" over failures {failure_text}")
+    title = f"{objective_text}, arm {optima.arm.title}, task {optima.task.describe()}"
+    out.print(escape(title), soft_wrap=True)
+    if len(optima_rows.poses) == 1:
+        _show_single_pose(optima_rows, out, reference, unit)
     else:
-        table = Grid("pose", f"before{unit}", f"after{unit}", "starts agreeing", "")
-        for k, status in enumerate(found.status):
-            agreeing = "" if np.isnan(found.agreeing[k]) else f"{found.agreeing[k]:.0%} of {found.starts[k]}"
-            ended = "" if status == Status.OK else _name(status).replace("_", " ")
-            table.add_row(str(k + 1), number(value_before[k], 6), number(found.value[k], 6), agreeing, ended)
+        table = BandedTable("pose", f"before{unit}", f"after{unit}", "starts agreeing", "")
+        for pose_index, status in enumerate(optima_rows.status):
+            agreeing = (
+                ""
+                if np.isnan(optima_rows.agreeing[pose_index])
+                else f"{optima_rows.agreeing[pose_index]:.0%} of {optima_rows.starts[pose_index]}"
+            )
+            status_text = "" if status == Status.OK else _status_name(status).replace("_", " ")
+            table.add_row(
+                str(pose_index + 1),
+                format_significant(value_before[pose_index], 6),
+                format_significant(optima_rows.value[pose_index], 6),
+                agreeing,
+                status_text,
+            )
         out.print(table)
-        out.print(f"before: the {first}; configurations go to --csv FILE or --json", soft_wrap=True)
-    _show_clearance(found, out)
-    for status in sorted({int(s) for s in found.status if s != Status.OK}):
-        out.print(f"[yellow]{_name(status).replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
+        out.print(f"before: the {reference}; configurations go to --csv FILE or --json", soft_wrap=True)
+    _show_clearance(optima_rows, out)
+    for status in sorted({int(status_code) for status_code in optima_rows.status if status_code != Status.OK}):
+        out.print(f"[yellow]{_status_name(status).replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
     if optima.cap is not None:
-        out.print(f"[yellow]{escape(_advice(optima))}[/]", soft_wrap=True)
-    if optima.initial is not None and found.worse.any():
-        which = "" if len(found.poses) == 1 else f" of {int(found.worse.sum())} poses"
-        out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)
+        out.print(f"[yellow]{escape(_compose_cap_advice(optima))}[/]", soft_wrap=True)
+    if optima.initial is not None and optima_rows.worse.any():
+        pose_count = "" if len(optima_rows.poses) == 1 else f" of {int(optima_rows.worse.sum())} poses"
+        out.print(
+            f"[yellow]The configuration given{pose_count} is better than any found; give more --starts.[/]", soft_wrap=True
+        )
 
 
-def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
+def _show_single_pose(optima_rows: Optima, out: Console, reference: str, unit: str) -> None:
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
-    before = found.before[0]
+    before = optima_rows.before[0]
     out.print(
-        f"[bold]{number(found.value[0], 6)}{unit}[/], {found.objective.better} wanted; "
-        f"{number(found.value_before[0], 6)} before (the {first})",
+        f"[bold]{format_significant(optima_rows.value[0], 6)}{unit}[/], {optima_rows.objective.better} wanted; "
+        f"{format_significant(optima_rows.value_before[0], 6)} before (the {reference})",
         soft_wrap=True,
     )
-    measures = list(_measures(found))
-    columns = [f"{escape(label)} {when}" for label, *_ in measures for when in ("before", "after")]
-    table = Grid("joint", "before", "after", *columns)
-    joints = [joint.unit for joint in found.arm.joints]
-    shown = [(joints, before), (joints, found.q[0]), *((units, x[0]) for _, units, *both in measures for x in both)]
-    for name, *cells in zip(found.arm.joint_names, *(shown_positions(x, units) for units, x in shown), strict=True):
+    measures = list(_compare_measures(optima_rows))
+    columns = [f"{escape(label)} {moment}" for label, *_ in measures for moment in ("before", "after")]
+    table = BandedTable("joint", "before", "after", *columns)
+    joint_units = [joint.unit for joint in optima_rows.arm.joints]
+    value_columns = [
+        (joint_units, before),
+        (joint_units, optima_rows.q[0]),
+        *((units, joint_values[0]) for _, units, *value_pair in measures for joint_values in value_pair),
+    ]
+    for name, *cells in zip(
+        optima_rows.arm.joint_names,
+        *(format_positions(joint_values, units) for units, joint_values in value_columns),
+        strict=True,
+    ):
         table.add_row(escape(name), *cells)
     out.print(table)
-    print_outside(found.arm, before, out, " before")
-    agreeing = found.agreeing[0]
-    advice = "" if agreeing >= MANY else "; there are many optima: more --starts may find a better one"
-    met = "were climbed from" if found.free else "met the pose"
-    out.print(f"{found.starts[0]} starts {met}; of those followed to the end {agreeing:.0%} agree{advice}", soft_wrap=True)
-    if found.status[0] == Status.OK and not found.free:
-        out.print(f"pose met to {found.position_error[0]:.1e} m and {found.rotation_error[0]:.1e} rad", soft_wrap=True)
+    print_limit_violations(optima_rows.arm, before, out, " before")
+    agreeing = optima_rows.agreeing[0]
+    advice = "" if agreeing >= MANY_AGREEING_FRACTION else "; there are many optima: more --starts may find a better one"
+    start_phrase = "were climbed from" if optima_rows.free else "met the pose"
+    out.print(
+        f"{optima_rows.starts[0]} starts {start_phrase}; of those followed to the end {agreeing:.0%} agree{advice}",
+        soft_wrap=True,
+    )
+    if optima_rows.status[0] == Status.OK and not optima_rows.free:
+        out.print(
+            f"pose met to {optima_rows.position_error[0]:.1e} m and {optima_rows.rotation_error[0]:.1e} rad", soft_wrap=True
+        )
 
 
-def _show_clearance(found: Optima, out: Console) -> None:
-    """What keeps the arm from colliding with itself, and where it would have."""
+def _show_clearance(optima_rows: Optima, out: Console) -> None:
+    """Print the clearance of the arm, and the better configurations that were rejected because they are too close."""
     from rich.markup import escape
 
-    if found.clearance is None:
+    if optima_rows.clearance is None:
         return
-    before, after = found.apart(found.before), found.apart(found.q)
-    close, blocked = found.clearance.too_close(found.margin), int(found.blocked.sum())
+    before, after = optima_rows.apart(optima_rows.before), optima_rows.apart(optima_rows.q)
+    collision_phrase, blocked = optima_rows.clearance.too_close(optima_rows.margin), int(optima_rows.blocked.sum())
     if len(before) == 1:
-        apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
-        text = f"clearance of the arm from {found.clearance.everything}: {apart}"
-        text += f"; a better configuration {close} and was not taken: {found.obstacles[0]}" if blocked else ""
+        distance_text = ", ".join(
+            f"{format_significant(distances[0], 3)} m {moment}"
+            for distances, moment in ((before, "before"), (after, "after"))
+            if distances[0] == distances[0]
+        )
+        text = f"clearance of the arm from {optima_rows.clearance.everything}: {distance_text}"
+        text += f"; a better configuration {collision_phrase} and was not taken: {optima_rows.obstacles[0]}" if blocked else ""
     else:
-        counts = [int(found.close(x).sum()) for x in (found.before, found.q)]
-        text = f"the arm {close} in {counts[0]} of {len(before)} configurations before, in {counts[1] or 'none'} after"
+        counts = [int(optima_rows.close(distances).sum()) for distances in (optima_rows.before, optima_rows.q)]
+        text = (
+            f"the arm {collision_phrase} in {counts[0]} of {len(before)} configurations before, in {counts[1] or 'none'} after"
+        )
         text += f"; at {blocked} poses a better configuration does and was not taken" if blocked else ""
-    out.print(escape(f"{text} ({shape_text(found.clearance, found.margin)})"), soft_wrap=True)
+    out.print(escape(f"{text} ({describe_shape(optima_rows.clearance, optima_rows.margin)})"), soft_wrap=True)
 
 
 def to_csv(optima: Optima, path: Path) -> Path:
-    """The configurations as rows."""
-    found = optima.rows
-    names = [f"{joint.name}_{joint.unit}" for joint in found.arm.joints]
+    """Write the configurations as rows of a table."""
+    optima_rows = optima.rows
+    names = [f"{joint.name}_{joint.unit}" for joint in optima_rows.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
-    facts = (found.value_before, found.value, found.starts, found.agreeing, found.position_error, found.rotation_error)
-    rows = np.column_stack([*facts, found.q])
-    with writing(path, "configurations") as file:
+    facts = (
+        optima_rows.value_before,
+        optima_rows.value,
+        optima_rows.starts,
+        optima_rows.agreeing,
+        optima_rows.position_error,
+        optima_rows.rotation_error,
+    )
+    rows = np.column_stack([*facts, optima_rows.q])
+    with open_replacement(path, "configurations") as file:
         table = csv.writer(file)
-        table.writerow(map(cell, columns + names))
-        for k, row in enumerate(rows):
-            table.writerow([k + 1, _name(found.status[k]), *[f"{x:.12g}" for x in row]])
+        table.writerow(map(escape_cell, columns + names))
+        for index, row in enumerate(rows):
+            table.writerow([index + 1, _status_name(optima_rows.status[index]), *[f"{entry:.12g}" for entry in row]])
     return path
 
 
-def _failures(optima: Optima) -> str | None:
-    """Write the failures of an index as --failures takes them; None where they are those of each joint alone."""
+def _format_failures(optima: Optima) -> str | None:
+    """Format the failures of an index for --failures; None where they are those of each joint alone."""
     index = optima.objective
-    if not isinstance(index, Index) or index.failures == tuple((k,) for k in range(index.arm.n)):
+    if not isinstance(index, Index) or index.failures == tuple((joint,) for joint in range(index.arm.n)):
         return None
-    return _numbers(index.failures)
+    return _format_failure_sets(index.failures)
 
 
-def _remaining(optima: Optima) -> str:
-    """Write the failures other than the one that caps the value as --failures takes them."""
+def _format_remaining_failures(optima: Optima) -> str:
+    """Format the failures other than the one that caps the value for --failures."""
     assert optima.cap is not None
     assert isinstance(optima.objective, Index)
-    return _numbers([optima.objective.failures[i] for i in optima.cap.remaining])
+    return _format_failure_sets([optima.objective.failures[failure_index] for failure_index in optima.cap.remaining])
 
 
-def _numbers(failures: Sequence[Sequence[int]]) -> str:
-    """Write sets of joints, indices from 0, as ``1; 2+3``; a lone number would mean how many joints fail."""
-    text = "; ".join("+".join(str(k + 1) for k in s) for s in failures)
+def _format_failure_sets(failures: Sequence[Sequence[int]]) -> str:
+    """Format sets of joints, indices from 0, as ``1; 2+3``; a lone number would mean the number of failing joints."""
+    text = "; ".join("+".join(str(joint + 1) for joint in failure) for failure in failures)
     return f"{text};" if text.isdecimal() else text
 
 
-def _advice(optima: Optima) -> str:
+def _compose_cap_advice(optima: Optima) -> str:
     assert optima.cap is not None
-    return f"{optima.cap}. To optimise without it: --failures '{_remaining(optima)}'."
+    return f"{optima.cap}. To optimise without it: --failures '{_format_remaining_failures(optima)}'."
 
 
-def _name(status: Any) -> str:
+def _status_name(status: Any) -> str:
     return Status(int(status)).name.lower()
 
 
-def _first(optima: Optima) -> str:
-    """What the best configurations are compared with."""
+def _name_reference(optima: Optima) -> str:
+    """Return the name of the configurations with which the best ones are compared."""
     if optima.initial is not None:
         return "configuration given"
     return "best random configuration" if optima.free else "first configuration found"
 
 
-def _wish(optima: Optima) -> str:
-    """What is wanted, as the command line says it."""
+def _describe_objective(optima: Optima) -> str:
+    """Return the objective in the wording of the command line."""
     objective = optima.objective
     verb = "maximise" if objective.better == "larger" else "minimise"
     return f"{verb} {getattr(objective, 'label', objective.name)}"
 
 
-def _measures(found: Optima) -> Iterator[tuple[str, tuple[str, ...], Array, Array]]:
-    """Of every summand: its name, the unit of each joint, and what each joint has before and after, (N, n)."""
-    named: dict[str, tuple[Index | Susceptibility, tuple[str, ...]]] = {}
-    for measure in _summands(found.objective):
+def _compare_measures(optima_rows: Optima) -> Iterator[tuple[str, tuple[str, ...], Array, Array]]:
+    """Yield for every summand its name, the unit of each joint, and the values of each joint before and after, (N, n)."""
+    measures_by_name: dict[str, tuple[Index | Susceptibility, tuple[str, ...]]] = {}
+    for measure in _list_summands(optima_rows.objective):
         if isinstance(measure, Susceptibility):
-            named[measure.slug] = measure, measure.joint_unit
+            measures_by_name[measure.slug] = measure, measure.joint_unit
         elif isinstance(measure, Index):
-            named[measure.label] = _by_single_joint(measure), (measure.unit,) * found.arm.n
-    for label, (measure, units) in named.items():
-        yield label, units, measure.by_joint(found.before), measure.by_joint(found.q)
+            measures_by_name[measure.label] = _with_single_failures(measure), (measure.unit,) * optima_rows.arm.n
+    for label, (measure, units) in measures_by_name.items():
+        yield label, units, measure.by_joint(optima_rows.before), measure.by_joint(optima_rows.q)
 
 
-def _by_single_joint(index: Index) -> Index:
-    """Build the index that has a value for each joint, also for those whose failure was left out."""
-    return index if index.failures == tuple((k,) for k in range(index.arm.n)) else index.with_failures("single")
+def _with_single_failures(index: Index) -> Index:
+    """Return the index with a value for each joint, also for joints whose failure was left out."""
+    return index if index.failures == tuple((joint,) for joint in range(index.arm.n)) else index.with_failures("single")
 
 
-def _summands(objective: Objective) -> list[Objective]:
-    if isinstance(objective, Opposite):
-        return _summands(objective.objective)
-    return [o for _, o in objective.terms] if isinstance(objective, WeightedSum) else [objective]
+def _list_summands(objective: Objective) -> list[Objective]:
+    if isinstance(objective, NegatedObjective):
+        return _list_summands(objective.objective)
+    return [term for _, term in objective.terms] if isinstance(objective, WeightedSum) else [objective]

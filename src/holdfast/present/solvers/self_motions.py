@@ -1,4 +1,4 @@
-"""A self-motion: its numbers, its words and its picture."""
+"""Text, tables, JSON, and figure of a self-motion."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import Rows, number, print_rows
-from holdfast.present.story import Story
-from holdfast.solvers.joint_space import turning
+from holdfast.present.clearance.shape import describe_shape, summarize_shape
+from holdfast.present.printing import TextTable, format_significant, print_table
+from holdfast.present.story import PageContent
+from holdfast.solvers.joint_space import is_unlimited
 from holdfast.status import Status
-from holdfast.words import counted, either, percent
+from holdfast.words import format_count, format_percent, list_alternatives
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from holdfast.present.results import Drawings
     from holdfast.solvers.self_motions import SelfMotion
 
-_CURVES = 6  # the longest ones are drawn
-_CONFIGURATIONS = 6
+_MAX_DRAWN_CURVES = 6  # the longest ones are drawn
+_DRAWN_CONFIGURATIONS = 6
 
 
 def to_dict(motion: SelfMotion) -> dict[str, Any]:
-    """Its curves with what ends them, and where each joint may lock, if that is known."""
+    """Return the curves with the causes of their ends, and the allowed lock ranges of each joint, if known."""
     names = motion.arm.joint_names
     return {
         **motion.arm.entry(),
@@ -39,40 +39,44 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
         "points": len(motion.q),
         "components": [
             {
-                "closed": c.closed,
-                "length_rad": c.length,
-                "winding": dict(zip(names, c.winding, strict=True)),
-                "ranges": dict(zip(names, c.ranges, strict=True)),
-                "bounded_by": [None if i is None else names[i] for i in c.bounded_by],
-                "barred_by": [pair or None for pair in c.barred_by],
-                "points": len(c.q),
+                "closed": component.closed,
+                "length_rad": component.length,
+                "winding": dict(zip(names, component.winding, strict=True)),
+                "ranges": dict(zip(names, component.ranges, strict=True)),
+                "bounded_by": [None if limit_joint is None else names[limit_joint] for limit_joint in component.bounded_by],
+                "barred_by": [body_pair or None for body_pair in component.barred_by],
+                "points": len(component.q),
             }
-            for c in motion.components
+            for component in motion.components
         ],
         "size_rad": motion.size if motion.redundancy == 1 else None,
-        "clearance": None if motion.clearance is None else shape_summary(motion.clearance, motion.margin),
+        "clearance": None if motion.clearance is None else summarize_shape(motion.clearance, motion.margin),
         **({} if motion.bounds is None else {"bounds": dict(zip(names, motion.bounds, strict=True))}),
     }
 
 
-def key_table(motion: SelfMotion) -> Rows:
-    """The curves; of a manifold of more dimensions how many points were found."""
+def key_table(motion: SelfMotion) -> TextTable:
+    """Tabulate the curves; for a manifold of more dimensions the number of points."""
     if not motion.components:
-        return Rows(["", ""], [["configurations found", f"{len(motion.q):,}"], ["dimension", str(motion.redundancy)]])
-    each = enumerate(motion.components)
-    return Rows(
-        ["curve", "length, rad", "points", ""], [[str(k + 1), number(c.length), str(len(c.q)), motion.ends(k)] for k, c in each]
+        return TextTable(["", ""], [["configurations found", f"{len(motion.q):,}"], ["dimension", str(motion.redundancy)]])
+    numbered = enumerate(motion.components)
+    return TextTable(
+        ["curve", "length, rad", "points", ""],
+        [
+            [str(index + 1), format_significant(component.length), str(len(component.q)), motion.ends(index)]
+            for index, component in numbered
+        ],
     )
 
 
 def next_steps(motion: SelfMotion, name: str) -> list[str]:
-    """Where each joint may lock."""
+    """Suggest the computation of the lock ranges of each joint."""
     del motion
     return [f"hf.joint_bounds({name}.arm, {name}.pose, {name}.task)  # where each joint may lock without losing the pose"]
 
 
-def story(motion: SelfMotion) -> Story:
-    """In how many ways the target is reached, and which locks it survives."""
+def story(motion: SelfMotion) -> PageContent:
+    """Compose the report: the number of curves that reach the target, and the locks that it survives."""
     arm, count = motion.arm, len(motion.components)
     if not len(motion.q):
         proof = (
@@ -80,16 +84,16 @@ def story(motion: SelfMotion) -> Story:
         )
         answer = f"No configuration of the target was found{proof}."
     elif count:
-        closed = sum(c.closed for c in motion.components)
-        barred = "" if motion.clearance is None else f", by {motion.clearance.others}"
-        ends = (
+        closed_count = sum(component.closed for component in motion.components)
+        collision_text = "" if motion.clearance is None else f", by {motion.clearance.others}"
+        ends_text = (
             "closed"
-            if closed == count
-            else f"ended by limits{barred} or singular configurations"
-            if not closed
-            else f"{closed} closed"
+            if closed_count == count
+            else f"ended by limits{collision_text} or singular configurations"
+            if not closed_count
+            else f"{closed_count} closed"
         )
-        answer = f"The target is reached on {counted(count, 'curve')} of configurations, {ends}"
+        answer = f"The target is reached on {format_count(count, 'curve')} of configurations, {ends_text}"
     else:
         answer = (
             f"The target is reached on a manifold of {motion.redundancy} dimensions, of which "
@@ -97,13 +101,14 @@ def story(motion: SelfMotion) -> Story:
         )
     facts = []
     if len(motion.q) and motion.bounds is not None:
-        free, held = _allowed(motion)
-        answer += f"; {_kept(free, held)}."
-        if held:
+        free, restricted = _classify_joints(motion)
+        answer += f"; {_describe_surviving_locks(free, restricted)}."
+        if restricted:
             facts.append(
                 (
-                    percent(min(held.values())),
-                    f"of the range of {min(held, key=lambda x: held[x])} keeps the target, the joint that is most bound",
+                    format_percent(min(restricted.values())),
+                    f"of the range of {min(restricted, key=lambda joint_name: restricted[joint_name])} keeps the target, "
+                    f"the joint that is most bound",
                 )
             )
         if free:
@@ -112,13 +117,18 @@ def story(motion: SelfMotion) -> Story:
         answer += "."
     if count:
         facts += [(f"{count}", f"separate {'curve' if count == 1 else 'curves'}; from one to another the target must be left")]
-        facts += [(f"{number(max(c.length for c in motion.components))} rad", "length of the longest in joint space")]
-    return Story(
+        facts += [
+            (
+                f"{format_significant(max(component.length for component in motion.components))} rad",
+                "length of the longest in joint space",
+            )
+        ]
+    return PageContent(
         f"All configurations of {arm.name} for one target",
         answer,
-        about=f"Task {motion.task.describe()}, target {_place(motion)}",
+        about=f"Task {motion.task.describe()}, target {_format_target(motion)}",
         facts=facts,
-        views=_moving(motion),
+        views=_animate_self_motion(motion),
         figures={
             "self-motion": (
                 "Where each joint may lock",
@@ -126,7 +136,7 @@ def story(motion: SelfMotion) -> Story:
                 "self-motions, and the arm is drawn in a few of their configurations.",
             )
         },
-        tables=_tables(motion),
+        tables=_build_tables(motion),
         method=[
             ("Task", motion.task.describe()),
             (
@@ -134,134 +144,162 @@ def story(motion: SelfMotion) -> Story:
                 f"{len(motion.q):,}, {motion.spacing:.3g} rad apart; curves that no random start converges to are missed",
             ),
             ("Where joints may lock", "the values that each joint takes over all configurations found"),
-            ("Clearance", "not looked at" if motion.clearance is None else shape_text(motion.clearance, motion.margin)),
+            ("Clearance", "not looked at" if motion.clearance is None else describe_shape(motion.clearance, motion.margin)),
         ],
         arm=arm,
     )
 
 
-def _place(motion: SelfMotion) -> str:
-    return f"({', '.join(f'{x:.4g}' for x in motion.pose[:3, 3])}) m"
+def _format_target(motion: SelfMotion) -> str:
+    return f"({', '.join(f'{coordinate:.4g}' for coordinate in motion.pose[:3, 3])}) m"
 
 
-def _allowed(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
-    """The joints that may lock anywhere, and of the others the fraction of the range in which they may."""
+def _classify_joints(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
+    """Return the joints that may lock anywhere, and for the others the allowed fraction of their range."""
     from holdfast.arm.configurations import finite_limits
 
     free: list[str] = []
-    held: dict[str, float] = {}
-    low, high = finite_limits(motion.arm)
-    for k, (joint, arcs) in enumerate(zip(motion.arm.joints, motion.bounds or [], strict=True)):
-        if _whole(motion, k):
+    restricted: dict[str, float] = {}
+    lower, upper = finite_limits(motion.arm)
+    for index, (joint, lock_ranges) in enumerate(zip(motion.arm.joints, motion.bounds or [], strict=True)):
+        if _may_lock_anywhere(motion, index):
             free.append(joint.name)
         else:
-            held[joint.name] = float(min(sum(b - a for a, b in arcs) / max(high[k] - low[k], 1e-12), 1.0))
-    return free, held
+            restricted[joint.name] = float(
+                min(sum(end - begin for begin, end in lock_ranges) / max(upper[index] - lower[index], 1e-12), 1.0)
+            )
+    return free, restricted
 
 
-def _whole(motion: SelfMotion, k: int) -> bool:
-    joint, arcs = motion.arm.joints[k], list((motion.bounds or [])[k])
-    return arcs in ([(joint.lower, joint.upper)], [(-np.pi, np.pi)] if turning(motion.arm)[k] else None)
+def _may_lock_anywhere(motion: SelfMotion, joint_index: int) -> bool:
+    joint, lock_ranges = motion.arm.joints[joint_index], list((motion.bounds or [])[joint_index])
+    return lock_ranges in ([(joint.lower, joint.upper)], [(-np.pi, np.pi)] if is_unlimited(motion.arm)[joint_index] else None)
 
 
-def _kept(free: list[str], held: dict[str, float]) -> str:
-    lost = [name for name, fraction in held.items() if not fraction]
-    if lost:
-        return f"it is lost wherever {either(lost)} locks"
-    if not held:
+def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> str:
+    critical_joints = [name for name, fraction in restricted.items() if not fraction]
+    if critical_joints:
+        return f"it is lost wherever {list_alternatives(critical_joints)} locks"
+    if not restricted:
         return "it stays within reach wherever a single joint locks"
-    worst = min(held, key=lambda x: held[x])
-    anywhere = f"anywhere of {either(free)}, but " if free else ""
-    return f"it survives a lock {anywhere}in only {percent(held[worst])} of the range of {worst}, the joint that is most bound"
+    worst = min(restricted, key=lambda joint_name: restricted[joint_name])
+    anywhere = f"anywhere of {list_alternatives(free)}, but " if free else ""
+    return (
+        f"it survives a lock {anywhere}in only {format_percent(restricted[worst])} of the range of {worst}, the joint "
+        f"that is most bound"
+    )
 
 
-def _tables(motion: SelfMotion) -> list[Rows]:
-    found = [key_table(motion)._replace(title="Self-motions")]
+def _build_tables(motion: SelfMotion) -> list[TextTable]:
+    result_tables = [key_table(motion)._replace(title="Self-motions")]
     if motion.bounds is not None:
-        each = enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
-        rows = [[j.name, "anywhere" if _whole(motion, k) else ranges(arcs, j) if arcs else "nowhere"] for k, (j, arcs) in each]
-        found.append(Rows(["joint", "may lock at"], rows, "A lock keeps the target within reach if and only if it lies there"))
-    return found
+        joint_ranges = enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
+        rows = [
+            [
+                joint.name,
+                "anywhere"
+                if _may_lock_anywhere(motion, index)
+                else format_ranges(lock_ranges, joint)
+                if lock_ranges
+                else "nowhere",
+            ]
+            for index, (joint, lock_ranges) in joint_ranges
+        ]
+        result_tables.append(
+            TextTable(["joint", "may lock at"], rows, "A lock keeps the target within reach if and only if it lies there")
+        )
+    return result_tables
 
 
-def _moving(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
-    """The arm on its longest self-motion; of a sample, in a few configurations."""
+def _animate_self_motion(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
+    """Animate the arm on its longest self-motion; for a sample draw a few configurations."""
     if not len(motion.q):
         return []
     from holdfast.present.arm.view import scene
     from holdfast.report.page import Picture
 
     if not motion.components:
-        few = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
-        words = "The arm in a few of the configurations; the tool is at the target in each."
-        return [("The arm at the target", [Picture(scene(motion.arm, few, cell=motion.cell).html("motion", words), words)])]
-    longest = max(motion.components, key=lambda c: c.length)
+        configurations = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
+        caption = "The arm in a few of the configurations; the tool is at the target in each."
+        return [
+            (
+                "The arm at the target",
+                [Picture(scene(motion.arm, configurations, cell=motion.cell).to_html("motion", caption), caption)],
+            )
+        ]
+    longest = max(motion.components, key=lambda component: component.length)
     time = np.linspace(0.0, 8.0, len(longest.q))
-    words = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
+    caption = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
     if len(time) < 2:
         return []
-    shown = scene(motion.arm, longest.q, time=time, targets=[motion.pose], cell=motion.cell)
-    return [("The self-motion", [Picture(shown.html("motion", words), words)])]
+    motion_scene = scene(motion.arm, longest.q, time=time, targets=[motion.pose], cell=motion.cell)
+    return [("The self-motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
 
 
 def show(motion: SelfMotion, out: Console) -> None:
-    """The tables of its page; how many configurations were found the first line says."""
+    """Print the tables of the page; the first line contains the number of configurations."""
     from rich.markup import escape
 
     out.print(escape(motion.describe()[0]), soft_wrap=True)
-    for table in _tables(motion)[0 if motion.components else 1 :]:
-        print_rows(out, table)
+    for table in _build_tables(motion)[0 if motion.components else 1 :]:
+        print_table(out, table)
 
 
-def ranges(arcs: Sequence[Sequence[float]], joint: Joint) -> str:
-    """Ranges of a joint with their unit."""
-    if not arcs:
+def format_ranges(intervals: Sequence[Sequence[float]], joint: Joint) -> str:
+    """Format ranges of a joint with their unit."""
+    if not intervals:
         return "-"
     factor, unit = joint.shown
-    return ", ".join(" to ".join(_short(factor * x) for x in ends) for ends in arcs) + f" {unit}"
+    return ", ".join(" to ".join(_format_bound(factor * bound) for bound in ends) for ends in intervals) + f" {unit}"
 
 
-def _short(value: float) -> str:
+def _format_bound(value: float) -> str:
     return f"{value:.2f}" if abs(value) >= 0.005 else "0.00"
 
 
 def drawings(motion: SelfMotion) -> Drawings:
-    """Joint values along the curves with where each joint may lock, and the arm in a few of the configurations."""
+    """Draw joint values along the curves with the allowed lock ranges, and the arm in a few of the configurations."""
     from holdfast.reach.bounds import joint_bounds
 
     if motion.bounds is not None or (motion.clearance is not None and motion.redundancy > 1):
         return main_figure(motion)
-    kept = motion.clearance is not None
-    arcs = motion.arcs() if kept else joint_bounds(motion.arm, motion.pose, motion.task)
-    return {"self-motion": partial(_figure, motion, arcs)}
+    has_clearance = motion.clearance is not None
+    lock_ranges = motion.arcs() if has_clearance else joint_bounds(motion.arm, motion.pose, motion.task)
+    return {"self-motion": partial(_draw_self_motion, motion, lock_ranges)}
 
 
 def main_figure(motion: SelfMotion) -> Drawings:
-    """The same, and where each joint may lock only if that is known: looking for it takes longer than all the rest."""
-    return {"self-motion": partial(_figure, motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
+    """Draw the same figure, with the lock ranges only if they are known, because their computation takes longest."""
+    return {"self-motion": partial(_draw_self_motion, motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
 
 
-def _figure(motion: SelfMotion, arcs: Sequence[Sequence[tuple[float, float]]]) -> Figure:
+def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:
     from holdfast.arm.configurations import finite_limits
-    from holdfast.present.stick_figure import views_of
+    from holdfast.present.stick_figure import choose_views
     from holdfast.report.manifolds import JointPanel, self_motion_figure
 
     arm = motion.arm
-    low, high = finite_limits(arm)
-    factors = np.array([j.shown[0] for j in arm.joints])
+    lower, upper = finite_limits(arm)
+    factors = np.array([joint.shown[0] for joint in arm.joints])
     panels = [
-        JointPanel(f"{j.name}, {j.shown[1]}", [(f * a, f * b) for a, b in found], (f * x, f * y))
-        for j, f, found, x, y in zip(arm.joints, factors, arcs, low, high, strict=True)
+        JointPanel(
+            f"{joint.name}, {joint.shown[1]}",
+            [(factor * begin, factor * finish) for begin, finish in joint_arcs],
+            (factor * lower_limit, factor * upper_limit),
+        )
+        for joint, factor, joint_arcs, lower_limit, upper_limit in zip(
+            arm.joints, factors, lock_ranges, lower, upper, strict=True
+        )
     ]
-    longest = sorted(motion.components, key=lambda c: -c.length)[:_CURVES]
+    longest = sorted(motion.components, key=lambda curve: -curve.length)[:_MAX_DRAWN_CURVES]
     curves = []
-    for c in longest:
-        steps = np.linalg.norm(np.diff(c.q, axis=0), axis=1)
-        curves.append((np.concatenate([[0.0], np.cumsum(steps)]), factors * c.q))
+    for curve in longest:
+        step_lengths = np.linalg.norm(np.diff(curve.q, axis=0), axis=1)
+        curves.append((np.concatenate([[0.0], np.cumsum(step_lengths)]), factors * curve.q))
     q, closed = (longest[0].q, longest[0].closed) if longest else (motion.q, False)
-    some = np.linspace(0, max(len(q) - 1, 0), _CONFIGURATIONS + closed).astype(int)[:_CONFIGURATIONS]
-    chains = arm.frames(q[some] if len(q) else q)[..., :3, 3]
-    views = views_of(arm, chains) if len(q) else []
-    drawn = f"; the {_CURVES} longest curves are drawn" if len(motion.components) > _CURVES else ""
-    caption = motion.describe()[0].replace(arm.title, arm.name, 1) + drawn
+    chosen = np.linspace(0, max(len(q) - 1, 0), _DRAWN_CONFIGURATIONS + closed).astype(int)[:_DRAWN_CONFIGURATIONS]
+    chains = arm.frames(q[chosen] if len(q) else q)[..., :3, 3]
+    views = choose_views(arm, chains) if len(q) else []
+    omission_note = f"; the {_MAX_DRAWN_CURVES} longest curves are drawn" if len(motion.components) > _MAX_DRAWN_CURVES else ""
+    caption = motion.describe()[0].replace(arm.title, arm.name, 1) + omission_note
     return self_motion_figure(panels, curves, chains, views, caption)

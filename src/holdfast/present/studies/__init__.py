@@ -1,1 +1,1 @@
-"""Pages and figures of studies."""
+"""Reports and figures of studies."""

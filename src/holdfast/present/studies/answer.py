@@ -1,75 +1,95 @@
-"""The answer of a study in a few sentences: who keeps most, or why nobody does."""
+"""Answer of a study in a few sentences: the arm that retains most, or the reason why no arm does."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from holdfast.studies.ranking import Standing, said
-from holdfast.words import article, interval, percent
+from holdfast.studies.ranking import ArmRanking, format_unit
+from holdfast.words import format_interval, format_percent, indefinite_article
 
 
-def headline(stand: Sequence[Standing]) -> str:
-    """The first index, as found and at its best, and the law and arm that reach the target most often."""
+def headline(stand: Sequence[ArmRanking]) -> str:
+    """Compose the answer: the leader for the first index, as found and at its best, and the law and arm with the most
+    successes.
+    """
     parts = []
-    found = [s for s in stand if not s.law]
-    if found:
-        s = found[0]
-        best = found[1] if found[1:] and found[1].question.startswith(f"{s.question}, ") else None
-        parts.append(_nothing(s, best) if s.empty else _leads(s, best))
-    driven = [s for s in stand if s.law]
-    if driven:
-        top = max(driven, key=lambda s: s.ranked[0][1].value)
-        reached = interval(top.ranked[0][1])
+    index_standings = [standing for standing in stand if not standing.law]
+    if index_standings:
+        standing = index_standings[0]
+        best = (
+            index_standings[1]
+            if index_standings[1:] and index_standings[1].question.startswith(f"{standing.question}, ")
+            else None
+        )
+        parts.append(_explain_absence(standing, best) if standing.is_uninformative else _describe_leader(standing, best))
+    law_standings = [standing for standing in stand if standing.law]
+    if law_standings:
+        top = max(law_standings, key=lambda standing: standing.ranked_entries[0][1].value)
+        success_rate = format_interval(top.ranked_entries[0][1])
         parts.append(
             f"With a locked joint that nobody has noticed hardly any motion reaches its target under any law: of {top.about} "
-            f"{reached} for {first(top)} under {top.law}."
-            if top.empty
-            else f"With a locked joint that nobody has noticed, {first(top)} reaches its target most often, under {top.law}: "
-            f"{reached} of the motions."
+            f"{success_rate} for {name_leader(top)} under {top.law}."
+            if top.is_uninformative
+            else f"With a locked joint that nobody has noticed, {name_leader(top)} reaches its target most often, under "
+            f"{top.law}: "
+            f"{success_rate} of the motions."
         )
     return " ".join(parts)
 
 
-def _leads(s: Standing, best: Standing | None) -> str:
-    often = " most often" if len(s.entries) > 1 else ""
-    text = f"After any failure considered, {first(s)}{often} keeps {article(s.question)} {s.question}{said(s.unit)}: "
-    text += f"at {interval(s.ranked[0][1])} of the poses"
+def _describe_leader(standing: ArmRanking, best: ArmRanking | None) -> str:
+    adverb = " most often" if len(standing.entries) > 1 else ""
+    text = (
+        f"After any failure considered, {name_leader(standing)}{adverb} keeps {indefinite_article(standing.question)} "
+        f"{standing.question}{format_unit(standing.unit)}: "
+    )
+    text += f"at {format_interval(standing.ranked_entries[0][1])} of the poses"
     if best is not None:
-        text += f"; in the best configuration of each pose, {first(best)}: {interval(best.ranked[0][1])}"
+        text += f"; in the best configuration of each pose, {name_leader(best)}: {format_interval(best.ranked_entries[0][1])}"
     return f"{text}."
 
 
-def _nothing(s: Standing, best: Standing | None) -> str:
-    """Why no arm keeps what is asked for, and the next figures that say something."""
-    text = f"After any failure considered, hardly any pose keeps {article(s.question)} {s.question}{said(s.unit)}: at most "
-    text += f"{interval(s.ranked[0][1])} of an arm's poses"
+def _explain_absence(standing: ArmRanking, best: ArmRanking | None) -> str:
+    """Explain why hardly any pose meets the threshold, with the next informative numbers."""
+    text = (
+        f"After any failure considered, hardly any pose keeps {indefinite_article(standing.question)} "
+        f"{standing.question}{format_unit(standing.unit)}: at most "
+    )
+    text += f"{format_interval(standing.ranked_entries[0][1])} of an arm's poses"
     if best is not None:
-        text += f", in the best configuration of each pose {interval(best.ranked[0][1])}"
-    parts = [f"{text}."]
-    if s.median:
-        name, median = s.median
-        parts.append(f"{name} has the best median, {median}")
+        text += f", in the best configuration of each pose {format_interval(best.ranked_entries[0][1])}"
+    sentences = [f"{text}."]
+    if standing.median:
+        name, median = standing.median
+        sentences.append(f"{name} has the best median, {median}")
         if best is not None and best.median:
-            who = "" if best.median[0] == name else f" ({best.median[0]})"
-            parts[-1] += f"; in the best configurations {best.median[1]}{who}"
-        parts[-1] += f". Its worst failure is most often a lock of {s.worst}." if s.worst else "."
-    parts += [f"{name} keeps nothing: once {joint} locks, it is singular everywhere." for name, joint in s.ended.items()]
-    return " ".join(parts)
+            leader_suffix = "" if best.median[0] == name else f" ({best.median[0]})"
+            sentences[-1] += f"; in the best configurations {best.median[1]}{leader_suffix}"
+        sentences[-1] += f". Its worst failure is most often a lock of {standing.worst}." if standing.worst else "."
+    sentences += [
+        f"{name} keeps nothing: once {joint} locks, it is singular everywhere." for name, joint in standing.ended.items()
+    ]
+    return " ".join(sentences)
 
 
-def first(s: Standing) -> str:
-    """Who leads, or shares the lead."""
-    first, *others = s.level
-    return f"{first} (level with {', '.join(others)})" if others else first
+def name_leader(standing: ArmRanking) -> str:
+    """Name the arm that leads, with those that share the lead."""
+    leader, *others = standing.tied_with_first
+    return f"{leader} (level with {', '.join(others)})" if others else leader
 
 
-def facts(stand: Sequence[Standing]) -> list[tuple[str, str]]:
-    """Who leads in the first questions; the best median where hardly anything is kept."""
-    found: list[tuple[str, str]] = []
-    for s in stand[:4]:
-        (name, p), *_ = s.ranked
-        if not s.empty:
-            found.append((percent(p.value), f"{name}, {s.question}; {percent(p.low)} to {percent(p.high)}, 95 %"))
-        elif s.median:
-            found.append((s.median[1], f"{s.median[0]}, the best median; {s.question}: hardly any pose"))
-    return found
+def list_facts(standings: Sequence[ArmRanking]) -> list[tuple[str, str]]:
+    """List the leaders of the first questions; the best median where hardly anything is retained."""
+    entries: list[tuple[str, str]] = []
+    for standing in standings[:4]:
+        (leader, fraction), *_ = standing.ranked_entries
+        if not standing.is_uninformative:
+            entries.append(
+                (
+                    format_percent(fraction.value),
+                    f"{leader}, {standing.question}; {format_percent(fraction.low)} to {format_percent(fraction.high)}, 95 %",
+                )
+            )
+        elif standing.median:
+            entries.append((standing.median[1], f"{standing.median[0]}, the best median; {standing.question}: hardly any pose"))
+    return entries

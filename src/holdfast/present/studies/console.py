@@ -1,4 +1,4 @@
-"""A study on the terminal: how far it is, what verifying and merging found, and what it would take."""
+"""Console text of a study: progress, results of verifying and merging, and estimated effort."""
 
 from __future__ import annotations
 
@@ -6,95 +6,116 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from holdfast.engine.study import Study
-from holdfast.engine.union import Merged
+from holdfast.engine.union import MergeReport
 from holdfast.kernels.threads import thread_count
-from holdfast.present.printing import Rows, print_rows
-from holdfast.studies.estimate import Estimate
-from holdfast.words import counted, duration
+from holdfast.present.printing import TextTable, print_table
+from holdfast.studies.estimate import CellEstimate
+from holdfast.words import format_count, format_duration
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-_MOST = 40  # cells in a table
+_MAX_TABLE_CELLS = 40  # cells in a table
 
 
 def to_dict(study: Study) -> dict[str, Any]:
-    """How far it is, cell by cell."""
+    """Return the progress of a study, cell by cell, as JSON data."""
     cells = study.status()
     return {
         "folder": str(study.path),
         "name": study.name,
         "seed": study.seed,
         "digest": study.digest,
-        "complete": all(s.complete for s in cells),
-        "chunks": sum(s.chunks for s in cells),
-        "chunks_done": sum(s.chunks_done for s in cells),
-        "thread_seconds": sum(s.seconds for s in cells),
+        "complete": all(cell.is_complete for cell in cells),
+        "chunks": sum(cell.chunks for cell in cells),
+        "chunks_done": sum(cell.chunks_done for cell in cells),
+        "thread_seconds": sum(cell.seconds for cell in cells),
         "cells": [
-            {"name": s.name, "chunks": s.chunks, "chunks_done": s.chunks_done, "rows": s.rows, "rows_done": s.rows_done}
-            for s in cells
+            {
+                "name": cell.name,
+                "chunks": cell.chunks,
+                "chunks_done": cell.chunks_done,
+                "rows": cell.rows,
+                "rows_done": cell.rows_done,
+            }
+            for cell in cells
         ],
         "made_by": study.makers,
     }
 
 
-def next_steps(found: Study | Merged, name: str) -> list[str]:
-    """Whether what is there is sound."""
-    study = f"{name}.study" if isinstance(found, Merged) else name
+def next_steps(result: Study | MergeReport, name: str) -> list[str]:
+    """Suggest the verification of the stored results."""
+    study = f"{name}.study" if isinstance(result, MergeReport) else name
     return [f"{study}.verify()  # an empty list: everything that was computed is sound"]
 
 
-def tables(found: Study | Merged) -> list[Rows]:
-    """A row for each cell; of many cells those that are not complete."""
-    cells = (found.study if isinstance(found, Merged) else found).status()
-    shown = [s for s in cells if not s.complete] if len(cells) > _MOST else cells
-    rows = [
-        (s.name, f"{s.rows_done:,} of {s.rows:,}", f"{s.chunks_done:,} of {s.chunks:,}", duration(s.seconds))
-        for s in shown[:_MOST]
+def tables(result: Study | MergeReport) -> list[TextTable]:
+    """Return a row for each cell; of many cells only those that are not complete."""
+    cells = (result.study if isinstance(result, MergeReport) else result).status()
+    listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
+    table_rows = [
+        (
+            cell.name,
+            f"{cell.rows_done:,} of {cell.rows:,}",
+            f"{cell.chunks_done:,} of {cell.chunks:,}",
+            format_duration(cell.seconds),
+        )
+        for cell in listed_cells[:_MAX_TABLE_CELLS]
     ]
-    title = f"{_MOST} of {len(shown)} cells that are not complete" if len(shown) > _MOST else ""
-    return [Rows(("cell", "rows", "chunks", "processor time"), rows, title)] if rows else []
+    title = (
+        f"{_MAX_TABLE_CELLS} of {len(listed_cells)} cells that are not complete" if len(listed_cells) > _MAX_TABLE_CELLS else ""
+    )
+    return [TextTable(("cell", "rows", "chunks", "processor time"), table_rows, title)] if table_rows else []
 
 
-def estimated(found: Sequence[Estimate]) -> dict[str, Any]:
-    """What a study would take, cell by cell."""
+def summarize_estimates(estimates: Sequence[CellEstimate]) -> dict[str, Any]:
+    """Summarize the estimated effort of a study, cell by cell, as JSON data."""
     return {
         "cells": [
-            {"name": e.cell.name, "rows": e.cell.rows, "chunks": e.cell.count, "thread_seconds": e.seconds, "bytes": e.size}
-            for e in found
+            {
+                "name": estimate.cell.name,
+                "rows": estimate.cell.rows,
+                "chunks": estimate.cell.count,
+                "thread_seconds": estimate.seconds,
+                "bytes": estimate.size,
+            }
+            for estimate in estimates
         ],
-        "chunks": sum(e.cell.count for e in found),
-        "thread_seconds": sum(e.seconds for e in found),
-        "bytes": sum(e.size for e in found),
+        "chunks": sum(estimate.cell.count for estimate in estimates),
+        "thread_seconds": sum(estimate.seconds for estimate in estimates),
+        "bytes": sum(estimate.size for estimate in estimates),
         "threads": thread_count(),
     }
 
 
-def show_estimates(found: Sequence[Estimate], out: Console) -> None:
-    """The same for people."""
-    whole, threads = estimated(found), thread_count()
-    rows = [
+def show_estimates(estimates: Sequence[CellEstimate], out: Console) -> None:
+    """Print the estimated effort of a study."""
+    total, threads = summarize_estimates(estimates), thread_count()
+    table_rows = [
         (
-            e.cell.name,
-            f"{e.cell.rows:,}",
-            f"{e.cell.count:,}",
-            duration(e.seconds),
-            duration(e.seconds / e.cell.count),
-            _bytes(e.size),
+            estimate.cell.name,
+            f"{estimate.cell.rows:,}",
+            f"{estimate.cell.count:,}",
+            format_duration(estimate.seconds),
+            format_duration(estimate.seconds / estimate.cell.count),
+            _format_size(estimate.size),
         )
-        for e in found
+        for estimate in estimates
     ]
-    print_rows(out, Rows(("cell", "rows", "chunks", "processor time", "a chunk", "size, at most"), rows))
-    seconds = whole["thread_seconds"]
+    print_table(out, TextTable(("cell", "rows", "chunks", "processor time", "a chunk", "size, at most"), table_rows))
+    seconds = total["thread_seconds"]
     out.print(
-        f"{counted(len(found), 'cell')}, {whole['chunks']:,} chunks: about {duration(seconds)} of processor time, "
-        f"{duration(seconds / threads)} with the {threads} of this machine; at most {_bytes(whole['bytes'])} on the disk "
-        f"(estimated from up to {max(e.tried for e in found)} rows of each cell)",
+        f"{format_count(len(estimates), 'cell')}, {total['chunks']:,} chunks: about {format_duration(seconds)} of "
+        f"processor time, "
+        f"{format_duration(seconds / threads)} with the {threads} of this machine; at most {_format_size(total['bytes'])} "
+        f"on the disk "
+        f"(estimated from up to {max(estimate.tried for estimate in estimates)} rows of each cell)",
         soft_wrap=True,
     )
 
 
-def _bytes(count: float) -> str:
+def _format_size(count: float) -> str:
     for unit in ("B", "kB", "MB", "GB"):
         if count < 1000:
             return f"{count:.3g} {unit}"

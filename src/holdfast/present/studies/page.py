@@ -1,4 +1,4 @@
-"""A study as one HTML page: who keeps what, under which law, and how it was computed."""
+"""HTML report of a study: the fractions that each arm retains, under which law, and how they were computed."""
 
 from __future__ import annotations
 
@@ -9,32 +9,49 @@ from typing import Any, TypeVar
 import numpy as np
 from markupsafe import Markup
 
-from holdfast.assessment.plan import Plan
+from holdfast.assessment.plan import AssessmentPlan
 from holdfast.assessment.single_points import Structure, explain, structure
 from holdfast.engine.study import Study
 from holdfast.errors import StoreError
-from holdfast.notice import says
-from holdfast.present.studies.answer import facts, headline
-from holdfast.present.studies.designs import sentence, sweep
+from holdfast.notice import reports_progress
+from holdfast.present.studies.answer import headline, list_facts
+from holdfast.present.studies.designs import build_sweep_blocks, describe_best_design
 from holdfast.probability.intervals import Interval
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
-from holdfast.report.outcomes import Gains, Stack, share_figure, stack_figure
+from holdfast.report.outcomes import Gains, Stack, fraction_figure, stack_figure
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
 from holdfast.studies import results
-from holdfast.studies.ranking import Ended, Key, Standing, counted_range, place, row_of, said, standings
-from holdfast.studies.results import Assessed, Driven
-from holdfast.studies.study_file import thresholds
-from holdfast.words import as_given, counted, duration, either, half_width, number, percent
+from holdfast.studies.ranking import (
+    ArmRanking,
+    Ended,
+    Key,
+    format_count_range,
+    format_unit,
+    label_arm,
+    make_structure_key,
+    rank_arms,
+)
+from holdfast.studies.results import AssessedCell, DrivenCell
+from holdfast.studies.study_file import read_thresholds
+from holdfast.words import (
+    format_as_given,
+    format_count,
+    format_duration,
+    format_half_width,
+    format_number,
+    format_percent,
+    list_alternatives,
+)
 
 T = TypeVar("T")
 
-_ENDS = ("reaches the target", "stops elsewhere", "keeps moving", "undecided")
+_OUTCOME_LABELS = ("reaches the target", "stops elsewhere", "keeps moving", "undecided")
 
 
-@says("drawing the report")
+@reports_progress("drawing the report")
 def write(study: Study, path: str | Path, command: str = "") -> Path:
-    """Write the report of a study, also of one that is not complete; it says itself how it is made again.
+    """Write the report of a study, also of one that is not complete; the report contains the instructions that repeat it.
 
     Raises:
         StoreError: Nothing is computed, a chunk is damaged, or the file cannot be written.
@@ -44,152 +61,188 @@ def write(study: Study, path: str | Path, command: str = "") -> Path:
 
 
 def build(study: Study) -> Page:
-    """The report as blocks."""
+    """Build the report as blocks, before it becomes HTML."""
     cells = study.status()
-    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
-    if not done:
+    chunks_done, chunk_count = sum(item.chunks_done for item in cells), sum(item.chunks for item in cells)
+    if not chunks_done:
         raise StoreError(f"nothing of '{study.path}' is computed yet; run the study first")
-    found = _of(study, "assess", results.assessed)
-    laws = [d for d in _of(study, "convergence", results.driven) if d is not None]
-    asked = _thresholds(study, found)
-    alerts = []
-    if done < total:
-        missing = f"{done:,} of {total:,} chunks are computed; run the same command again to resume."
-        alerts.append(Callout(missing, "bad", "Not complete."))
-    sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
-    own = _structures(found)
-    stand = standings(found, laws, asked, {key: _joints(plan, s) for key, (plan, s) in own.items()})
-    sections = [
-        Section("Which arm for what", _standings(stand)),
-        Section("Single points of failure by structure", _structure(own)),
-        *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
-        Section("Arms, indices and laws", _table(found, laws, asked)),
-        Section("How the indices are distributed", _distributions(found, asked)),
-        Section("Which joint is the worst to lose", _worst(found)),
-        Section("Reaching the target with a locked joint that nobody has noticed", _laws(laws)),
-        Section("Starts that still reach the target", _others(study, "workspace", results.workspace, "starts", "percent")),
-        Section("Tasks that the computer drives", _others(study, "bank", results.bank, "sets of tasks", "percent, or cycles")),
+    assessed = _read_results(study, "assess", results.read_assessment)
+    laws = [
+        law_result for law_result in _read_results(study, "convergence", results.read_convergence) if law_result is not None
     ]
-    arms = list(dict.fromkeys(c["labels"]["arm"] for c in study.cells))
+    limits = _choose_thresholds(study, assessed)
+    alerts = []
+    if chunks_done < chunk_count:
+        missing = f"{chunks_done:,} of {chunk_count:,} chunks are computed; run the same command again to resume."
+        alerts.append(Callout(missing, "bad", "Not complete."))
+    sweeps = [item for item in _read_results(study, "designs", results.read_design_sweep) if item is not None]
+    fatal_structures = _find_fatal_structures(assessed)
+    ranking = rank_arms(
+        assessed,
+        laws,
+        limits,
+        {key: _format_fatal_joints(job_plan, item) for key, (job_plan, item) in fatal_structures.items()},
+    )
+    sections = [
+        Section("Which arm for what", _build_standing_blocks(ranking)),
+        Section("Single points of failure by structure", _build_structure_blocks(fatal_structures)),
+        *[
+            Section(f"Designs of {item.labels['arm']}", build_sweep_blocks(item, position))
+            for position, item in enumerate(sweeps)
+        ],
+        Section("Arms, indices and laws", _build_table_blocks(assessed, laws, limits)),
+        Section("How the indices are distributed", _build_distribution_blocks(assessed, limits)),
+        Section("Which joint is the worst to lose", _build_worst_joint_blocks(assessed)),
+        Section("Reaching the target with a locked joint that nobody has noticed", _build_law_blocks(laws)),
+        Section(
+            "Starts that still reach the target",
+            _build_measure_blocks(study, "workspace", results.read_workspace, "starts", "percent"),
+        ),
+        Section(
+            "Tasks that the computer drives",
+            _build_measure_blocks(study, "bank", results.read_bank, "sets of tasks", "percent, or cycles"),
+        ),
+    ]
+    arm_names = list(dict.fromkeys(cell["labels"]["arm"] for cell in study.cells))
     return Page(
         study.name,
-        " ".join([*([headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
+        " ".join([*([headline(ranking)] if assessed or laws or not sweeps else []), *map(describe_best_design, sweeps)]),
         sections,
-        facts=facts(stand),
-        subtitle=f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
+        facts=list_facts(ranking),
+        subtitle=f"A study of {format_count(len(arm_names), 'arm')}: {', '.join(arm_names)}",
         warnings=alerts,
-        method=_provenance(study, found),
-        again=_again(study),
+        method=_build_provenance_blocks(study, assessed),
+        again=_build_rerun_blocks(study),
     )
 
 
-def _of(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
-    mine = [k for k in range(len(study.cells)) if results.labels_of(study, k)["job"] == job]
-    return [read(study, k) for k in mine if study.folder(k).exists()]
+def _read_results(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
+    matching = [cell for cell in range(len(study.cells)) if results.read_labels(study, cell)["job"] == job]
+    return [read(study, cell) for cell in matching if study.cell_folder(cell).exists()]
 
 
-def _thresholds(study: Study, found: Sequence[Assessed]) -> dict[Key, float]:
-    """Of each index and task."""
-    given = thresholds(study.source)
-    groups: dict[Key, list[Assessed]] = {}
-    for a in found:
-        groups.setdefault(_key(a), []).append(a)
-    return {key: given.get(key[0], results.threshold(some)) for key, some in groups.items()}
+def _choose_thresholds(study: Study, assessed: Sequence[AssessedCell]) -> dict[Key, float]:
+    """Return the threshold of each index and task: the one of the study file, else one chosen from the results."""
+    specified = read_thresholds(study.source)
+    groups: dict[Key, list[AssessedCell]] = {}
+    for entry in assessed:
+        groups.setdefault(_get_index_key(entry), []).append(entry)
+    return {key: specified.get(key[0], results.choose_threshold(group)) for key, group in groups.items()}
 
 
-def _key(a: Assessed) -> Key:
-    return a.labels["index"], a.labels["task"]
+def _get_index_key(assessed: AssessedCell) -> Key:
+    return assessed.labels["index"], assessed.labels["task"]
 
 
-def _row(labels: dict[str, Any]) -> tuple[str, ...]:
-    """What makes a row of the table: the arm, and where and with which failures it is looked at."""
+def _get_row_key(labels: dict[str, Any]) -> tuple[str, ...]:
+    """Return the key of a row of the table: the arm, the region and the failures."""
     return labels["arm"], labels.get("region", ""), labels.get("failures", "single")
 
 
 # ---- the answer --------------------------------------------------------------------------------------------------------
 
 
-def _standings(stand: Sequence[Standing]) -> list[Block]:
-    """The first page of a study of several arms: a figure of all questions, and who leads at each."""
-    names = list(dict.fromkeys(name for s in stand for name, _ in s.entries))
+def _build_standing_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
+    """Build the first section of a study of several arms: a figure of all questions, and the leader of each."""
+    names = list(dict.fromkeys(name for standing in ranking for name, _ in standing.entries))
     if len(names) < 2:
         return []
     shares = []
     for name in names:
-        ends = [dict(s.entries).get(name) for s in stand]
-        value, low, high = (np.array([np.nan if p is None else getattr(p, x) for p in ends]) for x in ("value", "low", "high"))
-        shares.append(Gains(label=name, value=value, low=low, high=high))
-    figure = share_figure([s.question for s in stand], shares, "fraction of the poses, or of the motions; bars: 95 % interval")
-    rows: list[list[Cell]] = []
-    for s in stand:
-        (name, p), *rest = s.ranked
-        level = s.level[1:]
-        alone = "clearly ahead" if p.low > 0 else "perhaps 0 as well"  # the others may be 0 for certain
-        sure = "–" if not rest else f"level with {', '.join(level)}" if level else alone
-        sure += "".join(f"; {arm}: 0 by structure" for arm in s.ended)
-        after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
-        question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
-        rows.append([question, _whole(name), _share(p), after, sure, s.about])
-    about = (
+        fractions = [dict(standing.entries).get(name) for standing in ranking]
+        value, lower, upper = (
+            np.array([np.nan if fraction is None else getattr(fraction, attribute) for fraction in fractions])
+            for attribute in ("value", "low", "high")
+        )
+        shares.append(Gains(label=name, value=value, low=lower, high=upper))
+    figure = fraction_figure(
+        [standing.question for standing in ranking], shares, "fraction of the poses, or of the motions; bars: 95 % interval"
+    )
+    table_rows: list[list[Cell]] = []
+    for standing in ranking:
+        (name, fraction), *runners_up = standing.ranked_entries
+        tied_arms = standing.tied_with_first[1:]
+        lead_text = "clearly ahead" if fraction.low > 0 else "perhaps 0 as well"  # the others may be 0 for certain
+        certainty = "–" if not runners_up else f"level with {', '.join(tied_arms)}" if tied_arms else lead_text
+        certainty += "".join(f"; {arm}: 0 by structure" for arm in standing.ended)
+        next_cell: Cell = "–" if not runners_up else _stack_lines([runners_up[0][0], f"{runners_up[0][1].value:.3f}"])
+        question = _stack_lines([standing.question, *[f"in {standing.unit}"] * bool(standing.unit)])
+        table_rows.append(
+            [question, _prevent_line_break(name), _format_interval(fraction), next_cell, certainty, standing.about]
+        )
+    explanation = (
         "Of each question the arm with the largest fraction. Clearly ahead: its 95 % interval lies above those of all others; "
         "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "
         "index meets the threshold whatever single failure happens. Converges: the arm reaches its target with a locked "
         "joint that its controller does not know of."
     )
-    head = ["Question", "first", "fraction, with 95 % interval", "next", "how sure", "of each arm"]
+    header = ["Question", "first", "fraction, with 95 % interval", "next", "how sure", "of each arm"]
     return [
         Picture(figures.svg(figure, "standings", "Fractions of all arms for every question"), "More is better in every row."),
-        Table(rows, head, frozenset({2}), caption=about, wide=True),
+        Table(table_rows, header, frozenset({2}), caption=explanation, wide=True),
     ]
 
 
-def _structures(found: Sequence[Assessed]) -> dict[Ended, tuple[Plan, Structure]]:
-    """Of each arm and task that a lock ends in every configuration: why nothing is left there, whatever the samples."""
-    out: dict[Ended, tuple[Plan, Structure]] = {}
-    known: dict[tuple[str, str], Structure] = {}
-    for a in found:
-        if a.labels.get("failures", "single") == "single":
-            plan, key = a.plan, (a.plan.arm.fingerprint, a.plan.index.task.name)
-            if key not in known:
-                known[key] = structure(plan.arm, plan.index.task)
-            if not known[key].survives:
-                out.setdefault(row_of(a), (plan, known[key]))
-    return out
+def _find_fatal_structures(assessed: Sequence[AssessedCell]) -> dict[Ended, tuple[AssessmentPlan, Structure]]:
+    """Return the structure of each arm and task that some lock makes impossible in every configuration, with its plan."""
+    fatal: dict[Ended, tuple[AssessmentPlan, Structure]] = {}
+    structures: dict[tuple[str, str], Structure] = {}
+    for entry in assessed:
+        if entry.labels.get("failures", "single") == "single":
+            job_plan, key = entry.plan, (entry.plan.arm.fingerprint, entry.plan.index.task.name)
+            if key not in structures:
+                structures[key] = structure(job_plan.arm, job_plan.index.task)
+            if not structures[key].survives:
+                fatal.setdefault(make_structure_key(entry), (job_plan, structures[key]))
+    return fatal
 
 
-def _structure(own: dict[Ended, tuple[Plan, Structure]]) -> list[Block]:
-    return [Callout(explain(plan.arm, s, []), "bad") for plan, s in own.values()]
+def _build_structure_blocks(fatal_structures: dict[Ended, tuple[AssessmentPlan, Structure]]) -> list[Block]:
+    return [Callout(explain(job_plan.arm, analysis, []), "bad") for job_plan, analysis in fatal_structures.values()]
 
 
-def _joints(plan: Plan, s: Structure) -> str:
-    """The joints whose lock ends a task in every configuration."""
-    return either([plan.arm.joint_names[k] for k in s.fatal]) if s.fatal else "any joint"
+def _format_fatal_joints(plan: AssessmentPlan, analysis: Structure) -> str:
+    """Name the joints whose lock ends a task in every configuration."""
+    return list_alternatives([plan.arm.joint_names[joint] for joint in analysis.fatal]) if analysis.fatal else "any joint"
 
 
-def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> list[Block]:
-    rows = list(dict.fromkeys([*(_row(a.labels) for a in found)] or [_row(d.labels) for d in laws]))
-    keys, names = list(asked), list(dict.fromkeys((d.labels["law"], d.labels["task"]) for d in laws))
-    if not rows or not (keys or names):
+def _build_table_blocks(assessed: Sequence[AssessedCell], laws: Sequence[DrivenCell], limits: dict[Key, float]) -> list[Block]:
+    row_keys = list(
+        dict.fromkeys(
+            [*(_get_row_key(entry.labels) for entry in assessed)] or [_get_row_key(law_result.labels) for law_result in laws]
+        )
+    )
+    keys, law_keys = (
+        list(limits),
+        list(dict.fromkeys((law_result.labels["law"], law_result.labels["task"]) for law_result in laws)),
+    )
+    if not row_keys or not (keys or law_keys):
         return []
-    regions = len({r[1:] for r in rows if r[0] == rows[0][0]}) > 1
-    tasks = len({t for _, t in keys}) > 1
-    head: list[Cell] = ["Arm"]
+    regions = len({other_key[1:] for other_key in row_keys if other_key[0] == row_keys[0][0]}) > 1
+    tasks = len({task_name for _, task_name in keys}) > 1
+    header: list[Cell] = ["Arm"]
     for index, task in keys:
-        measure = next(a for a in found if _key(a) == (index, task)).plan.index
+        measure = next(entry for entry in assessed if _get_index_key(entry) == (index, task)).plan.index
         larger = measure.better == "larger"
-        asks = f"{'≥' if larger else '≤'} {as_given(asked[index, task])}"
-        head.append(_stacked([measure.name, f"{task}: {asks}" if tasks else asks]))
-    head += [_stacked([law, "converges"]) for law, _ in names]
-    body: list[list[Cell]] = []
-    for row in rows:
-        cells: list[Cell] = [_stacked([row[0], f"{row[1]}, {row[2]}"]) if regions else _whole(row[0])]
+        condition = f"{'≥' if larger else '≤'} {format_as_given(limits[index, task])}"
+        header.append(_stack_lines([measure.name, f"{task}: {condition}" if tasks else condition]))
+    header += [_stack_lines([law, "converges"]) for law, _ in law_keys]
+    table_rows: list[list[Cell]] = []
+    for row_key in row_keys:
+        cells: list[Cell] = [
+            _stack_lines([row_key[0], f"{row_key[1]}, {row_key[2]}"]) if regions else _prevent_line_break(row_key[0])
+        ]
         for key in keys:
-            mine = [a for a in found if _key(a) == key and _row(a.labels) == row]
-            cells.append(_assessed(mine[0], asked[key]) if mine else "–")
-        for law in names:
-            there = [d for d in laws if (d.labels["law"], d.labels["task"]) == law and d.labels["arm"] == row[0]]
-            cells.append(_share(there[0].any) if there else "–")
-        body.append(cells)
+            matching = [entry for entry in assessed if _get_index_key(entry) == key and _get_row_key(entry.labels) == row_key]
+            cells.append(_format_probabilities(matching[0], limits[key]) if matching else "–")
+        for law in law_keys:
+            law_matches = [
+                law_result
+                for law_result in laws
+                if (law_result.labels["law"], law_result.labels["task"]) == law and law_result.labels["arm"] == row_key[0]
+            ]
+            cells.append(_format_interval(law_matches[0].mean_fraction) if law_matches else "–")
+        table_rows.append(cells)
     caption = ""
     if keys:
         caption += (
@@ -197,203 +250,282 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
             "its 95 % "
             "interval; opt.: at the best configuration of each pose. Thresholds are one for all arms. "
         )
-        if any(a.labels["region"] == "default region" for a in found):
+        if any(entry.labels["region"] == "default region" for entry in assessed):
             caption += "Default regions are around the home of each arm, sized by its reach, or the paper's. "
-    if names:
+    if law_keys:
         caption += (
             "Converges: fraction of random motions that reach their target with one joint locked from the start and a "
             "controller that does not know it, mean over the joints; every law has the same motions of an arm."
         )
-    return [Table(body, head, frozenset(range(1, len(head))), caption=caption, wide=True)]
+    return [Table(table_rows, header, frozenset(range(1, len(header))), caption=caption, wide=True)]
 
 
-def _assessed(a: Assessed, h: float) -> Cell:
-    parts = [a.interval(h, optimised) for optimised in (False, True)]
-    if parts[0] is None:
+def _format_probabilities(assessed: AssessedCell, limit: float) -> Cell:
+    intervals = [assessed.interval(limit, optimised) for optimised in (False, True)]
+    if intervals[0] is None:
         return "–"
-    lines = [_share(parts[0])]
-    if parts[1] is not None:
-        lines.append(Markup("opt. {}").format(_share(parts[1])))
+    lines = [_format_interval(intervals[0])]
+    if intervals[1] is not None:
+        lines.append(Markup("opt. {}").format(_format_interval(intervals[1])))
     return Markup("<br>").join(lines)
 
 
-def _share(p: Interval) -> Markup:
-    return Markup('{:.3f} <span class="quiet">{:.3f} to {:.3f}</span>').format(p.value, p.low, p.high)
+def _format_interval(fraction: Interval) -> Markup:
+    return Markup('{:.3f} <span class="quiet">{:.3f} to {:.3f}</span>').format(fraction.value, fraction.low, fraction.high)
 
 
-def _whole(text: str) -> Markup:
-    """Not broken into lines."""
+def _prevent_line_break(text: str) -> Markup:
+    """Wrap text in an element that is not broken into lines."""
     return Markup('<span style="white-space: nowrap">{}</span>').format(text)
 
 
-def _stacked(lines: Sequence[str]) -> Markup:
-    more = [Markup('<br><span class="quiet">{}</span>').format(x) for x in lines[1:]]
-    return Markup("").join([Markup("{}").format(lines[0]), *more])
+def _stack_lines(lines: Sequence[str]) -> Markup:
+    quiet_lines = [Markup('<br><span class="quiet">{}</span>').format(line) for line in lines[1:]]
+    return Markup("").join([Markup("{}").format(lines[0]), *quiet_lines])
 
 
 # ---- why ---------------------------------------------------------------------------------------------------------------
 
 
-def _distributions(found: Sequence[Assessed], asked: dict[Key, float]) -> list[Block]:
-    """A figure of each index and task, with a curve of each arm."""
+def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Key, float]) -> list[Block]:
+    """Build a figure for each index and task, with a curve for each arm."""
     blocks: list[Block] = []
-    for number_, (key, h) in enumerate(asked.items()):
-        mine = [a for a in found if _key(a) == key and a.plain is not None]
-        samples = [("As inverse kinematics found them", [(a, a.plain) for a in mine])]
-        if any(a.optimised is not None for a in mine):
-            samples.append(("At the best configurations", [(a, a.optimised) for a in mine if a.optimised is not None]))
-        ends = [x for _, some in samples for _, d in some if d is not None for x in (d.lowest, d.highest) if np.isfinite(x)]
-        if not ends:
-            continue
-        index = mine[0].plan.index
-        log = index.better == "smaller" and min(ends) > 0 and max(ends) > 20 * min(ends)
-        low, high = min(*ends, h), max(*ends, h)
-        axis = np.geomspace(low, high, 801) if log else np.linspace(min(0.0, low), 1.04 * max(0.0, high), 801)
-        panels = [
-            (title, [Curve(axis, d.cdf(axis), _name(a, mine)) for a, d in some if d is not None]) for title, some in samples
+    for number_, (key, limit) in enumerate(limits.items()):
+        matching = [entry for entry in assessed if _get_index_key(entry) == key and entry.plain is not None]
+        samples = [("As inverse kinematics found them", [(entry, entry.plain) for entry in matching])]
+        if any(entry.optimised is not None for entry in matching):
+            samples.append(
+                ("At the best configurations", [(entry, entry.optimised) for entry in matching if entry.optimised is not None])
+            )
+        extremes = [
+            value
+            for _, group in samples
+            for _, distribution in group
+            if distribution is not None
+            for value in (distribution.lowest, distribution.highest)
+            if np.isfinite(value)
         ]
-        unit = said(index.unit, ", ")
+        if not extremes:
+            continue
+        index = matching[0].plan.index
+        is_logarithmic = index.better == "smaller" and min(extremes) > 0 and max(extremes) > 20 * min(extremes)
+        lower, upper = min(*extremes, limit), max(*extremes, limit)
+        axis_values = (
+            np.geomspace(lower, upper, 801) if is_logarithmic else np.linspace(min(0.0, lower), 1.04 * max(0.0, upper), 801)
+        )
+        panels = [
+            (
+                title,
+                [
+                    Curve(axis_values, distribution.cdf(axis_values), _name_arm(entry, matching))
+                    for entry, distribution in group
+                    if distribution is not None
+                ],
+            )
+            for title, group in samples
+        ]
+        unit_text = format_unit(index.unit, ", ")
         figure = figures.compare_cdf_figure(
             panels,
-            [Mark(h, f"threshold {as_given(h)}{said(index.unit)}")],
-            f"worst-case {index.name}{unit}",
+            [Mark(limit, f"threshold {format_as_given(limit)}{format_unit(index.unit)}")],
+            f"worst-case {index.name}{unit_text}",
             ylabel="fraction with a smaller value, F",
-            log=log,
+            log=is_logarithmic,
         )
-        poses = counted_range([d.samples for _, some in samples for _, d in some if d is not None])
-        band = max(d.band() for _, some in samples for _, d in some if d is not None)
+        poses = format_count_range(
+            [distribution.samples for _, group in samples for _, distribution in group if distribution is not None]
+        )
+        band = max(distribution.band() for _, group in samples for _, distribution in group if distribution is not None)
         text = (
             f"Cumulative distributions of the worst-case {index.name} (task {key[1]}) over {poses} poses of each arm; the 95 % "
-            f"band of each curve is {half_width(band)}. A pose without a configuration counts as "
+            f"band of each curve is {format_half_width(band)}. A pose without a configuration counts as "
             f"{'0' if index.better == 'larger' else 'infinite'}."
         )
-        about = f"Cumulative distributions of the {index.name} of all arms"
-        blocks.append(Picture(figures.svg(figure, f"cdf{number_}", about), text))
+        description = f"Cumulative distributions of the {index.name} of all arms"
+        blocks.append(Picture(figures.svg(figure, f"cdf{number_}", description), text))
     return blocks
 
 
-def _name(a: Assessed, among: Sequence[Assessed]) -> str:
-    return place(a.labels, [x.labels for x in among])
+def _name_arm(assessed: AssessedCell, others_shown: Sequence[AssessedCell]) -> str:
+    return label_arm(assessed.labels, [entry.labels for entry in others_shown])
 
 
-def _worst(found: Sequence[Assessed]) -> list[Block]:
-    rows: list[list[Cell]] = []
-    for a in found:
-        if a.plain is None:
+def _build_worst_joint_blocks(assessed: Sequence[AssessedCell]) -> list[Block]:
+    table_rows: list[list[Cell]] = []
+    for entry in assessed:
+        if entry.plain is None:
             continue
-        lost = percent(a.plain.unreached_share)
-        medians = [number(float(d.quantile(0.5))) if d.reached else "–" for d in (a.plain, a.optimised) if d is not None]
-        worst = "–" if a.worst is None else f"{a.worst[0]} ({percent(a.worst[1])})"
-        bound = "not known" if a.plan.index.bound is None else number(a.plan.index.bound)
-        left = "–" if a.left is None else number(a.left)
-        name, index = _name(a, [x for x in found if _key(x) == _key(a)]), a.plan.index.name
-        rows.append([name, index, " → ".join(medians), bound, worst, lost, left])
-    if not rows:
+        unreached = format_percent(entry.plain.unreached_share)
+        medians = [
+            format_number(float(distribution.quantile(0.5))) if distribution.reached else "–"
+            for distribution in (entry.plain, entry.optimised)
+            if distribution is not None
+        ]
+        worst = "–" if entry.worst is None else f"{entry.worst[0]} ({format_percent(entry.worst[1])})"
+        bound = "not known" if entry.plan.index.bound is None else format_number(entry.plan.index.bound)
+        survival = "–" if entry.survival_fraction is None else format_number(entry.survival_fraction)
+        name, index = (
+            _name_arm(entry, [candidate for candidate in assessed if _get_index_key(candidate) == _get_index_key(entry)]),
+            entry.plan.index.name,
+        )
+        table_rows.append([name, index, " → ".join(medians), bound, worst, unreached, survival])
+    if not table_rows:
         return []
-    head = ["Arm", "index", "median", "bound", "worst failure", "poses not reached", "left after a lock"]
+    header = ["Arm", "index", "median", "bound", "worst failure", "poses not reached", "left after a lock"]
     caption = (
         "Median over the reached poses, → at the best configurations; the bound is what no configuration can exceed; the worst "
         "failure is the one that most often leaves the least."
     )
-    keep = range(7 if any(a.left is not None for a in found) else 6)
-    return [Table([[r[k] for k in keep] for r in rows], [head[k] for k in keep], frozenset({2, 3, 5, 6}), caption=caption)]
+    shown_columns = range(7 if any(entry.survival_fraction is not None for entry in assessed) else 6)
+    return [
+        Table(
+            [[row[column] for column in shown_columns] for row in table_rows],
+            [header[column] for column in shown_columns],
+            frozenset({2, 3, 5, 6}),
+            caption=caption,
+        )
+    ]
 
 
-def _laws(laws: Sequence[Driven]) -> list[Block]:
+def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
     if not laws:
         return []
     stacks = []
-    arms = list(dict.fromkeys(d.labels["arm"] for d in laws))
-    for arm in arms:
-        mine = [d for d in laws if d.labels["arm"] == arm]
-        shares = np.stack([d.ends[:-1].mean(axis=0) for d in mine])
-        low, high = (np.array([getattr(d.any, end) for d in mine]) for end in ("low", "high"))
-        stacks.append(Stack(name=arm, bars=[d.labels["law"] for d in mine], shares=shares, low=low, high=high))
-    told = counted_range([d.motions for d in laws])
-    figure = stack_figure(stacks, _ENDS, "fraction of the runs, mean over the joint that is locked")
+    arm_names = list(dict.fromkeys(result.labels["arm"] for result in laws))
+    for arm in arm_names:
+        arm_results = [result for result in laws if result.labels["arm"] == arm]
+        shares = np.stack([result.ends[:-1].mean(axis=0) for result in arm_results])
+        lower, upper = (np.array([getattr(result.mean_fraction, bound) for result in arm_results]) for bound in ("low", "high"))
+        stacks.append(
+            Stack(name=arm, bars=[result.labels["law"] for result in arm_results], shares=shares, low=lower, high=upper)
+        )
+    motion_count = format_count_range([result.motions for result in laws])
+    figure = stack_figure(stacks, _OUTCOME_LABELS, "fraction of the runs, mean over the joint that is locked")
     blocks: list[Block] = [
         Picture(
             figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
-            f"{told} random motions of each arm, between places of the end effector at random configurations, each "
+            f"{motion_count} random motions of each arm, between places of the end effector at random configurations, each "
             f"with every joint "
             "locked in turn from the start. Not every target is in reach with a joint locked; undecided: at the time limit, or "
             "next to a singular configuration.",
         )
     ]
-    rows: list[list[Cell]] = []
-    for d in laws:
-        first = next(x for x in laws if x.labels["arm"] == d.labels["arm"] and x.labels["task"] == d.labels["task"])
-        better = None if d is first else results.gain(first, d)
-        more = "–" if better is None else f"{better.value:+.3f} ({better.low:+.3f} to {better.high:+.3f})".replace("-", "−")
-        k = int(np.argmin([p.value for p in d.reaches[:-1]]))
-        worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.reaches[k].value:.3f}"
-        cells: list[Cell] = [_share(d.any), more, worst, _share(d.reaches[-1]), percent(d.in_reach)]
-        cells += [] if laws[0].touched is None else [percent(d.touched or 0.0)]
-        rows.append([_whole(d.labels["arm"]), _whole(d.labels["law"]), d.labels["task"], *cells])
-    head = ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
-    head += [] if laws[0].touched is None else ["touches something, at most"]
+    table_rows: list[list[Cell]] = []
+    for result in laws:
+        reference = next(
+            candidate
+            for candidate in laws
+            if candidate.labels["arm"] == result.labels["arm"] and candidate.labels["task"] == result.labels["task"]
+        )
+        improvement = None if result is reference else results.compare_laws(reference, result)
+        gain_text = (
+            "–"
+            if improvement is None
+            else f"{improvement.value:+.3f} ({improvement.low:+.3f} to {improvement.high:+.3f})".replace("-", "−")
+        )
+        joint = int(np.argmin([reach_interval.value for reach_interval in result.reaches[:-1]]))
+        worst_text = f"{result.joints[joint] if joint < len(result.joints) else joint + 1}: {result.reaches[joint].value:.3f}"
+        cells: list[Cell] = [
+            _format_interval(result.mean_fraction),
+            gain_text,
+            worst_text,
+            _format_interval(result.reaches[-1]),
+            format_percent(result.in_reach),
+        ]
+        cells += [] if laws[0].touched is None else [format_percent(result.touched or 0.0)]
+        table_rows.append(
+            [
+                _prevent_line_break(result.labels["arm"]),
+                _prevent_line_break(result.labels["law"]),
+                result.labels["task"],
+                *cells,
+            ]
+        )
+    header = ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
+    header += [] if laws[0].touched is None else ["touches something, at most"]
     caption = (
         "95 % intervals. The gain is paired: both laws have the same motions. In reach: runs with a locked joint in which a "
         "configuration at the target exists."
     )
-    return [*blocks, Table(rows, head, frozenset({3, 4, 6, 7, 8}), caption=caption, wide=True)]
+    return [*blocks, Table(table_rows, header, frozenset({3, 4, 6, 7, 8}), caption=caption, wide=True)]
 
 
-def _others(study: Study, job: str, read: Callable[[Study, int], results.Table | None], noun: str, unit: str) -> list[Block]:
-    found = [t for t in _of(study, job, read) if t is not None]
-    if not found:
+def _build_measure_blocks(
+    study: Study, job: str, read: Callable[[Study, int], results.MeasureTable | None], noun: str, unit: str
+) -> list[Block]:
+    measured = [table for table in _read_results(study, job, read) if table is not None]
+    if not measured:
         return []
-    names = list(found[0].values)
-    rows: list[list[Cell]] = []
-    for t in found:
-        cells: list[Cell] = [_whole(t.labels["arm"]), _whole(t.labels["law"]), f"{t.samples:,}"]
-        for name in names:
-            value, low, high = t.values[name]
-            sure = "" if np.isnan(low) else f"{low:.1f} to {high:.1f}"
-            cells.append(_stacked(["–" if np.isnan(value) else f"{value:.1f}", *[sure] * bool(sure)]))
-        rows.append(cells)
+    measure_names = list(measured[0].values)
+    table_rows: list[list[Cell]] = []
+    for table in measured:
+        cells: list[Cell] = [
+            _prevent_line_break(table.labels["arm"]),
+            _prevent_line_break(table.labels["law"]),
+            f"{table.samples:,}",
+        ]
+        for name in measure_names:
+            value, lower, upper = table.values[name]
+            interval_text = "" if np.isnan(lower) else f"{lower:.1f} to {upper:.1f}"
+            cells.append(_stack_lines(["–" if np.isnan(value) else f"{value:.1f}", *[interval_text] * bool(interval_text)]))
+        table_rows.append(cells)
     caption = f"{unit.capitalize()}, with 95 % intervals; of an arbitrary joint."
-    return [Table(rows, ["Arm", "law", noun, *names], frozenset(range(2, 3 + len(names))), caption=caption, wide=True)]
+    return [
+        Table(
+            table_rows,
+            ["Arm", "law", noun, *measure_names],
+            frozenset(range(2, 3 + len(measure_names))),
+            caption=caption,
+            wide=True,
+        )
+    ]
 
 
 # ---- how ---------------------------------------------------------------------------------------------------------------
 
 
-def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
+def _build_provenance_blocks(study: Study, assessed: Sequence[AssessedCell]) -> list[Block]:
     cells = study.status()
-    samples = sum(s.rows_done for s in cells)
-    spent, wall = sum(s.seconds for s in cells), sum(r["seconds"] for r in study.runs)
-    size = sum(results.store_size(study.store(k)) for k in range(len(cells)) if study.folder(k).exists())
-    facts = [
+    samples = sum(cell.rows_done for cell in cells)
+    processor_time, wall_time = sum(cell.seconds for cell in cells), sum(finished_run["seconds"] for finished_run in study.runs)
+    size = sum(results.measure_store(study.cell_store(k)) for k in range(len(cells)) if study.cell_folder(k).exists())
+    entries = [
         ("Study", f"{study.name}, seed {study.seed}, digest {study.digest}"),
-        ("Cells", f"{len(cells):,}, {sum(s.chunks_done for s in cells):,} of {sum(s.chunks for s in cells):,} chunks"),
+        (
+            "Cells",
+            f"{len(cells):,}, {sum(cell.chunks_done for cell in cells):,} of {sum(cell.chunks for cell in cells):,} chunks",
+        ),
         ("Samples", f"{samples:,} rows (poses, motions, starts) in all"),
-        ("Time", f"{duration(spent)} of processor time to compute; runs that ended took {duration(wall)}"),
+        (
+            "Time",
+            f"{format_duration(processor_time)} of processor time to compute; runs that ended took "
+            f"{format_duration(wall_time)}",
+        ),
         ("On the disk", f"{size / 1e6:.3g} MB"),
     ]
-    for n, run in enumerate(study.runs[-5:]):
-        when = f"{run['started']}: {run['chunks']:,} chunks in {duration(run['seconds'])} on {run['on']}"
-        facts.append(("Runs" if not n else "", when))
-    for n, maker in enumerate(study.makers):
+    for position, run in enumerate(study.runs[-5:]):
+        run_text = f"{run['started']}: {run['chunks']:,} chunks in {format_duration(run['seconds'])} on {run['on']}"
+        entries.append(("Runs" if not position else "", run_text))
+    for position, maker in enumerate(study.makers):
         versions = ", ".join(f"{k} {v}" for k, v in maker["versions"].items())
-        facts.append(("Computed on" if not n else "", f"{maker['processor']}; Python {maker['python']}, {versions}"))
+        entries.append(("Computed on" if not position else "", f"{maker['processor']}; Python {maker['python']}, {versions}"))
     if len(study.makers) > 1:
-        facts.append(("Agreement", "computed on one of these alone, values agree to 1e-12; on one kind, in every bit"))
-    for region in dict.fromkeys((a.labels["arm"], a.plan.region.describe()) for a in found):
-        facts.append((f"Region of {region[0]}", region[1]))
-    facts.append(
+        entries.append(("Agreement", "computed on one of these alone, values agree to 1e-12; on one kind, in every bit"))
+    for region in dict.fromkeys((entry.labels["arm"], entry.plan.region.describe()) for entry in assessed):
+        entries.append((f"Region of {region[0]}", region[1]))
+    entries.append(
         ("Intervals", "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves")
     )
-    return [Table([[k, v] for k, v in facts])]
+    return [Table([[k, v] for k, v in entries])]
 
 
-def _again(study: Study) -> list[Block]:
+def _build_rerun_blocks(study: Study) -> list[Block]:
     blocks: list[Block] = [Text("Same file, same versions, same kind of processor: the same bits.", quiet=True)]
     if study.source:
-        lines = [x for x in study.source.splitlines() if x.strip() and not x.lstrip().startswith("#")]
-        files = [
+        lines = [line for line in study.source.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+        commands = [
             Code("holdfast study run study.yaml --out DIR"),
             Code("\n".join(lines), Markup("with <code>study.yaml</code>:")),
         ]
-        return [*files, *blocks]
+        return [*commands, *blocks]
     return blocks

@@ -1,4 +1,4 @@
-"""Pages, figures and tables of experiments."""
+"""Pages, figures, and tables of teleoperation experiments."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""The allocation sheet: who does which task in which scenario when, to print."""
+"""Printable allocation sheet: the order of tasks and scenarios for each subject."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from holdfast.report.page import Page, Section
 
 
-def allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
-    """The sheet as a page: the orders of the tasks on one sheet, then a sheet for each subject.
+def build_allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
+    """Build the sheet as a page: the orders of the tasks on one sheet, then a sheet for each subject.
 
     Rows of the balanced square are given to those who *complete* a session, so that the row of a subject is known only when
     he or she comes: the sheets hold for an experiment in which nobody drops out. The order of scenarios goes with the
@@ -31,13 +31,13 @@ def allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
     count = protocol.subjects if subjects is None else subjects
     if count < 1:
         raise InputError(f"{count} subjects cannot be given an order; give 1 or more")
-    order = protocol.order()
-    square = Table(
-        [[str(r + 1), " ".join(str(t + 1) for t in row)] for r, row in enumerate(order)],
+    order = protocol.task_order()
+    order_table = Table(
+        [[str(row_index + 1), " ".join(str(task + 1) for task in row)] for row_index, row in enumerate(order)],
         ["row", "tasks in the order in which they are done"],
     )
-    scenarios = Table([[str(s.number), s.label] for s in protocol.scenarios], ["scenario", ""])
-    about = (
+    scenario_table = Table([[str(scenario.number), scenario.label] for scenario in protocol.scenarios], ["scenario", ""])
+    explanation = (
         f"Each task occurs equally often in each position, and each ordered pair of neighbours equally often, over "
         f"{len(order)} rows. A new subject gets the row that the fewest have completed, so the rows of those who drop out "
         f"are used again; the sheets below are valid as long as nobody drops out."
@@ -46,27 +46,31 @@ def allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
         f"Allocation: {protocol.name}",
         f"{count} subjects, {len(protocol.tasks)} tasks, {len(protocol.scenarios)} scenarios in random order within each task.",
         [
-            Section("Orders of the tasks", [Text(about), scenarios, square]),
-            *(_sheet(protocol, k, len(order)) for k in range(count)),
+            Section("Orders of the tasks", [Text(explanation), scenario_table, order_table]),
+            *(_subject_sheet(protocol, subject, len(order)) for subject in range(count)),
         ],
         subtitle=f"seed {protocol.seed}",
         footer="Written by holdfast. Tick a box when a trial is done.",
     )
 
 
-def _sheet(protocol: Protocol, subject: int, rows: int) -> Section:
+def _subject_sheet(protocol: Protocol, subject: int, rows: int) -> Section:
     from holdfast.report.page import Section, Table
 
-    each = len(protocol.scenarios)
-    session = protocol.session(subject % rows, subject)
-    lines = []
-    for place, at in enumerate(range(0, len(session), each)):
-        task = int(session[at, 0])
+    scenario_count = len(protocol.scenarios)
+    session = protocol.session_order(subject % rows, subject)
+    table_rows = []
+    for position, first_trial in enumerate(range(0, len(session), scenario_count)):
+        task = int(session[first_trial, 0])
         joint = int(protocol.tasks.joint[task])
-        scenarios = [f"{protocol.scenarios[s].number} ☐" for s in session[at : at + each, 1]]
-        lines.append([str(place + 1), str(task + 1), protocol.arm.joint_names[joint] if joint >= 0 else "none", *scenarios])
-    head = ["place", "task", "joint that fails", *("scenario" for _ in range(each))]
-    table = Table(lines, head, frozenset({1}), marks=frozenset(range(3, 3 + each)))
+        scenarios = [
+            f"{protocol.scenarios[scenario].number} ☐" for scenario in session[first_trial : first_trial + scenario_count, 1]
+        ]
+        table_rows.append(
+            [str(position + 1), str(task + 1), protocol.arm.joint_names[joint] if joint >= 0 else "none", *scenarios]
+        )
+    header = ["place", "task", "joint that fails", *("scenario" for _ in range(scenario_count))]
+    table = Table(table_rows, header, frozenset({1}), marks=frozenset(range(3, 3 + scenario_count)))
     return Section(f"Subject number {subject + 1}, row {subject % rows + 1}", [table], sheet=True)
 
 
@@ -79,4 +83,4 @@ def write_allocation(protocol: Protocol, path: str | Path, subjects: int | None 
     """
     from holdfast.report import page
 
-    return page.write(allocation_page(protocol, subjects), path)
+    return page.write(build_allocation_page(protocol, subjects), path)

@@ -1,4 +1,4 @@
-"""The task bank in one picture: how difficult each task is, and which law does better in it."""
+"""Figure of the task bank: the difficulty of each task, and the law that performs better."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import arms
-from holdfast.files.output import put
-from holdfast.files.spreadsheet import csv_text
+from holdfast.files.output import write_files
+from holdfast.files.spreadsheet import write_csv_text
 from holdfast.teleop.bank.selection import Binning, TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
 from holdfast.teleop.protocol.protocol import Protocol, read_protocol
@@ -26,12 +26,12 @@ Indices = NDArray[np.int64]
 
 
 def figures(choice: TaskChoice) -> dict[str, Figure]:
-    """The bank, with the tasks that were chosen."""
-    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.apart)}
+    """Draw the bank with the chosen tasks."""
+    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.special_tasks)}
 
 
 def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
-    """bank.csv, protocol.yaml with these tasks, and bank.png.
+    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
 
     Args:
         choice: What was chosen.
@@ -40,18 +40,18 @@ def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
     """
     from holdfast.report.figures import save_png
 
-    written = put(folder, {"bank.csv": csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
-    protocol = _protocol(choice, spec).write(folder / "protocol.yaml")
-    return [*written, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+    files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
+    protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")
+    return [*files, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
 
 
-def _protocol(choice: TaskChoice, spec: str) -> Protocol:
-    """The paper's protocol with this arm and these tasks."""
-    bank, every = choice.bank, np.append(choice.chosen, choice.apart)
+def _make_protocol(choice: TaskChoice, spec: str) -> Protocol:
+    """Return the protocol of the paper with this arm and the chosen tasks."""
+    bank, tasks = choice.bank, np.append(choice.chosen, choice.special_tasks)
     file = None if spec in arms.names() else Path(spec)
-    base = replace(
+    protocol = replace(
         read_protocol(),
-        name=f"{choice.arm.name}, {len(every)} tasks of a bank of {len(bank)}, seed {choice.seed}",
+        name=f"{choice.arm.name}, {len(tasks)} tasks of a bank of {len(bank)}, seed {choice.seed}",
         arm=choice.arm,
         arm_spec=spec if file is None else file.name,
         arm_file=file,
@@ -59,16 +59,16 @@ def _protocol(choice: TaskChoice, spec: str) -> Protocol:
     )
     with np.errstate(invalid="ignore"):
         notes = [
-            f"bank task {k + 1}, CPM3 {bank.difficulty[k]:.3f}, CPM4/CPM3 {bank.ratio[k]:.3f}"
-            if np.isfinite(bank.ratio[k])
-            else f"bank task {k + 1}, not completed by the computer in every scenario"
-            for k in every
+            f"bank task {task + 1}, CPM3 {bank.difficulty[task]:.3f}, CPM4/CPM3 {bank.ratio[task]:.3f}"
+            if np.isfinite(bank.ratio[task])
+            else f"bank task {task + 1}, not completed by the computer in every scenario"
+            for task in tasks
         ]
-    return base.with_tasks(bank.tasks.take(every), notes)
+    return protocol.with_tasks(bank.tasks.take(tasks), notes)
 
 
 def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *, special: Indices | None = None) -> Figure:
-    """Scatter of CPM3 against CPM4/CPM3 with the grid of cells; chosen tasks carry their numbers.
+    """Draw CPM3 against CPM4/CPM3 with the grid of cells; chosen tasks have their numbers.
 
     Args:
         bank: The tasks as the computer did them.
@@ -83,39 +83,39 @@ def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *
 
     from holdfast.report.figures import WIDTH, finished, legend_below, style
 
-    numbered = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
-    apart = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
+    chosen_tasks = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
+    special_tasks = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
     with style():
         figure = Figure(figsize=(WIDTH, 6.2))
         axes = figure.add_subplot()
-        _plane(axes, bank, cells)
-        _labelled(axes, bank, numbered, 1, special=False)
-        drawn = bank.completed()[apart]
-        _labelled(axes, bank, apart[drawn], len(numbered) + 1 + np.flatnonzero(drawn), special=True)
-        absent = [str(len(numbered) + 1 + k) for k in np.flatnonzero(~drawn)]
-        lost = int((~bank.completed()).sum())
-        words = f"{len(bank)} tasks under computer control; {len(cells.occupied)} of {_count(cells)} cells hold one"
-        if lost:
-            words += f"; {lost} not completed in every scenario are not shown"
-        if absent:
-            words += f", task {' and '.join(absent)} among them"
-        axes.set_title(words, fontweight="normal", fontsize=9.5)
+        _draw_bank(axes, bank, cells)
+        _label_tasks(axes, bank, chosen_tasks, 1, special=False)
+        is_drawable = bank.is_completed()[special_tasks]
+        _label_tasks(axes, bank, special_tasks[is_drawable], len(chosen_tasks) + 1 + np.flatnonzero(is_drawable), special=True)
+        missing_numbers = [str(len(chosen_tasks) + 1 + index) for index in np.flatnonzero(~is_drawable)]
+        incomplete_count = int((~bank.is_completed()).sum())
+        title = f"{len(bank)} tasks under computer control; {len(cells.occupied_cells)} of {_count_cells(cells)} cells hold one"
+        if incomplete_count:
+            title += f"; {incomplete_count} not completed in every scenario are not shown"
+        if missing_numbers:
+            title += f", task {' and '.join(missing_numbers)} among them"
+        axes.set_title(title, fontweight="normal", fontsize=9.5)
         legend_below(figure, axes, 4)
         return finished(figure)
 
 
-def _plane(axes: Axes, bank: TaskBank, cells: Binning) -> None:
+def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
     from holdfast.report.figures import BLUE, FAINT, INK, SOFT
 
-    left, right = cells.difficulty[[0, -1]]
-    low, high = cells.ratio[[0, -1]]
-    tolerant = bank.scenarios[bank.scenario("failure-tolerant", failed=True)].number
-    plain = bank.scenarios[bank.scenario("pseudoinverse", failed=True)].number
-    if low < 1:
-        axes.axhspan(low, min(1.0, high), color="#e3eef7", zorder=0)
+    easiest, hardest = cells.difficulty[[0, -1]]
+    lower, upper = cells.ratio[[0, -1]]
+    tolerant_scenario = bank.scenarios[bank.scenario_index("failure-tolerant", failed=True)].number
+    pseudoinverse_scenario = bank.scenarios[bank.scenario_index("pseudoinverse", failed=True)].number
+    if lower < 1:
+        axes.axhspan(lower, min(1.0, upper), color="#e3eef7", zorder=0)
         axes.annotate(
             "failure-tolerant inverse does better",
-            (right, min(1.0, high)),
+            (hardest, min(1.0, upper)),
             (-6, -6),
             textcoords="offset points",
             ha="right",
@@ -123,37 +123,39 @@ def _plane(axes: Axes, bank: TaskBank, cells: Binning) -> None:
             color=BLUE,
         )
     axes.axhline(1.0, color=INK, linewidth=1.0, zorder=1.5)
-    axes.vlines(cells.difficulty, low, high, color=FAINT, linewidth=0.8, zorder=1)
-    axes.hlines(cells.ratio, left, right, color=FAINT, linewidth=0.8, zorder=1)
+    axes.vlines(cells.difficulty, lower, upper, color=FAINT, linewidth=0.8, zorder=1)
+    axes.hlines(cells.ratio, easiest, hardest, color=FAINT, linewidth=0.8, zorder=1)
     axes.scatter(bank.difficulty, bank.ratio, s=7, color=SOFT, alpha=0.55, linewidths=0, zorder=2, label="task of the bank")
-    across, upward = 0.02 * (right - left or 1.0), 0.02 * (high - low or 1.0)
+    x_margin, y_margin = 0.02 * (hardest - easiest or 1.0), 0.02 * (upper - lower or 1.0)
     axes.set(
-        xlabel=f"CPM{plain}: failed arm, pseudoinverse (difficulty)",
-        ylabel=f"CPM{tolerant} / CPM{plain}",
-        xlim=(left - across, right + across),
-        ylim=(low - upward, high + upward),
+        xlabel=f"CPM{pseudoinverse_scenario}: failed arm, pseudoinverse (difficulty)",
+        ylabel=f"CPM{tolerant_scenario} / CPM{pseudoinverse_scenario}",
+        xlim=(easiest - x_margin, hardest + x_margin),
+        ylim=(lower - y_margin, upper + y_margin),
     )
     axes.grid(visible=False)
 
 
-def _labelled(axes: Axes, bank: TaskBank, rows: Indices, numbers: int | Indices, special: bool) -> None:
+def _label_tasks(axes: Axes, bank: TaskBank, rows: Indices, numbers: int | Indices, special: bool) -> None:
     from matplotlib.patheffects import withStroke
 
     from holdfast.report.figures import BLUE, INK, ORANGE
 
     if not len(rows):
         return
-    x, y = bank.difficulty[rows], bank.ratio[rows]
-    look = {"marker": "D", "color": ORANGE, "s": 42} if special else {"marker": "o", "color": BLUE, "s": 34}
+    difficulties, ratios = bank.difficulty[rows], bank.ratio[rows]
+    marker_style = {"marker": "D", "color": ORANGE, "s": 42} if special else {"marker": "o", "color": BLUE, "s": 34}
     label = "special task" if special else "chosen task"
-    axes.scatter(x, y, edgecolors="white", linewidths=0.8, zorder=4, label=label, **look)
-    wide, tall = (np.diff(limits)[0] for limits in (axes.get_xlim(), axes.get_ylim()))
-    for k, number in enumerate(np.arange(len(rows)) + numbers):
-        near = (np.abs(x[:k] - x[k]) < 0.03 * wide) & (np.abs(y[:k] - y[k]) < 0.06 * tall)
+    axes.scatter(difficulties, ratios, edgecolors="white", linewidths=0.8, zorder=4, label=label, **marker_style)
+    x_range, y_range = (np.diff(limits)[0] for limits in (axes.get_xlim(), axes.get_ylim()))
+    for index, task_number in enumerate(np.arange(len(rows)) + numbers):
+        is_near = (np.abs(difficulties[:index] - difficulties[index]) < 0.03 * x_range) & (
+            np.abs(ratios[:index] - ratios[index]) < 0.06 * y_range
+        )
         axes.annotate(
-            str(number),
-            (x[k], y[k]),
-            (5, -13) if near.any() else (5, 4),
+            str(task_number),
+            (difficulties[index], ratios[index]),
+            (5, -13) if is_near.any() else (5, 4),
             textcoords="offset points",
             fontsize=9,
             color=INK,
@@ -163,5 +165,5 @@ def _labelled(axes: Axes, bank: TaskBank, rows: Indices, numbers: int | Indices,
         )
 
 
-def _count(cells: Binning) -> int:
+def _count_cells(cells: Binning) -> int:
     return (len(cells.difficulty) - 1) * (len(cells.ratio) - 1)

@@ -1,4 +1,4 @@
-"""Captions of the numbers of an experiment, which say who the operators were; and p."""
+"""Captions of an experiment, which name the operators, and p values."""
 
 from __future__ import annotations
 
@@ -8,27 +8,29 @@ from matplotlib.figure import Figure
 from holdfast.report.figures import svg
 from holdfast.report.page import Picture
 from holdfast.teleop.analysis.result import Analysis
-from holdfast.words import fixed
+from holdfast.words import format_decimals
 
-_SMALL = 1e-4
+_SMALLEST_PRINTED_P = 1e-4
 
 
-def captioned(a: Analysis, figure: Figure, name: str, about: str) -> Picture:
-    """A figure with its caption, which says "simulated" where it must."""
-    text = f"Simulated operators. {about}" if a.simulated else about
+def caption_figure(analysis: Analysis, figure: Figure, name: str, about: str) -> Picture:
+    """Return a figure with its caption, which marks simulated operators."""
+    text = f"Simulated operators. {about}" if analysis.is_simulated else about
     return Picture(svg(figure, name, text), text)
 
 
-def p_value(p: float) -> str:
-    """As reports write it."""
-    return "–" if np.isnan(p) else "< 0.0001" if p < _SMALL else fixed(p, 4)
+def format_p_value(probability: float) -> str:
+    """Format a p value as reports print it."""
+    return (
+        "–" if np.isnan(probability) else "< 0.0001" if probability < _SMALLEST_PRINTED_P else format_decimals(probability, 4)
+    )
 
 
-def labelled(a: Analysis, text: str) -> str:
-    """The caption of a table, which says "simulated" where it must."""
-    return f"{text} (simulated operators)" if a.simulated else text
+def label_table(analysis: Analysis, text: str) -> str:
+    """Return the caption of a table, which marks simulated operators."""
+    return f"{text} (simulated operators)" if analysis.is_simulated else text
 
 
-def equals(p: float) -> str:
-    """The same after "=" or "<"."""
-    return p_value(p) if p < _SMALL else f"= {p_value(p)}"
+def format_p_relation(probability: float) -> str:
+    """Format a p value with a leading "=" or "<"."""
+    return format_p_value(probability) if probability < _SMALLEST_PRINTED_P else f"= {format_p_value(probability)}"

@@ -1,4 +1,4 @@
-"""Tasks chosen from a bank, in numbers and words."""
+"""Text, tables, and JSON of the tasks chosen from a bank."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, number, plain
+from holdfast.present.printing import TextTable, format_significant, to_json_types
 from holdfast.teleop.bank.selection import TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
 
@@ -15,69 +15,82 @@ if TYPE_CHECKING:
 
 
 def to_dict(choice: TaskChoice) -> dict[str, Any]:
-    """What was chosen, tasks from 1, and medians over the tasks for each scenario."""
+    """Return the chosen tasks, numbered from 1, and medians over the tasks for each scenario."""
     data = {
         **choice.arm.entry(),
         "tasks": len(choice.bank),
-        "cells_occupied": len(choice.cells.occupied),
+        "cells_occupied": len(choice.cells.occupied_cells),
         "chosen": choice.chosen + 1,
         "most_disorienting": None if choice.disorienting is None else choice.disorienting + 1,
         "trapped": None if choice.trapped is None else choice.trapped + 1,
-        "scenarios": _summary(choice.bank),
+        "scenarios": _summarize_scenarios(choice.bank),
     }
-    made: dict[str, Any] = plain(data)
-    return made
+    json_data: dict[str, Any] = to_json_types(data)
+    return json_data
 
 
-def _summary(bank: TaskBank) -> list[dict[str, Any]]:
-    lines: list[dict[str, Any]] = []
-    for k, s in enumerate(bank.scenarios):
-        completed = ~np.isnan(bank.cpm[k])
-        middle = np.nanmedian(bank.measures[k], axis=0) if completed.any() else np.full(bank.measures.shape[2], np.nan)
-        lines.append(
+def _summarize_scenarios(bank: TaskBank) -> list[dict[str, Any]]:
+    summaries: list[dict[str, Any]] = []
+    for index, scenario in enumerate(bank.scenarios):
+        completed = ~np.isnan(bank.cpm[index])
+        medians = np.nanmedian(bank.measures[index], axis=0) if completed.any() else np.full(bank.measures.shape[2], np.nan)
+        summaries.append(
             {
-                "scenario": s.number,
-                "label": s.label,
+                "scenario": scenario.number,
+                "label": scenario.label,
                 "not_reached": int((~completed).sum()),
-                "time_cycles": middle[0],
-                "path_m": middle[1],
-                "velocity_error": middle[6],
-                "peak_direction_error_rad": middle[9],
-                "cpm": np.median(bank.cpm[k][completed]) if completed.any() else np.nan,
+                "time_cycles": medians[0],
+                "path_m": medians[1],
+                "velocity_error": medians[6],
+                "peak_direction_error_rad": medians[9],
+                "cpm": np.median(bank.cpm[index][completed]) if completed.any() else np.nan,
             }
         )
-    return lines
+    return summaries
 
 
-def key_table(choice: TaskChoice) -> Rows:
-    """Medians over the tasks for each scenario."""
+def key_table(choice: TaskChoice) -> TextTable:
+    """Tabulate medians over the tasks for each scenario."""
     rows = [
-        [r["label"], str(r["not_reached"]), number(r["time_cycles"], 3), number(r["cpm"], 3)] for r in _summary(choice.bank)
+        [
+            summary["label"],
+            str(summary["not_reached"]),
+            format_significant(summary["time_cycles"], 3),
+            format_significant(summary["cpm"], 3),
+        ]
+        for summary in _summarize_scenarios(choice.bank)
     ]
-    return Rows(["scenario", "not completed", "time, cycles", "CPM"], rows)
+    return TextTable(["scenario", "not completed", "time, cycles", "CPM"], rows)
 
 
 def next_steps(choice: TaskChoice, name: str) -> list[str]:
-    """Which tasks those are."""
+    """Suggest the numbers of the chosen tasks."""
     del choice
     return [f"{name}.chosen + 1  # the tasks, from 1"]
 
 
 def show(choice: TaskChoice, out: Console) -> None:
-    """A row for each scenario, and what was chosen."""
+    """Print a row for each scenario, and the chosen tasks."""
     from rich.markup import escape
 
-    from holdfast.present.terminal import Grid
+    from holdfast.present.terminal import BandedTable
 
-    first, *rest = choice.describe()
-    out.print(escape(first), soft_wrap=True)
+    headline, *remarks = choice.describe()
+    out.print(escape(headline), soft_wrap=True)
     columns = ("time, cycles", "path, m", "velocity error", "peak direction error, deg", "CPM")
-    table = Grid("scenario", "", "not completed", *columns)
-    for r in _summary(choice.bank):
-        cells = [number(r[k], 3) for k in ("time_cycles", "path_m", "velocity_error")]
-        turn = f"{np.degrees(r['peak_direction_error_rad']):.1f}"
-        table.add_row(str(r["scenario"]), r["label"], str(r["not_reached"]), *cells, turn, number(r["cpm"], 3))
+    table = BandedTable("scenario", "", "not completed", *columns)
+    for summary in _summarize_scenarios(choice.bank):
+        cells = [format_significant(summary[key], 3) for key in ("time_cycles", "path_m", "velocity_error")]
+        peak_error_deg = f"{np.degrees(summary['peak_direction_error_rad']):.1f}"
+        table.add_row(
+            str(summary["scenario"]),
+            summary["label"],
+            str(summary["not_reached"]),
+            *cells,
+            peak_error_deg,
+            format_significant(summary["cpm"], 3),
+        )
     out.print(table)
     caption = "medians over the tasks that are completed; the level of CPM is set by the most extreme trial, compare ratios"
-    for line in (caption, *rest):
-        out.print(line, soft_wrap=True)
+    for remark in (caption, *remarks):
+        out.print(remark, soft_wrap=True)

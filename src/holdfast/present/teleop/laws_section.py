@@ -1,132 +1,159 @@
-"""The laws against each other: with the failed arm, and with the healthy one."""
+"""Section of the report that compares the laws, with the failed arm and with the healthy arm."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from holdfast.present.teleop import figures as drawing
-from holdfast.present.teleop.captions import captioned, labelled, p_value
+from holdfast.present.teleop.captions import caption_figure, format_p_value, label_table
 from holdfast.report.page import Block, Cell, Table, Text
-from holdfast.teleop.analysis.mixed_model import Mixed
-from holdfast.teleop.analysis.observations import NAMES
+from holdfast.teleop.analysis.mixed_model import MixedModel
+from holdfast.teleop.analysis.observations import MEASURE_NAMES
 from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.analysis.variance import Anova
-from holdfast.words import fixed, number, percent
+from holdfast.words import format_decimals, format_number, format_percent
 
 
-def laws(a: Analysis) -> list[Block]:
-    """The laws with the failed arm: means, tests and every measure."""
+def build_law_blocks(analysis: Analysis) -> list[Block]:
+    """Build the comparison of the laws with the failed arm: means, tests, and every measure."""
     blocks: list[Block] = []
-    count = f"{a.who}, tasks grouped by the {'computer' if a.groups.by == 'computer' else 'median operator'}'s CPM"
-    caption = f"Mean CPM of each subject (dots), over subjects (large) with {100 * a.confidence:g} % intervals; {count}."
-    blocks.append(captioned(a, drawing.cells_figure(a), "cells", caption))
-    means = a.table("means")
-    rows: list[list[Cell]] = []
-    for law in a.cells.laws:
-        mine = means[means["law"] == law]
-        cells: list[Cell] = [f"{number(r['mean'])} ± {number(r['sd'])}" for _, r in mine.iterrows()]
-        rows.append([law, *cells, number(a.law_means()[law])])
-    rows.append(["all laws", *(number(v) for v in a.group_means().values()), ""])
-    head: list[Cell] = ["law", *a.cells.groups, "all tasks"]
-    blocks.append(
-        Table(rows, head, frozenset(range(1, len(head))), caption=labelled(a, "Mean CPM ± standard deviation over subjects"))
+    count = (
+        f"{analysis.subject_phrase}, tasks grouped by the "
+        f"{'computer' if analysis.groups.by == 'computer' else 'median operator'}'s CPM"
     )
-    if a.anova is not None:
-        blocks.append(_anova(a, a.anova))
-    if a.mixed is not None:
-        blocks += _mixed(a, a.mixed)
-    blocks.append(_comparisons(a))
-    if "anova_other_groups" in a.tables:
-        by = "computer's" if a.groups.by == "operators" else "median operator's"
-        said = "; ".join(
-            f"{r['effect']} F({r['df']}, {r['df_error']}) = {number(r['F'])}"
-            for _, r in a.table("anova_other_groups").iterrows()
+    caption = f"Mean CPM of each subject (dots), over subjects (large) with {100 * analysis.confidence:g} % intervals; {count}."
+    blocks.append(caption_figure(analysis, drawing.draw_cell_means(analysis), "cells", caption))
+    means = analysis.table("means")
+    rows: list[list[Cell]] = []
+    for law in analysis.cells.laws:
+        law_rows = means[means["law"] == law]
+        cells: list[Cell] = [f"{format_number(r['mean'])} ± {format_number(r['sd'])}" for _, r in law_rows.iterrows()]
+        rows.append([law, *cells, format_number(analysis.law_means()[law])])
+    rows.append(["all laws", *(format_number(mean) for mean in analysis.group_means().values()), ""])
+    header: list[Cell] = ["law", *analysis.cells.groups, "all tasks"]
+    blocks.append(
+        Table(
+            rows,
+            header,
+            frozenset(range(1, len(header))),
+            caption=label_table(analysis, "Mean CPM ± standard deviation over subjects"),
         )
-        blocks.append(Text(f"With the tasks grouped by the {by} CPM instead: {said}.", quiet=True))
-    blocks.append(_measures(a, "failed", "The laws with the failed arm, measure by measure"))
+    )
+    if analysis.anova is not None:
+        blocks.append(_tabulate_anova(analysis, analysis.anova))
+    if analysis.mixed is not None:
+        blocks += _tabulate_mixed_model(analysis, analysis.mixed)
+    blocks.append(_tabulate_comparisons(analysis))
+    if "anova_other_groups" in analysis.tables:
+        grouping = "computer's" if analysis.groups.by == "operators" else "median operator's"
+        effect_texts = "; ".join(
+            f"{r['effect']} F({r['df']}, {r['df_error']}) = {format_number(r['F'])}"
+            for _, r in analysis.table("anova_other_groups").iterrows()
+        )
+        blocks.append(Text(f"With the tasks grouped by the {grouping} CPM instead: {effect_texts}.", quiet=True))
+    blocks.append(_tabulate_measures(analysis, "failed", "The laws with the failed arm, measure by measure"))
     return blocks
 
 
-def _anova(a: Analysis, found: Anova) -> Table:
+def _tabulate_anova(analysis: Analysis, anova: Anova) -> Table:
     rows: list[list[Cell]] = [
         [
-            e.name,
-            f"{e.df}, {e.df_error}",
-            number(e.F),
-            p_value(e.p),
-            fixed(e.gg, 3),
-            p_value(e.p_gg),
-            fixed(e.hf, 3),
-            p_value(e.p_hf),
-            fixed(e.partial_eta2, 3),
-            fixed(e.generalised_eta2, 3),
+            effect.name,
+            f"{effect.df}, {effect.df_error}",
+            format_number(effect.F),
+            format_p_value(effect.p),
+            format_decimals(effect.gg, 3),
+            format_p_value(effect.p_gg),
+            format_decimals(effect.hf, 3),
+            format_p_value(effect.p_hf),
+            format_decimals(effect.partial_eta2, 3),
+            format_decimals(effect.generalised_eta2, 3),
         ]
-        for e in found.effects
+        for effect in anova.effects
     ]
-    head = ("effect", "df", "F", "p", "ε GG", "p GG", "ε HF", "p HF", "partial η²", "generalised η²")
+    header = ("effect", "df", "F", "p", "ε GG", "p GG", "ε HF", "p HF", "partial η²", "generalised η²")
     caption = (
         "Within-subjects ANOVA of CPM; GG and HF: corrected for departures from sphericity after Greenhouse and Geisser, and "
         "Huynh and Feldt"
     )
-    return Table(rows, head, frozenset(range(1, 10)), caption=labelled(a, caption), wide=True)
+    return Table(rows, header, frozenset(range(1, 10)), caption=label_table(analysis, caption), wide=True)
 
 
-def _mixed(a: Analysis, found: Mixed) -> list[Block]:
-    rows: list[list[Cell]] = [[t.name, str(t.df), number(t.chi2), p_value(t.p)] for t in found.tests]
-    v = found.variances
-    spread = ", ".join(f"{name} {number(float(np.sqrt(x)))}" for name, x in v.items())
+def _tabulate_mixed_model(analysis: Analysis, mixed_model: MixedModel) -> list[Block]:
+    rows: list[list[Cell]] = [
+        [test.name, str(test.df), format_number(test.chi2), format_p_value(test.p)] for test in mixed_model.tests
+    ]
+    variances = mixed_model.variances
+    deviations = ", ".join(f"{name} {format_number(float(np.sqrt(variance)))}" for name, variance in variances.items())
     text = (
-        f"Linear mixed model of {found.trials:,} single trials, restricted maximum likelihood ({found.optimiser}, "
-        f"{'converged' if found.converged else 'NOT converged'}); standard deviations of the random intercepts: "
-        f"{spread}. The tests "
+        f"Linear mixed model of {mixed_model.trials:,} single trials, restricted maximum likelihood ({mixed_model.optimiser}, "
+        f"{'converged' if mixed_model.converged else 'NOT converged'}); standard deviations of the random intercepts: "
+        f"{deviations}. The tests "
         "are asymptotic. Tasks are random here: the model speaks of other tasks too, so difficulty is tested "
         "more strictly than "
         "in an ANOVA."
     )
-    if found.messages:
-        text += f" The software said: {'; '.join(found.messages)}."
+    if mixed_model.messages:
+        text += f" The software said: {'; '.join(mixed_model.messages)}."
     return [
-        Table(rows, ("effect", "df", "χ²", "p"), frozenset({1, 2, 3}), caption=labelled(a, "Mixed model: Wald tests")),
+        Table(
+            rows, ("effect", "df", "χ²", "p"), frozenset({1, 2, 3}), caption=label_table(analysis, "Mixed model: Wald tests")
+        ),
         Text(text, quiet=True),
     ]
 
 
-def _comparisons(a: Analysis) -> Table:
+def _tabulate_comparisons(analysis: Analysis) -> Table:
     rows: list[list[Cell]] = [
         [
-            str(r["difficulty"]),
-            f"{r['first']} − {r['second']}",
-            f"{number(r['difference'])} ({number(r['low'])} to {number(r['high'])})",
-            f"{number(r['t'])} ({r['df']})",
-            p_value(r["p_holm"]),
-            f"{fixed(r['dz'], 2)} ({fixed(r['dz_low'], 2)} to {fixed(r['dz_high'], 2)})",
-            p_value(r["wilcoxon"]),
-            fixed(r["rank_biserial"], 2),
+            str(record["difficulty"]),
+            f"{record['first']} − {record['second']}",
+            f"{format_number(record['difference'])} ({format_number(record['low'])} to {format_number(record['high'])})",
+            f"{format_number(record['t'])} ({record['df']})",
+            format_p_value(record["p_holm"]),
+            f"{format_decimals(record['dz'], 2)} ({format_decimals(record['dz_low'], 2)} to "
+            f"{format_decimals(record['dz_high'], 2)})",
+            format_p_value(record["wilcoxon"]),
+            format_decimals(record["rank_biserial"], 2),
         ]
-        for _, r in a.table("comparisons").iterrows()
+        for _, record in analysis.table("comparisons").iterrows()
     ]
-    head = ("tasks", "difference", "mean", "t (df)", "p Holm", "dz", "p Wilcoxon", "rank-biserial")
-    caption = f"Paired comparisons of CPM, two-sided, with {100 * a.confidence:g} % intervals; above 0 the second law is better"
-    return Table(rows, head, frozenset(range(2, 8)), caption=labelled(a, caption), wide=True)
+    header = ("tasks", "difference", "mean", "t (df)", "p Holm", "dz", "p Wilcoxon", "rank-biserial")
+    caption = (
+        f"Paired comparisons of CPM, two-sided, with {100 * analysis.confidence:g} % intervals; above 0 the second "
+        f"law is better"
+    )
+    return Table(rows, header, frozenset(range(2, 8)), caption=label_table(analysis, caption), wide=True)
 
 
-def _measures(a: Analysis, name: str, title: str) -> Table:
-    table = a.table(name)
+def _tabulate_measures(analysis: Analysis, name: str, title: str) -> Table:
+    table = analysis.table(name)
     rows: list[list[Cell]] = []
-    for _, r in table.iterrows():
-        label, factor = ("CPM", 1.0) if r["measure"] == "CPM" else drawing.shown(NAMES.index(r["measure"]))
-        first, second, mean, low, high = (
-            number(factor * r[x]) for x in ("first_mean", "second_mean", "difference", "low", "high")
+    for _, record in table.iterrows():
+        label, factor = (
+            ("CPM", 1.0) if record["measure"] == "CPM" else drawing.label_measure(MEASURE_NAMES.index(record["measure"]))
         )
-        dz = fixed(r["dz"], 2) if np.isfinite(r["dz"]) else "–"
-        laws: list[Cell] = [f"{r['first']} − {r['second']}"] if len(a.conditions) > 2 else []
+        first, second, mean, lower, upper = (
+            format_number(factor * record[column]) for column in ("first_mean", "second_mean", "difference", "low", "high")
+        )
+        dz = format_decimals(record["dz"], 2) if np.isfinite(record["dz"]) else "–"
+        laws: list[Cell] = [f"{record['first']} − {record['second']}"] if len(analysis.conditions) > 2 else []
         rows.append(
-            [label, *laws, first, second, f"{mean} ({low} to {high})", p_value(r["p_holm"]), dz, p_value(r["wilcoxon"])]
+            [
+                label,
+                *laws,
+                first,
+                second,
+                f"{mean} ({lower} to {upper})",
+                format_p_value(record["p_holm"]),
+                dz,
+                format_p_value(record["wilcoxon"]),
+            ]
         )
-    first, second = (str(table[x].iloc[0]) if len(a.conditions) == 2 else x for x in ("first", "second"))
-    head = [
+    first, second = (str(table[column].iloc[0]) if len(analysis.conditions) == 2 else column for column in ("first", "second"))
+    header = [
         "measure",
-        *(["laws"] if len(a.conditions) > 2 else []),
+        *(["laws"] if len(analysis.conditions) > 2 else []),
         first,
         second,
         "first − second",
@@ -139,24 +166,27 @@ def _measures(a: Analysis, name: str, title: str) -> Table:
         f"pairs of trials; smaller "
         "is better"
     )
-    return Table(rows, head, frozenset(range(len(head) - 6, len(head))), caption=labelled(a, caption), wide=True)
+    return Table(
+        rows, header, frozenset(range(len(header) - 6, len(header))), caption=label_table(analysis, caption), wide=True
+    )
 
 
-def healthy(a: Analysis) -> list[Block]:
-    """The laws with the healthy arm."""
-    if "healthy" not in a.tables:
+def build_healthy_blocks(analysis: Analysis) -> list[Block]:
+    """Build the comparison of the laws with the healthy arm."""
+    if "healthy" not in analysis.tables:
         return []
-    table = a.table("healthy")
+    table = analysis.table("healthy")
     blocks: list[Block] = []
-    for _, r in table[table["measure"] == "M1"].iterrows():
-        change = r["second_mean"] / r["first_mean"] - 1 if r["first_mean"] > 0 else float("nan")
+    for _, record in table[table["measure"] == "M1"].iterrows():
+        change = record["second_mean"] / record["first_mean"] - 1 if record["first_mean"] > 0 else float("nan")
         if np.isfinite(change):
-            more = "longer" if change > 0 else "shorter"
+            comparison = "longer" if change > 0 else "shorter"
             blocks.append(
                 Text(
-                    f"With the healthy arm, tasks take {percent(abs(change))} {more} under {r['second']} than "
-                    f"under {r['first']} "
-                    f"({number(r['second_mean'])} against {number(r['first_mean'])} cycles)."
+                    f"With the healthy arm, tasks take {format_percent(abs(change))} {comparison} under "
+                    f"{record['second']} than "
+                    f"under {record['first']} "
+                    f"({format_number(record['second_mean'])} against {format_number(record['first_mean'])} cycles)."
                 )
             )
-    return [*blocks, _measures(a, "healthy", "The laws with the healthy arm")]
+    return [*blocks, _tabulate_measures(analysis, "healthy", "The laws with the healthy arm")]

@@ -1,4 +1,4 @@
-"""The report of an experiment: one HTML file that begins with what the law did to the operators."""
+"""HTML report of an experiment, which begins with the effect of the law on the operators."""
 
 from __future__ import annotations
 
@@ -11,38 +11,42 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.present.teleop import figures as drawing
-from holdfast.present.teleop.captions import captioned, equals, labelled, p_value
-from holdfast.present.teleop.examples import example_blocks
-from holdfast.present.teleop.laws_section import healthy, laws
-from holdfast.present.teleop.tables import ABOUT, write_tables
+from holdfast.present.teleop.captions import caption_figure, format_p_relation, format_p_value, label_table
+from holdfast.present.teleop.examples import build_example_blocks
+from holdfast.present.teleop.laws_section import build_healthy_blocks, build_law_blocks
+from holdfast.present.teleop.tables import TABLE_DESCRIPTIONS, write_tables
 from holdfast.report import page
 from holdfast.report.page import Block, Callout, Cell, Page, Section, Table, Text
-from holdfast.teleop.analysis.observations import NAMES
+from holdfast.teleop.analysis.observations import MEASURE_NAMES
 from holdfast.teleop.analysis.result import Analysis, Paths
-from holdfast.words import counted, number
+from holdfast.words import format_count, format_number
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
     from holdfast.teleop.protocol.protocol import Protocol
 
-_SCALES = {
+_DIFFICULTY_LABELS = {
     "anticipated": "anticipated difficulty: CPM of the computer",
     "actual": "actual difficulty: median CPM of operators",
     "perceived": "perceived difficulty: median rating",
 }
 
 
-@says("drawing the report")
+@reports_progress("drawing the report")
 def write(
-    a: Analysis, path: Path, protocol: Protocol | None = None, paths: Paths | None = None, show: Sequence[int] | None = None
+    analysis: Analysis,
+    path: Path,
+    protocol: Protocol | None = None,
+    paths: Paths | None = None,
+    show: Sequence[int] | None = None,
 ) -> Path:
-    """The analysis as a page.
+    """Write the analysis as a page.
 
     Args:
-        a: What was found.
+        analysis: What was found.
         path: The file.
         protocol: Of the experiment: the workspace, the targets and what a failure takes away are drawn from it.
         paths: Gives the tool points of recorded trials; without it no motions are drawn.
@@ -51,153 +55,177 @@ def write(
     Raises:
         InputError: A task to show that there is not.
     """
-    return page.write(build(a, protocol, paths, show), path)
+    return page.write(build(analysis, protocol, paths, show), path)
 
 
 def save(
-    a: Analysis, folder: Path, protocol: Protocol | None = None, paths: Paths | None = None, show: Sequence[int] | None = None
+    analysis: Analysis,
+    folder: Path,
+    protocol: Protocol | None = None,
+    paths: Paths | None = None,
+    show: Sequence[int] | None = None,
 ) -> list[Path]:
-    """report.html as :func:`write` has it, and every table as CSV with a data dictionary; files of other names stay."""
-    tables = write_tables(a, folder)
-    return [write(a, folder / "report.html", protocol, paths, show), *tables]
+    """Write report.html as :func:`write` does, and every table as CSV with a data dictionary; files with other names stay."""
+    tables = write_tables(analysis, folder)
+    return [write(analysis, folder / "report.html", protocol, paths, show), *tables]
 
 
-def figures(a: Analysis) -> dict[str, Figure]:
-    """The figures of the page that need nothing but the analysis, by name."""
-    panels, curve = _scatters(a), {"power": drawing.power_figure(a)} if "power_curve" in a.tables else {}
+def figures(analysis: Analysis) -> dict[str, Figure]:
+    """Draw the figures of the page that depend on the analysis alone, by name."""
+    panels, power_curve = (
+        _scatter_panels(analysis),
+        {"power": drawing.draw_power(analysis)} if "power_curve" in analysis.tables else {},
+    )
     return {
-        "cells": drawing.cells_figure(a),
-        **({"difficulty": drawing.scatter_figure(panels, a.groups.names)} if panels else {}),
-        "tasks": _tasks_figure(a),
-        "measures": _measures_figure(a),
-        **curve,
+        "cells": drawing.draw_cell_means(analysis),
+        **({"difficulty": drawing.scatter_figure(panels, analysis.groups.names)} if panels else {}),
+        "tasks": _draw_tasks(analysis),
+        "measures": _draw_measures(analysis),
+        **power_curve,
     }
 
 
 def build(
     analysis: Analysis, protocol: Protocol | None = None, paths: Paths | None = None, show: Sequence[int] | None = None
 ) -> Page:
-    """The report as blocks, before it becomes HTML."""
-    a = analysis
-    shown = middle_tasks(a) if show is None else list(show)
-    for t in shown:
-        if t not in a.observed.tasks:
-            raise InputError(f"there is no task {t} to show; there are {a.observed.tasks[0]} to {a.observed.tasks[-1]}")
+    """Build the report as blocks, before it becomes HTML."""
+    result = analysis
+    shown_tasks = middle_tasks(result) if show is None else list(show)
+    for task in shown_tasks:
+        if task not in result.observed.tasks:
+            raise InputError(
+                f"there is no task {task} to show; there are {result.observed.tasks[0]} to {result.observed.tasks[-1]}"
+            )
     alerts = []
-    if a.simulated:
+    if result.is_simulated:
         alerts.append(Callout("Every operator is a program; nothing here is measured on people.", "bad", "Simulated."))
-    if a.left_out:
-        alerts.append(Callout(f"Left out because of empty cells: {', '.join(a.left_out)}.", "bad", "Not all subjects."))
-    if a.mixed is not None and not a.mixed.converged:
+    if result.left_out:
+        alerts.append(Callout(f"Left out because of empty cells: {', '.join(result.left_out)}.", "bad", "Not all subjects."))
+    if result.mixed is not None and not result.mixed.converged:
         alerts.append(Callout("Its numbers must not be used.", "bad", "The mixed model did not converge."))
     sections = [
-        Section("The failed arm under each law", laws(a)),
-        Section("Anticipated, actual and perceived difficulty", _difficulty(a)),
-        Section("Task by task: operators and computer", _tasks(a)),
-        Section("Distributions of all measures", _distributions(a)),
-        *(Section(f"Task {t}", example_blocks(a, t, protocol, paths)) for t in shown),
-        Section("The healthy arm: what tolerance costs before a failure", healthy(a)),
-        Section("How many subjects would have been enough", _power(a)),
-        Section("What is missing", _missing(a)),
+        Section("The failed arm under each law", build_law_blocks(result)),
+        Section("Anticipated, actual and perceived difficulty", _build_difficulty(result)),
+        Section("Task by task: operators and computer", _build_tasks(result)),
+        Section("Distributions of all measures", _build_distributions(result)),
+        *(Section(f"Task {task}", build_example_blocks(result, task, protocol, paths)) for task in shown_tasks),
+        Section("The healthy arm: what tolerance costs before a failure", build_healthy_blocks(result)),
+        Section("How many subjects would have been enough", _build_power(result)),
+        Section("What is missing", _build_missing(result)),
     ]
     name = "" if protocol is None else protocol.name
     return Page(
-        f"Teleoperation with a failed joint: {a.who}",
-        _headline(a),
+        f"Teleoperation with a failed joint: {result.subject_phrase}",
+        _compose_headline(result),
         sections,
         subtitle=name,
         warnings=alerts,
-        method=_method(a),
+        method=_build_method(result),
     )
 
 
-def middle_tasks(a: Analysis) -> list[int]:
-    """Of each group the task of middle difficulty."""
-    table = a.table("tasks")
-    found = []
-    for group in a.groups.names:
-        mine = table.loc[table["difficulty"] == group, "task"].tolist()
-        found.append(int(mine[(len(mine) - 1) // 2]))
-    return found
+def middle_tasks(analysis: Analysis) -> list[int]:
+    """Return the task of middle difficulty of each group."""
+    table = analysis.table("tasks")
+    chosen = []
+    for group in analysis.groups.names:
+        group_tasks = table.loc[table["difficulty"] == group, "task"].tolist()
+        chosen.append(int(group_tasks[(len(group_tasks) - 1) // 2]))
+    return chosen
 
 
-def _headline(a: Analysis) -> str:
-    means = sorted(a.law_means().items(), key=lambda x: x[1])
-    text = f"With a failed joint the {means[0][0]} law makes {a.who} perform best on average: mean CPM {number(means[0][1])}, "
-    text += f"against {' and '.join(f'{number(v)} ({law})' for law, v in means[1:])}"
-    if a.anova is not None:
-        e = a.anova.effects[0]
-        text += f"; F({e.df}, {e.df_error}) = {number(e.F)}, p {equals(e.p_gg)}"
-        if e.p_gg >= a.limit:
+def _compose_headline(analysis: Analysis) -> str:
+    means = sorted(analysis.law_means().items(), key=lambda law_mean: law_mean[1])
+    text = (
+        f"With a failed joint the {means[0][0]} law makes {analysis.subject_phrase} perform best on average: mean CPM "
+        f"{format_number(means[0][1])}, "
+    )
+    text += f"against {' and '.join(f'{format_number(mean)} ({law})' for law, mean in means[1:])}"
+    if analysis.anova is not None:
+        effect = analysis.anova.effects[0]
+        text += f"; F({effect.df}, {effect.df_error}) = {format_number(effect.F)}, p {format_p_relation(effect.p_gg)}"
+        if effect.p_gg >= analysis.limit:
             text += ", which may be chance"
-    elif a.mixed is not None:
-        w = a.mixed.tests[0]
-        text += f"; mixed model, chi²({w.df}) = {number(w.chi2)}, p {equals(w.p)}"
-    rows = a.table("comparisons")
-    if len(a.conditions) == 2:
-        said = []
-        for _, r in rows.iterrows():
-            if not r["p_holm"] < a.limit:
-                said.append(f"for {r['difficulty']} tasks no difference was found")
+    elif analysis.mixed is not None:
+        wald_test = analysis.mixed.tests[0]
+        text += f"; mixed model, chi²({wald_test.df}) = {format_number(wald_test.chi2)}, p {format_p_relation(wald_test.p)}"
+    rows = analysis.table("comparisons")
+    if len(analysis.conditions) == 2:
+        findings = []
+        for _, record in rows.iterrows():
+            if not record["p_holm"] < analysis.limit:
+                findings.append(f"for {record['difficulty']} tasks no difference was found")
             else:
-                better = r["first"] if r["difference"] < 0 else r["second"]
-                said.append(f"for {r['difficulty']} tasks {better} is better by {number(abs(r['difference']))}")
-        text += f". {'; '.join(said).capitalize()}"
+                better = record["first"] if record["difference"] < 0 else record["second"]
+                findings.append(
+                    f"for {record['difficulty']} tasks {better} is better by {format_number(abs(record['difference']))}"
+                )
+        text += f". {'; '.join(findings).capitalize()}"
     return text + "."
 
 
-def _scatters(a: Analysis) -> list[drawing.Scatter]:
-    table = a.table("tasks").sort_values("task")
+def _scatter_panels(analysis: Analysis) -> list[drawing.Scatter]:
+    table = analysis.table("tasks").sort_values("task")
     panels = []
-    for c in a.correlations:
-        if c.first in _SCALES:
-            x, y = (table[name].to_numpy(dtype=np.float64) for name in (c.first, c.second))
+    for correlation in analysis.correlations:
+        if correlation.first in _DIFFICULTY_LABELS:
+            abscissa, ordinate = (table[name].to_numpy(dtype=np.float64) for name in (correlation.first, correlation.second))
             panels.append(
                 drawing.Scatter(
-                    x=x, y=y, xlabel=_SCALES[c.first], ylabel=_SCALES[c.second], correlation=c, groups=a.groups.of_task
+                    x=abscissa,
+                    y=ordinate,
+                    xlabel=_DIFFICULTY_LABELS[correlation.first],
+                    ylabel=_DIFFICULTY_LABELS[correlation.second],
+                    correlation=correlation,
+                    groups=analysis.groups.of_task,
                 )
             )
     return panels
 
 
-def _difficulty(a: Analysis) -> list[Block]:
-    panels = _scatters(a)
+def _build_difficulty(analysis: Analysis) -> list[Block]:
+    panels = _scatter_panels(analysis)
     blocks: list[Block] = []
     if panels:
-        caption = f"Each dot is a task in scenario {a.conditions[0].label}. " + " ".join(
-            f"{c}; Spearman {c.spearman:.3f}." for c in a.correlations if c.first in _SCALES
+        caption = f"Each dot is a task in scenario {analysis.conditions[0].label}. " + " ".join(
+            f"{correlation}; Spearman {correlation.spearman:.3f}."
+            for correlation in analysis.correlations
+            if correlation.first in _DIFFICULTY_LABELS
         )
-        lost = sorted({x for c in a.correlations for x in c.left_out})
-        if lost:
-            caption += f" Without a value on one of the axes: {', '.join(lost)}."
-        blocks.append(captioned(a, drawing.scatter_figure(panels, a.groups.names), "difficulty", caption))
+        left_out = sorted({task_name for correlation in analysis.correlations for task_name in correlation.left_out})
+        if left_out:
+            caption += f" Without a value on one of the axes: {', '.join(left_out)}."
+        blocks.append(caption_figure(analysis, drawing.scatter_figure(panels, analysis.groups.names), "difficulty", caption))
     return blocks
 
 
-def _tasks_figure(a: Analysis) -> Figure:
-    prefix = "Simulated operators: " if a.simulated else "Operators: "
-    return drawing.tasks_figure(a, (f"{prefix}the median operator of each task", "Computer"))
+def _draw_tasks(analysis: Analysis) -> Figure:
+    prefix = "Simulated operators: " if analysis.is_simulated else "Operators: "
+    return drawing.tasks_figure(analysis, (f"{prefix}the median operator of each task", "Computer"))
 
 
-def _tasks(a: Analysis) -> list[Block]:
+def _build_tasks(analysis: Analysis) -> list[Block]:
     caption = (
-        f"CPM of each task with the failed arm ({len(a.observed.tasks)} tasks). The median operator of a task is "
+        f"CPM of each task with the failed arm ({len(analysis.observed.tasks)} tasks). The median operator of a task is "
         f"the one whose CPM under "
         "the reference law is nearest to the median of all. Coloured stems: another law than the reference is better."
     )
-    blocks: list[Block] = [captioned(a, _tasks_figure(a), "tasks", caption)]
-    if "gains" in a.tables:
+    blocks: list[Block] = [caption_figure(analysis, _draw_tasks(analysis), "tasks", caption)]
+    if "gains" in analysis.tables:
         rows: list[list[Cell]] = [
             [
-                str(r["difficulty"]),
-                str(r["law"]),
-                *(f"{r[x]} of {r['tasks']}" for x in ("operators_gain", "computer_gains", "same_direction")),
-                number(r["operators_median_ratio"]),
-                number(r["computer_median_ratio"]),
+                str(record["difficulty"]),
+                str(record["law"]),
+                *(
+                    f"{record[column]} of {record['tasks']}"
+                    for column in ("operators_gain", "computer_gains", "same_direction")
+                ),
+                format_number(record["operators_median_ratio"]),
+                format_number(record["computer_median_ratio"]),
             ]
-            for _, r in a.table("gains").iterrows()
+            for _, record in analysis.table("gains").iterrows()
         ]
-        head = (
+        header = (
             "tasks",
             "law",
             "operators gain",
@@ -206,96 +234,122 @@ def _tasks(a: Analysis) -> list[Block]:
             "median ratio, operators",
             "median ratio, computer",
         )
-        caption = f"Gain and loss against {a.conditions[0].law}: a CPM ratio below 1 is a gain. Tasks that both completed"
-        blocks.append(Table(rows, head, frozenset(range(2, 7)), caption=labelled(a, caption), wide=True))
-        for c in a.correlations:
-            if c.first.startswith("operators'"):
-                blocks.append(Text(f"Correlation over tasks: {c}; Spearman {c.spearman:.3f}.", quiet=True))
+        caption = (
+            f"Gain and loss against {analysis.conditions[0].law}: a CPM ratio below 1 is a gain. Tasks that both completed"
+        )
+        blocks.append(Table(rows, header, frozenset(range(2, 7)), caption=label_table(analysis, caption), wide=True))
+        for correlation in analysis.correlations:
+            if correlation.first.startswith("operators'"):
+                blocks.append(Text(f"Correlation over tasks: {correlation}; Spearman {correlation.spearman:.3f}.", quiet=True))
     return blocks
 
 
-def _measures_figure(a: Analysis) -> Figure:
-    o, machine = a.observed, a.computer
-    every = np.concatenate([o.cpm[..., None], o.measures], axis=-1)[..., : len(NAMES) + o.rated]
-    values = [[every[:, :, s, k].ravel() for s in range(len(o.conditions))] for k in range(every.shape[-1])]
-    its = None
-    if machine is not None:
-        table = a.table("measures")
-        names = ["CPM", *NAMES[:-1]]
-        its = [table.loc[table["measure"] == name, "computer_median"].to_numpy(dtype=np.float64) for name in names]
-    return drawing.measures_figure(values, its, [c.scenario for c in o.conditions])
+def _draw_measures(analysis: Analysis) -> Figure:
+    observed, computer = analysis.observed, analysis.computer
+    measures = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)[
+        ..., : len(MEASURE_NAMES) + observed.has_ratings
+    ]
+    values = [
+        [measures[:, :, scenario, measure].ravel() for scenario in range(len(observed.conditions))]
+        for measure in range(measures.shape[-1])
+    ]
+    computer_medians = None
+    if computer is not None:
+        table = analysis.table("measures")
+        names = ["CPM", *MEASURE_NAMES[:-1]]
+        computer_medians = [table.loc[table["measure"] == name, "computer_median"].to_numpy(dtype=np.float64) for name in names]
+    return drawing.measures_figure(values, computer_medians, [condition.scenario for condition in observed.conditions])
 
 
-def _distributions(a: Analysis) -> list[Block]:
-    o = a.observed
-    key = "; ".join(c.label for c in o.conditions)
+def _build_distributions(analysis: Analysis) -> list[Block]:
+    observed = analysis.observed
+    legend = "; ".join(condition.label for condition in observed.conditions)
     caption = (
-        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, without those that did not reach the "
-        f"target. Scenarios: {key}. "
+        f"CPM and all measures over {observed.cpm.size:,} trials in {len(observed.tasks)} tasks, without those that did "
+        f"not reach the "
+        f"target. Scenarios: {legend}. "
         "Circles: the computer's median over tasks. CPM of operators and computer have different normalisers unless the notes "
         "say otherwise."
     )
-    return [captioned(a, _measures_figure(a), "measures", caption)]
+    return [caption_figure(analysis, _draw_measures(analysis), "measures", caption)]
 
 
-def _power(a: Analysis) -> list[Block]:
+def _build_power(analysis: Analysis) -> list[Block]:
     rows: list[list[Cell]] = []
-    for _, r in a.table("power").iterrows():
-        enough: list[Cell] = []
+    for _, record in analysis.table("power").iterrows():
+        subject_counts: list[Cell] = []
         for name in ("sufficient", "sufficient_for_least"):
-            enough.append(str(int(r[name])) if np.isfinite(r[name]) else "> 10,000")
+            subject_counts.append(str(int(record[name])) if np.isfinite(record[name]) else "> 10,000")
         rows.append(
-            [r["test"], r["kind"], p_value(r["p_below"]), f"{r['effect']} {number(r['observed'])}", number(r["least"]), *enough]
+            [
+                record["test"],
+                record["kind"],
+                format_p_value(record["p_below"]),
+                f"{record['effect']} {format_number(record['observed'])}",
+                format_number(record["least"]),
+                *subject_counts,
+            ]
         )
-    head = ("test", "kind", "p below", "observed effect", "lower end", "subjects", "subjects for the lower end")
+    header = ("test", "kind", "p below", "observed effect", "lower end", "subjects", "subjects for the lower end")
     caption = (
-        f"Smallest number of subjects with a power of {a.power:g}. Observed here: {a.who}. t-tests by the noncentral t "
+        f"Smallest number of subjects with a power of {analysis.power:g}. Observed here: {analysis.subject_phrase}. "
+        f"t-tests by the noncentral t "
         "distribution, at the p that Holm's correction asks of the first; F by the noncentral F distribution with the "
         "epsilon of Greenhouse and Geisser. Assumed: normal differences, and an effect as large as the one observed, or as the "
-        f"lower end of its {100 * a.confidence:g} % interval; plan with that"
+        f"lower end of its {100 * analysis.confidence:g} % interval; plan with that"
     )
-    blocks: list[Block] = [Table(rows, head, frozenset({2, 3, 4, 5, 6}), caption=labelled(a, caption), wide=True)]
-    if "power_curve" in a.tables:
-        about = (
-            f"Lines: noncentral F. Circles: of 2000 random subsets of the {a.who}, drawn without replacement, the fraction in "
-            f"which the effect has p < {a.limit:g}; near all of them the subsets hardly differ."
+    blocks: list[Block] = [Table(rows, header, frozenset({2, 3, 4, 5, 6}), caption=label_table(analysis, caption), wide=True)]
+    if "power_curve" in analysis.tables:
+        figure_caption = (
+            f"Lines: noncentral F. Circles: of 2000 random subsets of the {analysis.subject_phrase}, drawn without "
+            f"replacement, the fraction in "
+            f"which the effect has p < {analysis.limit:g}; near all of them the subsets hardly differ."
         )
-        blocks.append(captioned(a, drawing.power_figure(a), "power", about))
+        blocks.append(caption_figure(analysis, drawing.draw_power(analysis), "power", figure_caption))
     return blocks
 
 
-def _missing(a: Analysis) -> list[Block]:
-    o, ends, lost = a.observed, a.table("ends"), a.table("missing")
-    causes = [c for c in ends.columns if c in {"still", "time", "aborted", "broken_off", "no_rating", "not_recorded"}]
-    used = [c for c in causes if ends[c].sum() > 0]
+def _build_missing(analysis: Analysis) -> list[Block]:
+    observed, endings, missing_trials = analysis.observed, analysis.table("ends"), analysis.table("missing")
+    causes = [
+        cause for cause in endings.columns if cause in {"still", "time", "aborted", "broken_off", "no_rating", "not_recorded"}
+    ]
+    used_causes = [cause for cause in causes if endings[cause].sum() > 0]
     rows: list[list[Cell]] = [
         [
-            f"{r['scenario']}: {'failed' if r['failed'] else 'healthy'}, {r['law']}",
-            str(r["trials"]),
-            str(r["with_cpm"]),
-            *(str(r[c]) for c in used),
+            f"{record['scenario']}: {'failed' if record['failed'] else 'healthy'}, {record['law']}",
+            str(record["trials"]),
+            str(record["with_cpm"]),
+            *(str(record[cause]) for cause in used_causes),
         ]
-        for _, r in ends.iterrows()
+        for _, record in endings.iterrows()
     ]
-    head = ["scenario", "trials", "with a CPM", *(c.replace("_", " ") for c in used)]
+    header = ["scenario", "trials", "with a CPM", *(cause.replace("_", " ") for cause in used_causes)]
     blocks: list[Block] = [
-        Table(rows, head, frozenset(range(1, len(head))), caption=labelled(a, f"How the {o.cause.size:,} trials ended"))
+        Table(
+            rows,
+            header,
+            frozenset(range(1, len(header))),
+            caption=label_table(analysis, f"How the {observed.cause.size:,} trials ended"),
+        )
     ]
-    if len(lost):
-        for by, most in (("subject", 30), ("task", 30)):
-            count = lost[by].value_counts()
-            said = ", ".join(f"{name} ({n})" for name, n in count.head(most).items())
-            rest = "" if len(count) <= most else f" and {len(count) - most} more"
-            blocks.append(Text(f"Trials without a CPM by {by}: {said}{rest}. Every one is in missing.csv.", quiet=True))
+    if len(missing_trials):
+        for grouping, max_listed in (("subject", 30), ("task", 30)):
+            count = missing_trials[grouping].value_counts()
+            count_texts = ", ".join(f"{name} ({trial_count})" for name, trial_count in count.head(max_listed).items())
+            remainder = "" if len(count) <= max_listed else f" and {len(count) - max_listed} more"
+            blocks.append(
+                Text(f"Trials without a CPM by {grouping}: {count_texts}{remainder}. Every one is in missing.csv.", quiet=True)
+            )
     return blocks
 
 
-def _method(a: Analysis) -> list[Block]:
-    o = a.observed
+def _build_method(analysis: Analysis) -> list[Block]:
+    observed = analysis.observed
     blocks: list[Block] = [
-        Callout(Markup("<br>").join(f"• {n}" for n in a.notes), title="Read this before using these numbers")
+        Callout(Markup("<br>").join(f"• {note}" for note in analysis.notes), title="Read this before using these numbers")
     ]
-    count = len(o.normalisers)
+    count = len(observed.normalisers)
     blocks.append(
         Text(
             f"CPM is the sum of {count} measures, each divided by its largest value over all trials compared "
@@ -305,19 +359,26 @@ def _method(a: Analysis) -> list[Block]:
             "and effect sizes are computed here. Training trials are not analysed."
         )
     )
-    table: DataFrame = a.table("normalisers")
-    who = [x for x in ("operators", "computer") if x in table]
+    table: DataFrame = analysis.table("normalisers")
+    sources = [source for source in ("operators", "computer") if source in table]
     rows: list[list[Cell]] = [
-        [f"{r['measure']}", *(number(float(r[x])) for x in who), "" if r["unit"] == "1" else str(r["unit"])]
-        for _, r in table.iterrows()
+        [
+            f"{record['measure']}",
+            *(format_number(float(record[source])) for source in sources),
+            "" if record["unit"] == "1" else str(record["unit"]),
+        ]
+        for _, record in table.iterrows()
     ]
     blocks.append(
         Table(
-            rows, ("largest value", *who, "unit"), frozenset(range(1, 1 + len(who))), caption=labelled(a, "Normalisers of CPM")
+            rows,
+            ("largest value", *sources, "unit"),
+            frozenset(range(1, 1 + len(sources))),
+            caption=label_table(analysis, "Normalisers of CPM"),
         )
     )
-    files: list[list[Cell]] = [[f"{name}.csv", ABOUT[name]] for name in (*a.tables, "data_dictionary")]
+    files: list[list[Cell]] = [[f"{name}.csv", TABLE_DESCRIPTIONS[name]] for name in (*analysis.tables, "data_dictionary")]
     blocks.append(
-        Table(files, ("file", "what is in it"), caption=f"{counted(len(files), 'table')} written next to this report")
+        Table(files, ("file", "what is in it"), caption=f"{format_count(len(files), 'table')} written next to this report")
     )
     return blocks

@@ -1,4 +1,4 @@
-"""The tables of an analysis as CSV files that R, JASP and spreadsheets open, with a dictionary of every column."""
+"""Tables of an analysis as CSV files that R, JASP, and spreadsheets open, with a dictionary of every column."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from holdfast.files.output import put
-from holdfast.files.spreadsheet import csv_text
-from holdfast.teleop.analysis.observations import CAUSES
+from holdfast.files.output import write_files
+from holdfast.files.spreadsheet import write_csv_text
+from holdfast.teleop.analysis.observations import CAUSE_SENTENCES
 from holdfast.teleop.trials.performance import MEASURES
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from holdfast.teleop.analysis.result import Analysis
 
-ABOUT = {
+TABLE_DESCRIPTIONS = {
     "trials": "one row for each trial that there should be (long format)",
     "computer": "the same of the computer operator",
     "cells": "mean CPM of each subject, law and group of tasks, with the failed arm (long format: R)",
@@ -41,7 +41,7 @@ ABOUT = {
     "data_dictionary": "this list",
 }
 
-_COLUMNS = (
+_COLUMN_MEANINGS = (
     ("data", "simulated: operators are programs; person: operators are people", ""),
     ("subject", "code", ""),
     ("task", "number, from 1", ""),
@@ -49,7 +49,11 @@ _COLUMNS = (
     ("law|first|second|against", "control law", ""),
     ("failed", "1: a joint is locked; 0: healthy", ""),
     ("difficulty", "group of tasks, or all", ""),
-    ("cause", f"why the trial has no CPM; empty if it has one. {'; '.join(f'{k}: {v}' for k, v in CAUSES.items())}", ""),
+    (
+        "cause",
+        f"why the trial has no CPM; empty if it has one. {'; '.join(f'{k}: {v}' for k, v in CAUSE_SENTENCES.items())}",
+        "",
+    ),
     ("cpm", "combined performance measure; smaller is better", "1"),
     ("tasks|trials|subjects|n", "how many", ""),
     (
@@ -92,7 +96,7 @@ _COLUMNS = (
     (r"(computer_)?ratio_\d+_\d+", "CPM of the first scenario divided by that of the second; below 1 the first is better", "1"),
     ("computer_median", "median of the computer's trials", "as measured"),
     ("with_cpm|computer_with_cpm", "trials with a CPM, of operators and computer", ""),
-    ("|".join(k.replace(" ", "_") for k in CAUSES), "trials without a CPM by cause", ""),
+    ("|".join(k.replace(" ", "_") for k in CAUSE_SENTENCES), "trials without a CPM by cause", ""),
     ("operators|computer", "largest measure", "as measured"),
     (
         "operators_gain|computer_gains|same_direction",
@@ -115,23 +119,23 @@ _COLUMNS = (
 
 
 def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
-    """Write every table, and the dictionary; a missing number is NA, a decimal point is a point.
+    """Write every table, and the dictionary; a missing number is NA, and the decimal separator is a point.
 
     Raises:
         StoreError: The folder or a file cannot be written.
     """
-    tables = {**analysis.tables, "data_dictionary": dictionary(analysis)}
-    return put(folder, {f"{name}.csv": csv_text(table, "NA") for name, table in tables.items()})
+    tables = {**analysis.tables, "data_dictionary": describe_columns(analysis)}
+    return write_files(folder, {f"{name}.csv": write_csv_text(table, "NA") for name, table in tables.items()})
 
 
-def dictionary(analysis: Analysis) -> DataFrame:
-    """A row for each column of each table: table, column, meaning, unit."""
+def describe_columns(analysis: Analysis) -> DataFrame:
+    """Return a row for each column of each table: table, column, meaning, unit."""
     from pandas import DataFrame
 
     rows = []
     for name, table in analysis.tables.items():
-        rows.append((name, "", ABOUT[name], ""))
+        rows.append((name, "", TABLE_DESCRIPTIONS[name], ""))
         for column in map(str, table.columns):
-            meaning, unit = next((about, unit) for pattern, about, unit in _COLUMNS if re.fullmatch(pattern, column))
+            meaning, unit = next((about, unit) for pattern, about, unit in _COLUMN_MEANINGS if re.fullmatch(pattern, column))
             rows.append((name, column, meaning, unit))
     return DataFrame(rows, columns=["table", "column", "meaning", "unit"])

@@ -1,1 +1,1 @@
-"""That what is asked for cannot be done."""
+"""Proofs that a requested task is infeasible."""

@@ -1,4 +1,4 @@
-"""That what is asked for cannot be done: the goal, or a pose of the tool path."""
+"""Proofs that the goal or a pose of the tool path is unreachable."""
 
 from __future__ import annotations
 
@@ -8,91 +8,98 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, plane_normal
 from holdfast.clearance.clearance import Clearance
-from holdfast.clearance.exact.certainty import certain_contacts
-from holdfast.enclosure import Configurations, Finding, all_configurations
-from holdfast.enclosure.box_bounds import Parts, idle
+from holdfast.clearance.exact.certainty import find_certain_contacts
+from holdfast.enclosure import Configurations, SearchOutcome, all_configurations
+from holdfast.enclosure.box_bounds import BoundedTask, is_last_joint_idle
 from holdfast.enclosure.boxes import Blocked
 from holdfast.errors import TaskError
 from holdfast.failures import Degraded
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.recovery import Recovery
 from holdfast.recovery.rows import RowSolver
-from holdfast.recovery.space import Space
+from holdfast.recovery.space import FreeSpace
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
-_SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
+MAX_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
+_RELATIVE_SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
 Tolerance = tuple[float, float]
 ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
-EXACT: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
+EXACT_TOLERANCE: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
 
 
-def unreachable(solver: RowSolver, free: Flags, at: Array, pose: Array) -> str | None:
-    """A sentence that proves a pose (4, 4) out of reach, if its position counts and the bound says so.
+def prove_unreachable(solver: RowSolver, free: Flags, q_locked: Array, pose: Array) -> str | None:
+    """Prove that a pose (4, 4) is out of reach, if its position counts, and return the sentence; None if that fails.
 
     Args:
         solver: Of the rows that count, with the arm and the limits in force.
         free: (n,) joints that move.
-        at: (n,) where the others are.
+        q_locked: (n,) where the others are.
         pose: (4, 4) of the end effector, m.
     """
     rows, arm = solver.rows, solver.arm
-    linear = rows.matrix[np.abs(rows.matrix[:, 3:]).max(axis=1) == 0, :3]
-    rank = int(np.linalg.matrix_rank(linear)) if len(linear) else 0
+    linear_rows = rows.matrix[np.abs(rows.matrix[:, 3:]).max(axis=1) == 0, :3]
+    rank = int(np.linalg.matrix_rank(linear_rows)) if len(linear_rows) else 0
     normal = plane_normal(arm)
     if rank == 3:
         normal = None
-    elif rank != 2 or normal is None or rows.linear != "base" or np.abs(linear @ normal).max() > 1e-9:
+    elif rank != 2 or normal is None or rows.linear != "base" or np.abs(linear_rows @ normal).max() > 1e-9:
         return None
-    return out_of_reach(arm, free, at, pose, rows.m == 6, normal)
+    return prove_out_of_reach(arm, free, q_locked, pose, rows.m == 6, normal)
 
 
-def every_clear(
-    made: Recovery, solver: RowSolver, space: Space, poses: Array
+def enumerate_collision_free(
+    recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: Array
 ) -> tuple[Array, NDArray[np.int64], list[str | None]]:
-    """Enumerate the clear configurations of poses (G, 4, 4), each pose in half of the time that is left.
+    """Enumerate the collision-free configurations of poses (G, 4, 4), each pose in half of the remaining time.
 
     Returns:
         Configurations (K, n), the pose (K,) of each, and for each pose the proof that it has none, if there is one. A proof
         is about the rows of the task alone, so it holds for every tilt of the tool.
     """
-    goals, owner, proofs = np.zeros((0, made.arm.n)), np.zeros(0, dtype=np.int64), list[str | None]()
-    for k, pose in enumerate(poses):
-        blocked = blocked_in(space)
-        found = listed(made.degraded, made.task, pose, space.seconds_left / 2, blocked)
-        proofs.append(proved_by(found, made.clearance, "" if blocked is None else blocked.what))
-        some = goals[:0] if found is None else found.q
-        some = some[space.clear(some) & solver.inside_cone(some, pose)] if len(some) else some
-        goals, owner = np.concatenate([goals, some]), np.append(owner, np.full(len(some), k))
-    return goals, owner, proofs
+    goals, pose_indices, proofs = np.zeros((0, recovery.arm.n)), np.zeros(0, dtype=np.int64), list[str | None]()
+    for pose_index, pose in enumerate(poses):
+        blocked = make_blocked_boxes(space)
+        solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked)
+        proofs.append(prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names))
+        configurations = goals[:0] if solutions is None else solutions.q
+        configurations = (
+            configurations[space.are_valid(configurations) & solver.is_inside_cone(configurations, pose)]
+            if len(configurations)
+            else configurations
+        )
+        goals, pose_indices = (
+            np.concatenate([goals, configurations]),
+            np.append(pose_indices, np.full(len(configurations), pose_index)),
+        )
+    return goals, pose_indices, proofs
 
 
-def nothing_within(degraded: Degraded, task: Task, pose: Array, space: Space, tolerance: Tolerance) -> bool:
-    """Whether it is proved that nothing clear misses a pose (4, 4) by no more than a tolerance, m and rad.
+def proves_no_solution(degraded: Degraded, task: Task, pose: Array, space: FreeSpace, tolerance: Tolerance) -> bool:
+    """Return True if it is proved that no collision-free configuration meets a pose (4, 4) within a tolerance, m and rad.
 
     In half of the time that is left.
     """
-    found = listed(degraded, task, pose, space.seconds_left / 2, blocked_in(space), tolerance)
-    return found is not None and found.none
+    solutions = enumerate_configurations(degraded, task, pose, space.seconds_left / 2, make_blocked_boxes(space), tolerance)
+    return solutions is not None and solutions.proved_empty
 
 
-def blocked_in(space: Space) -> BlockedBoxes | None:
-    """Which boxes are blocked; None without a clearance."""
-    kept = space.clearance
-    return None if kept is None else BlockedBoxes(kept, space.margin, (space.low, space.high))
+def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:
+    """Return the test for blocked boxes; None without a clearance."""
+    clearance = space.clearance
+    return None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
 
 
-def listed(
+def enumerate_configurations(
     degraded: Degraded,
     task: Task,
     pose: Array,
-    seconds: float,
-    blocked: Blocked | None = None,
-    tolerance: Tolerance = EXACT,
+    time_limit: float,
+    is_blocked: Blocked | None = None,
+    tolerance: Tolerance = EXACT_TOLERANCE,
 ) -> Configurations | None:
-    """Every configuration of a pose (4, 4) within the limits in force, if that can be told; None where nothing can be proved.
+    """Enumerate the configurations of a pose (4, 4) within the limits in force; None if the list cannot be proved complete.
 
     Those in which the arm certainly touches something are left out.
 
@@ -100,15 +107,17 @@ def listed(
         degraded: What is in force, every lock with its value.
         task: Whose rows count.
         pose: (4, 4) of the end effector, m.
-        seconds: At most.
-        blocked: Which boxes are; None without a cell.
+        time_limit: At most.
+        is_blocked: Which boxes are; None without a cell.
         tolerance: m and rad by which the pose may be missed.
     """
     limits = degraded.lo, degraded.hi
-    known = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)  # or it turns once
-    if not known.all() or not seconds > 0:
+    is_enumerable = np.isfinite(limits).all(axis=0) | (
+        np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic
+    )  # or it turns once
+    if not is_enumerable.all() or not time_limit > 0:
         return None
-    allowed = {} if np.isinf(seconds) else {"time_limit": seconds}
+    time_options = {} if np.isinf(time_limit) else {"time_limit": time_limit}
     try:
         return all_configurations(
             degraded.arm,
@@ -116,44 +125,54 @@ def listed(
             task,
             limits=limits,
             tolerance=tolerance,
-            most_boxes=BOXES,
+            most_boxes=MAX_BOXES,
             first=False,
-            blocked=blocked,
-            **allowed,
+            blocked=is_blocked,
+            **time_options,
         )
     except TaskError:
         return None
 
 
-def proved_by(found: Configurations | None, clearance: Clearance | None, what: str = "") -> str | None:
-    """A sentence that proves that no clear configuration exists: there is none, or each of them touches something.
+def prove_no_configuration(
+    solutions: Configurations | None, clearance: Clearance | None, blocker_names: str = ""
+) -> str | None:
+    """Prove that no collision-free configuration exists, and return the sentence: there is none, or each touches something.
 
     Args:
-        found: All there are.
+        solutions: All there are.
         clearance: By which they are judged.
-        what: Names of what blocked the boxes that were left out.
+        blocker_names: Names of what blocked the boxes that were left out.
     """
-    if found is None or found.finding not in (Finding.NONE, Finding.ALL):
+    if solutions is None or solutions.finding not in (SearchOutcome.NONE, SearchOutcome.ALL):
         return None
-    if not len(found.q) and found.blocked:
+    if not len(solutions.q) and solutions.blocked:
         return (
-            f"every configuration within the limits that meets it touches something ({what}), by {found.boxes:,} boxes of "
+            f"every configuration within the limits that meets it touches something ({blocker_names}), by "
+            f"{solutions.boxes:,} boxes of "
             "joints, up to floating point"
         )
-    if not len(found.q):
-        return f"no configuration within the limits meets it, by {found.boxes:,} boxes of joints, up to floating point"
-    if found.lower[-1] < found.upper[-1] and idle(found.arm, Parts.of(found.arm, found.task)):
+    if not len(solutions.q):
+        return f"no configuration within the limits meets it, by {solutions.boxes:,} boxes of joints, up to floating point"
+    if solutions.lower[-1] < solutions.upper[-1] and is_last_joint_idle(
+        solutions.arm, BoundedTask.from_task(solutions.arm, solutions.task)
+    ):
         return None  # the last joint was looked at in one place, and its turn may clear what touches
-    if clearance is None or not all(certain_contacts(clearance, found.q)):
+    if clearance is None or not all(find_certain_contacts(clearance, solutions.q)):
         return None
-    return f"each of its {len(found.q)} configurations touches something, by {found.boxes:,} boxes of joints and exact geometry"
+    return (
+        f"each of its {len(solutions.q)} configurations touches something, by {solutions.boxes:,} boxes of joints and "
+        f"exact geometry"
+    )
 
 
 # ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------
 
 
-def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool, planar: Array | None) -> str | None:
-    """A sentence that proves a pose out of reach with joints locked; None if this bound cannot.
+def prove_out_of_reach(
+    arm: Arm, free: Flags, q_locked: Array, pose: Array, whole_pose: bool, planar: Array | None
+) -> str | None:
+    """Prove that a pose is out of reach with joints locked, and return the sentence; None if this bound cannot prove it.
 
     The failed arm is a chain of rigid parts between the axes that still move. The end effector is no farther from the first of
     them than the sum of the parts' lengths, and no nearer than the longest less the others. Of a full pose also the origin of
@@ -162,7 +181,7 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
     Args:
         arm: The arm.
         free: (n,) joints that move.
-        at: (n,) where the others are.
+        q_locked: (n,) where the others are.
         pose: (4, 4) of the end effector, m.
         whole_pose: The orientation counts too.
         planar: Normal (3,) of the plane in which the arm moves and the position counts, or None for the whole position.
@@ -170,52 +189,56 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
     moving = np.flatnonzero(free)
     if not moving.size:
         return None
-    flat = planar is not None and not arm.prismatic[moving].any()
-    place, offsets = arm.base, []
-    for k, joint in enumerate(arm.joints):
-        place = place @ joint.origin
-        if free[k]:
-            offsets.append(place[:3, 3])
-            place = np.eye(4)
+    is_planar = planar is not None and not arm.prismatic[moving].any()
+    frame, offsets = arm.base, []
+    for index, joint in enumerate(arm.joints):
+        frame = frame @ joint.origin
+        if free[index]:
+            offsets.append(frame[:3, 3])
+            frame = np.eye(4)
         else:
-            place = place @ joint.motion(float(at[k]))
-    tail = place @ arm.tool  # from the last moving joint to the tool
-    centre = offsets[0]
-    lengths = [_range(arm, k, offset, flat) for k, offset in zip(moving[:-1], offsets[1:], strict=True)]
-    proofs = [("the end effector", pose[:3, 3], [*lengths, _range(arm, moving[-1], tail[:3, 3], flat)])]
+            frame = frame @ joint.motion(float(q_locked[index]))
+    tool_offset = frame @ arm.tool  # from the last moving joint to the tool
+    center = offsets[0]
+    lengths = [_bound_distance(arm, index, offset, is_planar) for index, offset in zip(moving[:-1], offsets[1:], strict=True)]
+    proofs = [("the end effector", pose[:3, 3], [*lengths, _bound_distance(arm, moving[-1], tool_offset[:3, 3], is_planar)])]
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
-        wrist = pose @ np.linalg.inv(tail)
+        wrist = pose @ np.linalg.inv(tool_offset)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
-    slack = _SLACK * arm.length_unit
-    for what, target, spans in proofs:
-        away = target - centre
+    slack = _RELATIVE_SLACK * arm.length_unit
+    for target_name, target, spans in proofs:
+        offset_to_target = target - center
         if planar is not None:
-            away = away - planar * (planar @ away)
-        distance = float(np.linalg.norm(away))
-        most = sum(high for _, high in spans)
-        longest = max(spans, key=lambda s: s[0])
-        least = longest[0] - (most - longest[1])
-        if distance > most + slack:
+            offset_to_target = offset_to_target - planar * (planar @ offset_to_target)
+        distance = float(np.linalg.norm(offset_to_target))
+        max_distance = sum(span_end for _, span_end in spans)
+        longest = max(spans, key=lambda span: span[0])
+        min_distance = longest[0] - (max_distance - longest[1])
+        if distance > max_distance + slack:
             return (
-                f"proved out of reach: {what} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with these "
-                f"joints locked it is at most {most:.4g} m away"
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
+                f"with these "
+                f"joints locked it is at most {max_distance:.4g} m away"
             )
-        if (planar is None or flat) and distance < least - slack:
+        if (planar is None or is_planar) and distance < min_distance - slack:
             return (
-                f"proved out of reach: {what} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with these "
-                f"joints locked it is at least {least:.4g} m away"
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
+                f"with these "
+                f"joints locked it is at least {min_distance:.4g} m away"
             )
     return None
 
 
-def _range(arm: Arm, k: int, offset: Array, flat: bool) -> tuple[float, float]:
-    """Least and greatest distance from the origin of joint k to a point at ``offset`` (3,) beyond it; flat: across its axis."""
+def _bound_distance(arm: Arm, k: int, offset: Array, is_planar: bool) -> tuple[float, float]:
+    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar:
+    across its axis.
+    """
     joint = arm.joints[k]
-    along = float(joint.axis @ offset)
-    across = float(np.linalg.norm(offset - along * joint.axis))
+    axial_component = float(joint.axis @ offset)
+    axis_distance = float(np.linalg.norm(offset - axial_component * joint.axis))
     if not joint.prismatic:
-        length = across if flat else float(np.hypot(across, along))
+        length = axis_distance if is_planar else float(np.hypot(axis_distance, axial_component))
         return length, length
-    ends = [abs(along + x) for x in (joint.lower, joint.upper)]
-    nearest = 0.0 if joint.lower <= -along <= joint.upper else min(ends)
-    return float(np.hypot(across, nearest)), float(np.hypot(across, max(ends)))
+    end_distances = [abs(axial_component + limit) for limit in (joint.lower, joint.upper)]
+    nearest = 0.0 if joint.lower <= -axial_component <= joint.upper else min(end_distances)
+    return float(np.hypot(axis_distance, nearest)), float(np.hypot(axis_distance, max(end_distances)))

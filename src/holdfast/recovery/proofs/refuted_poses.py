@@ -1,4 +1,4 @@
-"""A proof that a pose has no configuration as a certificate, which others check without holdfast."""
+"""Certificate of a proof that a pose has no configuration, which can be verified without holdfast."""
 
 from __future__ import annotations
 
@@ -11,39 +11,39 @@ from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.prover import certify
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
-from holdfast.grammar import TASKS
+from holdfast.grammar import TASK_SIZES
 
 Array = NDArray[np.float64]
 
-_FINEST = 20  # halvings of each joint: a single pose may be near to one that is reached
+_MAX_BISECTIONS = 20  # halvings of each joint: a single pose may be near to one that is reached
 
 
-def refuted_pose(degraded: Degraded, task: Task, pose: Array, time_limit: float | None) -> Refutation:
-    """That no configuration within what is left of the limits has a pose (4, 4): locks are limits that are equal.
+def certify_unreachable_pose(degraded: Degraded, task: Task, pose: Array, time_limit: float | None) -> Refutation:
+    """Certify that no configuration within the remaining limits has a pose (4, 4); locked joints have equal limits.
 
     Raises:
         InputError: Other rows than those of a named task, or nothing is proved of the arm alone.
     """
     arm = degraded.arm
-    if task.name not in TASKS:
-        raise InputError(f"task '{task.name}' has rows of its own; certificates are about {', '.join(TASKS)}")
-    flat = task.name.startswith("planar")
+    if task.name not in TASK_SIZES:
+        raise InputError(f"task '{task.name}' has rows of its own; certificates are about {', '.join(TASK_SIZES)}")
+    is_planar = task.name.startswith("planar")
     yaw = float(np.arctan2(pose[1, 0], pose[0, 0]))
-    found = certify(
+    certificate = certify(
         out_of_reach_claim(
             arm,
-            pose[: 2 if flat else 3, 3],
+            pose[: 2 if is_planar else 3, 3],
             0.0,
             rotation=pose[:3, :3] if task.m > 3 else None,
             rpy=(yaw, yaw) if task.name == "planar-pose" else None,
             task="pointing" if task.name == "pointing" else None,
             limits=dict(enumerate(zip(degraded.lo.tolist(), degraded.hi.tolist(), strict=True))),
         ),
-        halvings=_FINEST,
+        halvings=_MAX_BISECTIONS,
         time_limit=time_limit,
     )
-    if found.refuted:
+    if certificate.refuted:
         raise InputError("there is no certificate: without the objects around it, and its own links, the arm reaches the pose")
-    if not found.ok:
-        raise InputError(f"there is no certificate: {found.describe()[1]} More time may do")
-    return found
+    if not certificate.ok:
+        raise InputError(f"there is no certificate: {certificate.describe()[1]} More time may do")
+    return certificate

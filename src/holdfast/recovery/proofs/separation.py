@@ -1,54 +1,73 @@
-"""That no motion leads to the goal, or to the beginning of a tool path, and how exactly that is known."""
+"""Proofs that no motion leads to the goal, or to the beginning of a tool path, and the tolerance for which they hold."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.recovery.proofs.flood import Flood, confined, disconnected, holds_configuration, may_meet
-from holdfast.recovery.proofs.reach import EXACT, Tolerance, blocked_in, listed
+from holdfast.recovery.proofs.flood import (
+    Flood,
+    find_confined_floods,
+    make_configuration_test,
+    make_pose_test,
+    prove_disconnected,
+)
+from holdfast.recovery.proofs.reach import EXACT_TOLERANCE, Tolerance, enumerate_configurations, make_blocked_boxes
 from holdfast.recovery.recovery import Recovery
-from holdfast.recovery.rows import Rows
-from holdfast.recovery.space import Space
+from holdfast.recovery.rows import TaskRows
+from holdfast.recovery.space import FreeSpace
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
-def separated(
-    made: Recovery, rows: Rows, space: Space, *, start: Array, known: Array, poses: Array, q: Array | None = None
+def prove_separated(
+    recovery: Recovery,
+    rows: TaskRows,
+    space: FreeSpace,
+    *,
+    start: Array,
+    known_goals: Array,
+    poses: Array,
+    q_goal: Array | None = None,
 ) -> tuple[str, bool] | None:
-    """A sentence that proves it, and whether it holds within the tolerance asked for; None if it could not be proved.
+    """Prove that no motion leads to the goal; return the sentence and its validity within the tolerance, or None.
 
     Args:
-        made: The recovery, as far as it is known.
+        recovery: The recovery, as far as it is known.
         rows: That count.
         space: Where the arm may be.
         start: (n,) where it is.
-        known: (K, n) configurations that were found and cannot be got to.
+        known_goals: (K, n) configurations that were found and cannot be got to.
         poses: (G, 4, 4) to any of which no motion leads.
-        q: (n,) the configuration instead, if one is asked for.
+        q_goal: (n,) the configuration instead, if one is asked for.
     """
-    allowed = made.tolerance or EXACT
-    proof = disconnected(space, start, may_meet(space, rows, poses, allowed) if q is None else holds_configuration(space, q))
+    requested_tolerance = recovery.tolerance or EXACT_TOLERANCE
+    proof = prove_disconnected(
+        space,
+        start,
+        make_pose_test(space, rows, poses, requested_tolerance) if q_goal is None else make_configuration_test(space, q_goal),
+    )
     if proof is not None:
         return proof, True
-    for flood in confined(space, start, known):
-        for tolerance in dict.fromkeys((allowed, EXACT)):
-            if q is not None or all(_nothing_in(flood, made, pose, space, tolerance) for pose in poses):
-                return flood.sentence, tolerance == allowed
+    for flood in find_confined_floods(space, start, known_goals):
+        for tolerance in dict.fromkeys((requested_tolerance, EXACT_TOLERANCE)):
+            if q_goal is not None or all(_proves_no_goal_in_flood(flood, recovery, pose, space, tolerance) for pose in poses):
+                return flood.proof_sentence, tolerance == requested_tolerance
     return None
 
 
-def _nothing_in(flood: Flood, made: Recovery, pose: Array, space: Space, tolerance: Tolerance) -> bool:
-    """Whether it is proved that no clear configuration of a pose (4, 4) is where a flood got to; in half of the time left."""
-    touching = blocked_in(space)
+def _proves_no_goal_in_flood(flood: Flood, recovery: Recovery, pose: Array, space: FreeSpace, tolerance: Tolerance) -> bool:
+    """Return True if it is proved that no collision-free configuration of a pose (4, 4) is in a flood, in half of the time
+    left.
+    """
+    blocked_boxes = make_blocked_boxes(space)
 
-    def left_out(middle: Array, half: Array) -> Flags:
-        found = flood.misses(middle, half)
-        if touching is not None and not found.all():
-            found[~found] = touching(middle[~found], half[~found])
-        return found
+    def is_excluded(middle: Array, half_widths: Array) -> Flags:
+        excluded = flood.excludes(middle, half_widths)
+        if blocked_boxes is not None and not excluded.all():
+            excluded[~excluded] = blocked_boxes(middle[~excluded], half_widths[~excluded])
+        return excluded
 
-    every = listed(made.degraded, made.task, pose, space.seconds_left / 2, left_out, tolerance)
-    return every is not None and every.none
+    solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, is_excluded, tolerance)
+    return solutions is not None and solutions.proved_empty

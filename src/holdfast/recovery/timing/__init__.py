@@ -1,1 +1,1 @@
-"""When a motion is where: as fast as speeds and accelerations allow, without a stop at every corner."""
+"""Timing of a motion: as fast as speeds and accelerations allow, without a stop at every corner."""

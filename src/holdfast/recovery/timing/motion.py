@@ -1,4 +1,4 @@
-"""A motion through waypoints with its timing: within speeds and accelerations, its corners rounded where that is proved."""
+"""Timed motion through waypoints, within speeds and accelerations, with corners rounded where that is proved valid."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from holdfast.errors import InputError
 from holdfast.failures import Degraded
 from holdfast.files.output import write_table
 from holdfast.paths.joint_table import motion_columns
-from holdfast.recovery.space import Space
-from holdfast.recovery.timing.profile import fastest
-from holdfast.recovery.timing.rounding import Corners, cuts_of, rounded
-from holdfast.words import counted
+from holdfast.recovery.space import FreeSpace
+from holdfast.recovery.timing.profile import compute_fastest_profile
+from holdfast.recovery.timing.rounding import CornerChords, find_corner_cuts, round_corners
+from holdfast.words import format_count
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-OFF_PATH = 5e-4, np.deg2rad(0.25)  # m and rad: what a rounded corner may take off a tool path
-_SAME = 1e-12  # rad and m: waypoints this near are one
-_MOST = 1_000_000  # rows
-_CLOSE = 1.0  # of the shorter line beside two waypoints: those nearer to each other than that are tried as one
+PATH_TOLERANCE = 5e-4, np.deg2rad(0.25)  # m and rad: what a rounded corner may take off a tool path
+_DUPLICATE_TOLERANCE = 1e-12  # rad and m: waypoints this near are one
+_MAX_ROWS = 1_000_000  # rows
+_MERGE_RATIO = 1.0  # of the shorter line beside two waypoints: those nearer to each other than that are tried as one
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TimedMotion:
-    """A motion within speeds and accelerations that begins and ends at standstill, at equal steps of time.
+    """Motion within speeds and accelerations that begins and ends at standstill, at equal steps of time.
 
     Between two rows the motion goes on smoothly: differences of the rows keep the limits as the motion does.
 
@@ -70,29 +70,29 @@ class TimedMotion:
         Raises:
             StoreError: The file cannot be written.
         """
-        head = ["time_s", *(name for names in motion_columns(self.arm) for name in names)]
-        return write_table(file, "motion", head, np.column_stack([self.time, self.q, self.qd, self.qdd]), "%.17g")
+        columns = ["time_s", *(name for names in motion_columns(self.arm) for name in names)]
+        return write_table(file, "motion", columns, np.column_stack([self.time, self.q, self.qd, self.qdd]), "%.17g")
 
     def describe(self) -> str:
-        """One sentence for people."""
+        """Return the timing in one sentence."""
         without = "" if self.without is None else f" ({self.without:.3g} s at the speed limits alone)"
-        stops = f", with {counted(self.stops, 'stop')} on the way" if self.stops else ""
-        return f"within the accelerations given it takes {self.duration:.3g} s{without}{stops}"
+        stops_text = f", with {format_count(self.stops, 'stop')} on the way" if self.stops else ""
+        return f"within the accelerations given it takes {self.duration:.3g} s{without}{stops_text}"
 
 
-def timed_motion(
-    space: Space,
+def time_motion(
+    space: FreeSpace,
     degraded: Degraded,
     q: Array,
     *,
     accelerations: Array,
     period: float,
     without: float | None,
-    exact: Sequence[int] = (),
-    along: tuple[Array, slice] | None = None,
-    cautious: bool = False,
+    stop_indices: Sequence[int] = (),
+    path_samples: tuple[Array, slice] | None = None,
+    stop_at_corners: bool = False,
 ) -> TimedMotion:
-    """The fastest motion found through waypoints (K, n), straight in joint space but for their corners.
+    """Return the fastest motion found through waypoints (K, n), straight in joint space except for their corners.
 
     A corner is rounded by the largest parabola, of a few, that is proved to keep limits, rows and clearance; along a tool path
     it stays near it too.
@@ -104,39 +104,48 @@ def timed_motion(
         accelerations: (n,) limits, rad/s^2 and m/s^2.
         period: s between rows.
         without: s that the motion takes at the speed limits alone, if there are any.
-        exact: At which waypoints it must stop.
-        along: Places (S,) on the tool path, and which waypoints are there.
-        cautious: Round no corner: stop at every waypoint.
+        stop_indices: At which waypoints it must stop.
+        path_samples: Places (S,) on the tool path, and which waypoints are there.
+        stop_at_corners: Round no corner: stop at every waypoint.
 
     Raises:
         InputError: There would be more than a million rows.
     """
-    place = np.full(len(q), np.nan)
-    if along is not None:
-        place[along[1]] = along[0]
-    held = np.zeros(len(q), dtype=bool)
-    held[list(exact)] = True
-    new = np.concatenate([[True], np.abs(np.diff(q, axis=0)).max(axis=1) > _SAME])
-    group = np.cumsum(new) - 1
-    way, held, place = q[new], np.bincount(group, held) > 0, place[new]
-    way[-1] = q[-1]
-    ways = [(way, held, place)]
-    if not cautious:
-        joined = _joined(space, way, held | np.isfinite(place), held, place)
-        ways += [joined] * (len(joined[0]) < len(way))
+    path_fractions = np.full(len(q), np.nan)
+    if path_samples is not None:
+        path_fractions[path_samples[1]] = path_samples[0]
+    must_stop = np.zeros(len(q), dtype=bool)
+    must_stop[list(stop_indices)] = True
+    is_distinct = np.concatenate([[True], np.abs(np.diff(q, axis=0)).max(axis=1) > _DUPLICATE_TOLERANCE])
+    group = np.cumsum(is_distinct) - 1
+    waypoints, must_stop, path_fractions = q[is_distinct], np.bincount(group, must_stop) > 0, path_fractions[is_distinct]
+    waypoints[-1] = q[-1]
+    variants = [(waypoints, must_stop, path_fractions)]
+    if not stop_at_corners:
+        merged = _merge_close_waypoints(space, waypoints, must_stop | np.isfinite(path_fractions), must_stop, path_fractions)
+        variants += [merged] * (len(merged[0]) < len(waypoints))
     speeds = np.where(degraded.v > 0, degraded.v, np.inf)
-    found = []
-    for way, held, place in ways:
-        cut = np.zeros(len(way)) if cautious else cuts_of(way, held, partial(_allowed, space, np.isfinite(place)))
-        found.append((*_sampled(way, cut, place, speeds, accelerations, period), int((cut[1:-1] == 0).sum())))
-    columns, rates, seconds, duration, stops = min(found, key=lambda made: made[3])
+    timings = []
+    for waypoints, must_stop, path_fractions in variants:
+        cut_lengths = (
+            np.zeros(len(waypoints))
+            if stop_at_corners
+            else find_corner_cuts(waypoints, must_stop, partial(_are_chords_valid, space, np.isfinite(path_fractions)))
+        )
+        timings.append(
+            (
+                *_sample_profile(waypoints, cut_lengths, path_fractions, speeds, accelerations, period),
+                int((cut_lengths[1:-1] == 0).sum()),
+            )
+        )
+    columns, rates, joint_accelerations, duration, stops = min(timings, key=lambda timing: timing[3])
     arm = space.arm
     return TimedMotion(
         arm=degraded.arm,
         time=np.arange(len(columns), dtype=np.float64) * period,
         q=columns[:, : arm.n],
         qd=rates,
-        qdd=seconds,
+        qdd=joint_accelerations,
         accelerations=accelerations,
         duration=duration,
         without=without,
@@ -145,62 +154,85 @@ def timed_motion(
     )
 
 
-def _allowed(space: Space, near: Flags, chords: Corners) -> Flags:
-    """Which chords are free, and where waypoints are on a tool path (K,) hardly off it."""
-    good = space.edges(chords.first, chords.last, chords.away)
-    some = np.flatnonzero(good & near[chords.corner])
-    if some.size:
-        good[some] = _near(space.arm, chords.last[some], chords.cut[some])
-    return good
+def _are_chords_valid(space: FreeSpace, on_path: Flags, chords: CornerChords) -> Flags:
+    """Return (E,) True for chords that are valid and, where waypoints are on a tool path (K,), within the tolerance of the
+    path.
+    """
+    is_valid = space.are_segments_valid(chords.first, chords.last, chords.deviations)
+    indices = np.flatnonzero(is_valid & on_path[chords.corner])
+    if indices.size:
+        is_valid[indices] = _is_tool_near(space.arm, chords.last[indices], chords.line_points[indices])
+    return is_valid
 
 
-def _joined(space: Space, way: Array, stays: Flags, held: Flags, place: Array) -> tuple[Array, Flags, Array]:
-    """The way (K, n) with one waypoint for two close ones that need not stay, as a short line leaves little to round.
+def _merge_close_waypoints(
+    space: FreeSpace, waypoints: Array, is_fixed: Flags, must_stop: Flags, path_fractions: Array
+) -> tuple[Array, Flags, Array]:
+    """Replace two close waypoints that need not stay by one, as a short line leaves little to round.
 
     It is where the lines beside them come nearest to each other, drawn on, or in the middle of the two: if the new lines are
     proved to be free.
     """
-    k = 1
-    while k < len(way) - 2:
-        before, a, b, after = (way[i] for i in range(k - 1, k + 3))
-        towards, onwards = a - before, after - b
-        if not stays[k : k + 2].any() and np.linalg.norm(b - a) < _CLOSE * min(map(np.linalg.norm, (towards, onwards))):
-            s, t = np.linalg.lstsq(np.stack([towards, onwards], axis=1), b - a)[0]
-            tried = np.stack([(a + s * towards + b - t * onwards) / 2, (a + b) / 2])
-            free = space.edges(np.tile(before, (2, 1)), tried) & space.edges(tried, np.tile(after, (2, 1)))
-            free[0] &= s > -1 and t > -1
-            if free.any():
-                way = np.insert(np.delete(way, [k, k + 1], axis=0), k, tried[free.argmax()], axis=0)
-                stays, held, place = np.delete(stays, k), np.delete(held, k), np.delete(place, k)
+    index = 1
+    while index < len(waypoints) - 2:
+        before, first, second, after = (waypoints[neighbor] for neighbor in range(index - 1, index + 3))
+        incoming, outgoing = first - before, after - second
+        if not is_fixed[index : index + 2].any() and np.linalg.norm(second - first) < _MERGE_RATIO * min(
+            map(np.linalg.norm, (incoming, outgoing))
+        ):
+            s, t = np.linalg.lstsq(np.stack([incoming, outgoing], axis=1), second - first)[0]
+            candidates = np.stack([(first + s * incoming + second - t * outgoing) / 2, (first + second) / 2])
+            is_valid = space.are_segments_valid(np.tile(before, (2, 1)), candidates) & space.are_segments_valid(
+                candidates, np.tile(after, (2, 1))
+            )
+            is_valid[0] &= s > -1 and t > -1
+            if is_valid.any():
+                waypoints = np.insert(
+                    np.delete(waypoints, [index, index + 1], axis=0), index, candidates[is_valid.argmax()], axis=0
+                )
+                is_fixed, must_stop, path_fractions = (
+                    np.delete(is_fixed, index),
+                    np.delete(must_stop, index),
+                    np.delete(path_fractions, index),
+                )
                 continue
-        k += 1
-    return way, held, place
+        index += 1
+    return waypoints, must_stop, path_fractions
 
 
-def _sampled(
-    way: Array, cut: Array, place: Array, speeds: Array, accelerations: Array, period: float
+def _sample_profile(
+    waypoints: Array, cut_lengths: Array, path_fractions: Array, speeds: Array, accelerations: Array, period: float
 ) -> tuple[Array, Array, Array, float]:
-    """Joints and the place (N, n + 1), rates and accelerations (N, n) every period, and the duration of the motion, s."""
-    n = way.shape[1]
-    if len(way) == 1:
-        return np.column_stack([way, place]), 0 * way, 0 * way, 0.0
-    pieces = rounded(way, cut, place[:, None])
-    profile = fastest(pieces, speeds, np.where(accelerations > 0, accelerations, np.inf))
+    """Return joints and path fraction (N, n + 1), rates and accelerations (N, n) every period, and the duration of the motion,
+    s.
+    """
+    n = waypoints.shape[1]
+    if len(waypoints) == 1:
+        return np.column_stack([waypoints, path_fractions]), 0 * waypoints, 0 * waypoints, 0.0
+    pieces = round_corners(waypoints, cut_lengths, path_fractions[:, None])
+    profile = compute_fastest_profile(pieces, speeds, np.where(accelerations > 0, accelerations, np.inf))
     duration = float(profile.time[-1])
-    if not duration < _MOST * period:
+    if not duration < _MAX_ROWS * period:
         raise InputError(
-            f"the motion takes {duration:.4g} s, more than {_MOST:,} rows {period:g} s apart; give a longer period"
+            f"the motion takes {duration:.4g} s, more than {_MAX_ROWS:,} rows {period:g} s apart; give a longer period"
         )
     count = int(np.ceil(duration / period * (1 - 1e-12)))
-    pace = duration / (count * period)  # whole periods: it is slowed by less than one
-    columns, rates, seconds = profile.at(pieces, np.append(np.arange(count) * period * pace, duration))
-    columns[-1, :n], rates[-1] = way[-1], 0.0
-    return columns, rates[:, :n] * pace + 0.0, seconds[:, :n] * pace**2 + 0.0, duration  # + 0: no -0 in a file
+    time_scale = duration / (count * period)  # whole periods: it is slowed by less than one
+    columns, rates, joint_accelerations = profile.sample(pieces, np.append(np.arange(count) * period * time_scale, duration))
+    columns[-1, :n], rates[-1] = waypoints[-1], 0.0
+    return (
+        columns,
+        rates[:, :n] * time_scale + 0.0,
+        joint_accelerations[:, :n] * time_scale**2 + 0.0,
+        duration,
+    )  # + 0: no -0 in a file
 
 
-def _near(arm: Arm, q: Array, other: Array) -> Flags:
-    """(N,) True where the tool at q (N, n) is hardly off where it is at the other configurations."""
-    a, b = arm.forward_kinematics(q), arm.forward_kinematics(other)
-    off = np.linalg.norm(a[:, :3, 3] - b[:, :3, 3], axis=1)
-    turned = np.linalg.norm(rotation_vectors(a[:, :3, :3] @ b[:, :3, :3].transpose(0, 2, 1)), axis=1)
-    return np.asarray((off <= OFF_PATH[0] * max(arm.length_unit, 1.0)) & (turned <= OFF_PATH[1]))
+def _is_tool_near(arm: Arm, q: Array, other: Array) -> Flags:
+    """Return (N,) True where the tool at q (N, n) is within the path tolerance of its pose at the other configurations."""
+    poses, other_poses = arm.forward_kinematics(q), arm.forward_kinematics(other)
+    position_errors = np.linalg.norm(poses[:, :3, 3] - other_poses[:, :3, 3], axis=1)
+    orientation_errors = np.linalg.norm(rotation_vectors(poses[:, :3, :3] @ other_poses[:, :3, :3].transpose(0, 2, 1)), axis=1)
+    return np.asarray(
+        (position_errors <= PATH_TOLERANCE[0] * max(arm.length_unit, 1.0)) & (orientation_errors <= PATH_TOLERANCE[1])
+    )

@@ -1,4 +1,4 @@
-"""The fastest way through pieces within speeds and accelerations: time-optimal path parametrisation on a grid.
+"""Time-optimal path parametrisation through pieces, within speeds and accelerations, on a grid.
 
 With ``x`` the square of the path's speed and ``u = x' / 2`` its acceleration, constant in each interval of the grid, the
 joints' accelerations ``q' u + q'' x`` are linear in s within an interval of a parabola: what holds at both ends holds between
@@ -13,145 +13,214 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.recovery.timing.rounding import Pieces
+from holdfast.recovery.timing.rounding import PathPieces
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
-_FINE, _COARSE, _ALL = 32, 4, 1600  # intervals of a parabola, at least, and of all of them
-_ROUND = 1e-12  # of a bound, for corners of the polygon of what is allowed
+_MAX_INTERVALS_PER_PARABOLA, _MIN_INTERVALS_PER_PARABOLA, _MAX_PARABOLA_INTERVALS = (
+    32,
+    4,
+    1600,
+)  # intervals of a parabola, at least, and of all of them
+_POLYGON_TOLERANCE = 1e-12  # of a bound, for corners of the polygon of what is allowed
 
 
 @dataclass(frozen=True)
-class Profile:
-    """How fast a way is passed through: G intervals, in each of which its acceleration is constant.
+class SpeedProfile:
+    """Speed along a path: G intervals with constant acceleration.
 
     Attributes:
-        piece: (G,) of the way.
-        s: (G,) where in that piece an interval begins.
+        pieces: (G,) of the way.
+        offsets: (G,) where in that piece an interval begins.
         speed, acceleration: (G,) of the way as it begins, and all through it.
         time: (G + 1,) s, when they begin, and the end.
     """
 
-    piece: Indices
-    s: Array
+    pieces: Indices
+    offsets: Array
     speed: Array
     acceleration: Array
     time: Array
 
-    def at(self, pieces: Pieces, time: Array) -> tuple[Array, Array, Array]:
-        """Places, speeds and accelerations (N, c) at times (N,), s."""
-        k = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.s) - 1)
-        t = time - self.time[k]
-        rate = self.speed[k] + self.acceleration[k] * t
-        q, slope, bend = pieces.at(self.piece[k], self.s[k] + t * (self.speed[k] + rate) / 2)
-        return q, slope * rate[:, None], bend * rate[:, None] ** 2 + slope * self.acceleration[k][:, None]
+    def sample(self, pieces: PathPieces, time: Array) -> tuple[Array, Array, Array]:
+        """Return positions, speeds, and accelerations (N, c) at times (N,), s."""
+        interval = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.offsets) - 1)
+        elapsed = time - self.time[interval]
+        rate = self.speed[interval] + self.acceleration[interval] * elapsed
+        q, direction, curvature = pieces.evaluate(
+            self.pieces[interval], self.offsets[interval] + elapsed * (self.speed[interval] + rate) / 2
+        )
+        return q, direction * rate[:, None], curvature * rate[:, None] ** 2 + direction * self.acceleration[interval][:, None]
 
 
-def fastest(pieces: Pieces, v: Array, a: Array) -> Profile:
-    """From standstill to standstill, within speeds v and accelerations a (n,) above 0, these finite of joints that move."""
-    grid = _Grid(pieces, v, a)
-    most = grid.backwards()
-    return grid.profile(grid.forwards(most))
+def compute_fastest_profile(pieces: PathPieces, v: Array, a: Array) -> SpeedProfile:
+    """Compute the profile between standstills within speeds v and accelerations a (n,) above 0, finite for moving joints."""
+    grid = _PathGrid(pieces, v, a)
+    speed_limits = grid.compute_backward_limits()
+    return grid.make_profile(grid.limit_forward_speeds(speed_limits))
 
 
-class _Grid:
-    """Intervals of the way, with what is allowed in each."""
+class _PathGrid:
+    """Intervals of the path, with the limits in each."""
 
-    def __init__(self, pieces: Pieces, v: Array, a: Array) -> None:
+    def __init__(self, pieces: PathPieces, v: Array, a: Array) -> None:
         n = len(v)
-        bent = np.abs(pieces.bend[:, :n]).max(axis=1) > 0
-        count = np.where(bent, np.clip(_ALL // max(int(bent.sum()), 1), _COARSE, _FINE), 1)
-        self.piece = np.repeat(np.arange(len(count)), count)
-        k = np.arange(len(self.piece)) - np.repeat(np.cumsum(count) - count, count)
-        self.length = (pieces.length / count)[self.piece]
-        self.s = k * self.length
-        self.straight = ~bent[self.piece]
-        _, first, self._bend = (x[:, :n] for x in pieces.at(self.piece, self.s))
-        self._first, self._last = first, first + self.length[:, None] * self._bend
+        is_curved = np.abs(pieces.bend[:, :n]).max(axis=1) > 0
+        count = np.where(
+            is_curved,
+            np.clip(
+                _MAX_PARABOLA_INTERVALS // max(int(is_curved.sum()), 1),
+                _MIN_INTERVALS_PER_PARABOLA,
+                _MAX_INTERVALS_PER_PARABOLA,
+            ),
+            1,
+        )
+        self.pieces = np.repeat(np.arange(len(count)), count)
+        interval_index = np.arange(len(self.pieces)) - np.repeat(np.cumsum(count) - count, count)
+        self.lengths = (pieces.length / count)[self.pieces]
+        self.offsets = interval_index * self.lengths
+        self.is_straight = ~is_curved[self.pieces]
+        _, first_directions, self._curvatures = (columns[:, :n] for columns in pieces.evaluate(self.pieces, self.offsets))
+        self._first_directions, self._last_directions = (
+            first_directions,
+            first_directions + self.lengths[:, None] * self._curvatures,
+        )
         with np.errstate(divide="ignore"):
-            slope = np.maximum(np.abs(self._first), np.abs(self._last))
-            self.cap = np.where(slope > 0, v / np.where(slope > 0, slope, 1.0), np.inf).min(axis=1) ** 2
-            self.most = np.where(slope > 0, a / np.where(slope > 0, slope, 1.0), np.inf).min(axis=1)
-        stops = np.append(pieces.stops[self.piece] & (k == 0), True)
-        self.caps = np.where(stops, 0.0, np.minimum(np.append(np.inf, self.cap), np.append(self.cap, np.inf)))
-        self._a = a
+            max_directions = np.maximum(np.abs(self._first_directions), np.abs(self._last_directions))
+            self.squared_speed_limits = (
+                np.where(max_directions > 0, v / np.where(max_directions > 0, max_directions, 1.0), np.inf).min(axis=1) ** 2
+            )
+            self.acceleration_limits = np.where(
+                max_directions > 0, a / np.where(max_directions > 0, max_directions, 1.0), np.inf
+            ).min(axis=1)
+        stops = np.append(pieces.stops[self.pieces] & (interval_index == 0), True)
+        self.squared_speed_caps = np.where(
+            stops, 0.0, np.minimum(np.append(np.inf, self.squared_speed_limits), np.append(self.squared_speed_limits, np.inf))
+        )
+        self._accelerations = a
 
-    def _rows(self, k: int) -> Array:
-        """(R, 2) of what is allowed at the ends x and y of a bent interval: ``rows @ (x, y) <= 1``."""
-        bend, step = self._bend[k] / self._a, 1 / (2 * self.length[k])
-        first, last = step * self._first[k] / self._a, step * self._last[k] / self._a
-        begin, end = np.column_stack([bend - first, first]), np.column_stack([-last, bend + last])
-        rows = np.concatenate([begin, -begin, end, -end])
+    def _constraint_rows(self, interval: int) -> Array:
+        """Return the constraints (R, 2) on squared speeds x and y at the ends of a curved interval: ``rows @ (x, y) <= 1``."""
+        curvature, step = self._curvatures[interval] / self._accelerations, 1 / (2 * self.lengths[interval])
+        first, last = (
+            step * self._first_directions[interval] / self._accelerations,
+            step * self._last_directions[interval] / self._accelerations,
+        )
+        start_rows, end_rows = np.column_stack([curvature - first, first]), np.column_stack([-last, curvature + last])
+        rows = np.concatenate([start_rows, -start_rows, end_rows, -end_rows])
         return np.asarray(rows[np.abs(rows).max(axis=1) > 0])
 
-    def backwards(self) -> Array:
-        """(G + 1,) the greatest squares of the speed from which the rest of the way can be done."""
-        most = self.caps.copy()
-        for k in range(len(self.s) - 1, -1, -1):
-            if self.straight[k]:
-                most[k] = min(most[k], most[k + 1] + 2 * self.most[k] * self.length[k])
-            elif most[k] > 0:
-                most[k] = _greatest(self._rows(k), float(most[k]), float(most[k + 1]))
-        return most
+    def compute_backward_limits(self) -> Array:
+        """Return (G + 1,) the greatest squared speeds from which the rest of the path can be completed."""
+        squared_speeds = self.squared_speed_caps.copy()
+        for interval in range(len(self.offsets) - 1, -1, -1):
+            if self.is_straight[interval]:
+                squared_speeds[interval] = min(
+                    squared_speeds[interval],
+                    squared_speeds[interval + 1] + 2 * self.acceleration_limits[interval] * self.lengths[interval],
+                )
+            elif squared_speeds[interval] > 0:
+                squared_speeds[interval] = _maximize_speed(
+                    self._constraint_rows(interval), float(squared_speeds[interval]), float(squared_speeds[interval + 1])
+                )
+        return squared_speeds
 
-    def forwards(self, most: Array) -> Array:
-        """(G + 1,) the squares of the speed, each as great as those before it allow."""
-        x = most.copy()
-        for k in range(len(self.s)):
-            if self.straight[k]:
-                x[k + 1] = min(x[k + 1], x[k] + 2 * self.most[k] * self.length[k])
+    def limit_forward_speeds(self, squared_limits: Array) -> Array:
+        """Return (G + 1,) the squared speeds, each as great as the previous ones allow."""
+        squared_speeds = squared_limits.copy()
+        for interval in range(len(self.offsets)):
+            if self.is_straight[interval]:
+                squared_speeds[interval + 1] = min(
+                    squared_speeds[interval + 1],
+                    squared_speeds[interval] + 2 * self.acceleration_limits[interval] * self.lengths[interval],
+                )
                 continue
-            rows = self._rows(k)
-            up = rows[rows[:, 1] > 0]
-            x[k + 1] = max(min(float(x[k + 1]), float(((1 - up[:, 0] * x[k]) / up[:, 1]).min(initial=np.inf))), 0.0)
-        return x
+            rows = self._constraint_rows(interval)
+            rising_rows = rows[rows[:, 1] > 0]
+            squared_speeds[interval + 1] = max(
+                min(
+                    float(squared_speeds[interval + 1]),
+                    float(((1 - rising_rows[:, 0] * squared_speeds[interval]) / rising_rows[:, 1]).min(initial=np.inf)),
+                ),
+                0.0,
+            )
+        return squared_speeds
 
-    def profile(self, x: Array) -> Profile:
-        """With these squares of the speed at the ends of the intervals, slowed by what rounding took too much of."""
-        over = [float((self._rows(k) @ x[k : k + 2]).max(initial=0.0)) for k in np.flatnonzero(~self.straight).tolist()]
-        x = x / max([1.0, *over])
-        piece, s, speed, acceleration, steps = [], [], [], [], []
-        for k, length in enumerate(self.length):
-            first, last = float(x[k]), float(x[k + 1])
+    def make_profile(self, squared_speeds: Array) -> SpeedProfile:
+        """Return the profile with these squared speeds at the ends of the intervals, scaled down where rounding exceeded a
+        limit.
+        """
+        excesses = [
+            float((self._constraint_rows(interval) @ squared_speeds[interval : interval + 2]).max(initial=0.0))
+            for interval in np.flatnonzero(~self.is_straight).tolist()
+        ]
+        squared_speeds = squared_speeds / max([1.0, *excesses])
+        profile_pieces, starts, speed, acceleration, steps = [], [], [], [], []
+        for interval, length in enumerate(self.lengths):
+            first, last = float(squared_speeds[interval]), float(squared_speeds[interval + 1])
             parts = [(length, last, (last - first) / (2 * length))]
-            if self.straight[k]:
-                parts = _trapezoid(first, last, float(length), float(self.most[k]), float(self.cap[k]))
-            at = float(self.s[k])
-            for part, end, rate in parts:
-                piece.append(self.piece[k])
-                s.append(at)
+            if self.is_straight[interval]:
+                parts = _split_trapezoid(
+                    first,
+                    last,
+                    float(length),
+                    float(self.acceleration_limits[interval]),
+                    float(self.squared_speed_limits[interval]),
+                )
+            offset = float(self.offsets[interval])
+            for part_length, end_squared, part_acceleration in parts:
+                profile_pieces.append(self.pieces[interval])
+                starts.append(offset)
                 speed.append(np.sqrt(first))
-                steps.append(2 * part / (np.sqrt(first) + np.sqrt(end)))
-                acceleration.append(rate)
-                at, first = at + part, end
+                steps.append(2 * part_length / (np.sqrt(first) + np.sqrt(end_squared)))
+                acceleration.append(part_acceleration)
+                offset, first = offset + part_length, end_squared
         time = np.concatenate([[0.0], np.cumsum(steps)])
-        return Profile(np.array(piece), np.array(s), np.array(speed), np.array(acceleration), time)
+        return SpeedProfile(np.array(profile_pieces), np.array(starts), np.array(speed), np.array(acceleration), time)
 
 
-def _trapezoid(first: float, last: float, length: float, most: float, cap: float) -> list[tuple[float, float, float]]:
-    """Parts of a straight line, each with its length, the square of the speed as it ends, and the acceleration."""
-    top = min((first + last) / 2 + most * length, cap)
-    rise, fall = (top - first) / (2 * most), (top - last) / (2 * most)
-    parts = [(rise, top, most), (length - rise - fall, top, 0.0), (fall, last, -most)]
+def _split_trapezoid(
+    first: float, last: float, length: float, max_acceleration: float, max_squared_speed: float
+) -> list[tuple[float, float, float]]:
+    """Return the parts of a straight line, each with its length, its final squared speed, and its acceleration."""
+    peak_squared_speed = min((first + last) / 2 + max_acceleration * length, max_squared_speed)
+    rise_length, fall_length = (
+        (peak_squared_speed - first) / (2 * max_acceleration),
+        (peak_squared_speed - last) / (2 * max_acceleration),
+    )
+    parts = [
+        (rise_length, peak_squared_speed, max_acceleration),
+        (length - rise_length - fall_length, peak_squared_speed, 0.0),
+        (fall_length, last, -max_acceleration),
+    ]
     return [part for part in parts if part[0] > 1e-15 * length]
 
 
-def _greatest(rows: Array, cap: float, after: float) -> float:
-    """The greatest x up to ``cap`` for which some y from 0 to ``after`` has ``rows @ (x, y) <= 1``; (0, 0) is allowed."""
+def _maximize_speed(rows: Array, cap: float, next_limit: float) -> float:
+    """Maximize x up to ``cap`` such that some y from 0 to ``next_limit`` has ``rows @ (x, y) <= 1``; (0, 0) is allowed."""
     # In units of the bounds, so that one rounding fits all.
-    unit = np.array([cap, after if after > 0 else 1.0])
+    units = np.array([cap, next_limit if next_limit > 0 else 1.0])
     if not np.isfinite(cap):
-        unit[0] = 1 / np.abs(rows[:, 0]).max()
+        units[0] = 1 / np.abs(rows[:, 0]).max()
     bounds = np.array([[1.0 if np.isfinite(cap) else 0.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
-    a = np.concatenate([rows * unit, bounds])
-    b = np.concatenate([np.ones(len(rows) + 1), [1.0 if after > 0 else 0.0, 0.0]])
-    i, j = np.triu_indices(len(a), 1)
-    size = np.linalg.norm(a, axis=1)
-    across = a[i, 0] * a[j, 1] - a[j, 0] * a[i, 1]
-    some = np.abs(across) > 1e-14 * size[i] * size[j]
-    i, j, across = i[some], j[some], across[some]
-    corners = np.stack([b[i] * a[j, 1] - b[j] * a[i, 1], a[i, 0] * b[j] - a[j, 0] * b[i]], axis=1) / across[:, None]
-    allowed = ((a @ corners.T) <= b[:, None] + _ROUND * (1 + np.abs(b))[:, None]).all(axis=0)
-    return max(float(corners[allowed, 0].max(initial=0.0) * unit[0]), 0.0)
+    normals = np.concatenate([rows * units, bounds])
+    offsets = np.concatenate([np.ones(len(rows) + 1), [1.0 if next_limit > 0 else 0.0, 0.0]])
+    first, second = np.triu_indices(len(normals), 1)
+    norms = np.linalg.norm(normals, axis=1)
+    determinants = normals[first, 0] * normals[second, 1] - normals[second, 0] * normals[first, 1]
+    is_regular = np.abs(determinants) > 1e-14 * norms[first] * norms[second]
+    first, second, determinants = first[is_regular], second[is_regular], determinants[is_regular]
+    corners = (
+        np.stack(
+            [
+                offsets[first] * normals[second, 1] - offsets[second] * normals[first, 1],
+                normals[first, 0] * offsets[second] - normals[second, 0] * offsets[first],
+            ],
+            axis=1,
+        )
+        / determinants[:, None]
+    )
+    allowed = ((normals @ corners.T) <= offsets[:, None] + _POLYGON_TOLERANCE * (1 + np.abs(offsets))[:, None]).all(axis=0)
+    return max(float(corners[allowed, 0].max(initial=0.0) * units[0]), 0.0)

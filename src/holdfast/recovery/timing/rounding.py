@@ -1,4 +1,4 @@
-"""A way through waypoints with its corners rounded: straight lines, and parabolas that touch them."""
+"""Path through waypoints with rounded corners: straight lines, and parabolas that touch them."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
-_HALVED = 9  # times a corner is, until what is cut off it is allowed; then the way stops there
-_STEPS = 12  # chords of a parabola that is looked at
+_MAX_BISECTIONS = 9  # times a corner is, until what is cut off it is allowed; then the way stops there
+_CHORDS_PER_PARABOLA = 12  # chords of a parabola that is looked at
 
 
 @dataclass(frozen=True)
-class Pieces:
-    """A way in P pieces, each ``start + slope s + bend s^2 / 2`` for s from 0 to its length.
+class PathPieces:
+    """Path of P pieces, each ``start + slope s + bend s^2 / 2`` for s from 0 to its length.
 
     Attributes:
         start, slope, bend: (P, c); what counts are the joints, other columns go along.
@@ -32,101 +32,103 @@ class Pieces:
     length: Array
     stops: Flags
 
-    def at(self, piece: Indices, s: Array) -> tuple[Array, Array, Array]:
-        """Where the way is, its slope and its bend (N, c), in pieces (N,) at s (N,)."""
+    def evaluate(self, piece: Indices, s: Array) -> tuple[Array, Array, Array]:
+        """Return position, slope, and bend (N, c) in pieces (N,) at s (N,)."""
         s = s[:, None]
         slope, bend = self.slope[piece], self.bend[piece]
         return self.start[piece] + s * (slope + s * bend / 2), slope + s * bend, bend
 
 
 @dataclass(frozen=True)
-class Corners:
-    """The chords of parabolas at corners, to be looked at.
+class CornerChords:
+    """Chords of the parabolas at corners, to be checked.
 
     Attributes:
         corner: (E,) which corner.
         first, last: (E, n) the ends of a chord, on the parabola.
-        away: (E, n) the most by which each joint is off the chord in between.
-        cut: (E, n) the place between waypoints that ``last`` takes.
+        deviations: (E, n) the most by which each joint is off the chord in between.
+        line_points: (E, n) the place between waypoints that ``last`` takes.
     """
 
     corner: Indices
     first: Array
     last: Array
-    away: Array
-    cut: Array
+    deviations: Array
+    line_points: Array
 
 
-def cuts_of(q: Array, exact: Flags, allowed: Callable[[Corners], Flags]) -> Array:
-    """(K,) how far before and after each waypoint of q (K, n), none twice, its corner may be cut off; 0: the way stops there.
+def find_corner_cuts(q: Array, must_meet: Flags, is_allowed: Callable[[CornerChords], Flags]) -> Array:
+    """Return (K,) how far before and after each waypoint of q (K, n), all distinct, its corner may be cut off; 0: a stop there.
 
     Half of the shorter line beside it, or a half, a quarter, ... of that.
 
     Args:
         q: (K, n), rad and m.
-        exact: (K,) True for waypoints that must be met themselves.
-        allowed: (E,) which chords, and all between them and the parabola, may be on the way.
+        must_meet: (K,) True for waypoints that must be met themselves.
+        is_allowed: (E,) which chords, and all between them and the parabola, may be on the way.
     """
     lengths = np.linalg.norm(np.diff(q, axis=0), axis=1)
-    cut = np.zeros(len(q))
-    cut[1:-1] = np.minimum(lengths[:-1], lengths[1:]) / 2
-    cut[exact] = 0.0
-    open_ = np.flatnonzero(cut)
-    for _ in range(_HALVED):
-        if not open_.size:
-            return cut
-        chords = _chords(q, open_, cut[open_])
-        refused = np.unique(chords.corner[~allowed(chords)])
-        cut[refused] /= 2
-        open_ = refused
-    cut[open_] = 0.0
-    return cut
+    cut_lengths = np.zeros(len(q))
+    cut_lengths[1:-1] = np.minimum(lengths[:-1], lengths[1:]) / 2
+    cut_lengths[must_meet] = 0.0
+    undecided = np.flatnonzero(cut_lengths)
+    for _ in range(_MAX_BISECTIONS):
+        if not undecided.size:
+            return cut_lengths
+        chords = _make_chords(q, undecided, cut_lengths[undecided])
+        rejected = np.unique(chords.corner[~is_allowed(chords)])
+        cut_lengths[rejected] /= 2
+        undecided = rejected
+    cut_lengths[undecided] = 0.0
+    return cut_lengths
 
 
-def _chords(q: Array, corners: Indices, cut: Array) -> Corners:
-    towards, onwards = _directions(q)
-    u, v = towards[corners][:, None], onwards[corners][:, None]
-    s = np.linspace(0, 2, _STEPS + 1)[None, :, None] * cut[:, None, None]
-    far = cut[:, None, None]
+def _make_chords(q: Array, corners: Indices, cut_lengths: Array) -> CornerChords:
+    incoming, outgoing = _compute_directions(q)
+    u, v = incoming[corners][:, None], outgoing[corners][:, None]
+    s = np.linspace(0, 2, _CHORDS_PER_PARABOLA + 1)[None, :, None] * cut_lengths[:, None, None]
+    corner_distance = cut_lengths[:, None, None]
     middle = q[corners][:, None]
-    curve = middle + (s - far) * u + s**2 * (v - u) / (4 * far)
-    line = middle + np.where(s < far, (s - far) * u, (s - far) * v)
-    away = np.abs(v - u)[:, 0] * ((2 * cut / _STEPS) ** 2 / (2 * cut) / 8)[:, None]
+    curve = middle + (s - corner_distance) * u + s**2 * (v - u) / (4 * corner_distance)
+    line = middle + np.where(s < corner_distance, (s - corner_distance) * u, (s - corner_distance) * v)
+    deviations = np.abs(v - u)[:, 0] * ((2 * cut_lengths / _CHORDS_PER_PARABOLA) ** 2 / (2 * cut_lengths) / 8)[:, None]
     n = q.shape[1]
-    return Corners(
-        np.repeat(corners, _STEPS),
+    return CornerChords(
+        np.repeat(corners, _CHORDS_PER_PARABOLA),
         curve[:, :-1].reshape(-1, n),
         curve[:, 1:].reshape(-1, n),
-        np.repeat(away, _STEPS, axis=0),
+        np.repeat(deviations, _CHORDS_PER_PARABOLA, axis=0),
         line[:, 1:].reshape(-1, n),
     )
 
 
-def _directions(q: Array) -> tuple[Array, Array]:
-    """(K, n) unit vectors towards each waypoint and onwards from it; at the ends one of them is the other."""
-    d = np.diff(q, axis=0)
-    d /= np.linalg.norm(d, axis=1, keepdims=True)
-    return np.concatenate([d[:1], d]), np.concatenate([d, d[-1:]])
+def _compute_directions(q: Array) -> tuple[Array, Array]:
+    """Return (K, n) unit vectors towards each waypoint and onwards from it; at the ends both are equal."""
+    steps = np.diff(q, axis=0)
+    steps /= np.linalg.norm(steps, axis=1, keepdims=True)
+    return np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
 
 
-def rounded(q: Array, cut: Array, beside: Array) -> Pieces:
-    """The pieces of the way through q (K, n), no waypoint twice, with corners cut (K,); columns beside it (K, c) go along."""
-    both, d = np.column_stack([q, beside]), np.diff(q, axis=0)
-    lengths = np.linalg.norm(d, axis=1)
-    slopes = np.diff(both, axis=0) / lengths[:, None]
+def round_corners(q: Array, cut_lengths: Array, further_columns: Array) -> PathPieces:
+    """Return the pieces of the path through q (K, n), all distinct, with corner cuts (K,); further columns (K, c)
+    follow along.
+    """
+    all_columns, steps = np.column_stack([q, further_columns]), np.diff(q, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
+    slopes = np.diff(all_columns, axis=0) / lengths[:, None]
     start, slope, bend, length, stops = [], [], [], [], []
-    for k, far in enumerate(lengths):
-        straight = far - cut[k] - cut[k + 1]
-        if cut[k] > 0:
-            start.append(both[k] - cut[k] * slopes[k - 1])
-            slope.append(slopes[k - 1])
-            bend.append((slopes[k] - slopes[k - 1]) / (2 * cut[k]))
-            length.append(2 * cut[k])
+    for index, distance in enumerate(lengths):
+        straight = distance - cut_lengths[index] - cut_lengths[index + 1]
+        if cut_lengths[index] > 0:
+            start.append(all_columns[index] - cut_lengths[index] * slopes[index - 1])
+            slope.append(slopes[index - 1])
+            bend.append((slopes[index] - slopes[index - 1]) / (2 * cut_lengths[index]))
+            length.append(2 * cut_lengths[index])
             stops.append(False)
-        if straight > 1e-15 * far:
-            start.append(both[k] + cut[k] * slopes[k])
-            slope.append(slopes[k])
-            bend.append(0 * slopes[k])
+        if straight > 1e-15 * distance:
+            start.append(all_columns[index] + cut_lengths[index] * slopes[index])
+            slope.append(slopes[index])
+            bend.append(0 * slopes[index])
             length.append(straight)
-            stops.append(bool(cut[k] == 0))
-    return Pieces(np.array(start), np.array(slope), np.array(bend), np.array(length), np.array(stops))
+            stops.append(bool(cut_lengths[index] == 0))
+    return PathPieces(np.array(start), np.array(slope), np.array(bend), np.array(length), np.array(stops))

@@ -1,1 +1,1 @@
-"""What a sweep may compute."""
+"""Jobs of a study."""

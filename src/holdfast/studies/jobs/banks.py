@@ -1,4 +1,4 @@
-"""Task banks as cells of a study: random tasks that the computer drives under a law, healthy and failed."""
+"""Task banks as cells of a study: random tasks that a law drives without an operator, healthy and failed."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from numpy.typing import NDArray
 
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 from holdfast.studies.jobs.laws import LawJob
-from holdfast.teleop.bank.tasks import task_bank
-from holdfast.teleop.trials.performance import RECORDED
+from holdfast.teleop.bank.tasks import make_task_bank
+from holdfast.teleop.trials.performance import RECORDED_MEASURES
 from holdfast.teleop.trials.scenarios import Scenario
 
 Rows = dict[str, NDArray[Any]]
 
 
 class BankJob(LawJob):
-    """Tasks as :func:`holdfast.teleop.task_bank` makes them; a row is a task for each joint that fails.
+    """Tasks of :func:`holdfast.teleop.make_task_bank`; a row is a task for each joint that fails.
 
     Attributes:
         plan: Arm, task, law, distance.
     """
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.engine.Job`."""
-        law = self.made
+        """See :class:`holdfast.engine.SweepJob`."""
+        law = self.compiled_parts
         joints = ("failing", law.arm.n)
         cases = ("healthy_or_failed", 2)
         return [
@@ -37,29 +37,29 @@ class BankJob(LawJob):
             Column(
                 "measures",
                 "float64",
-                (joints, cases, ("measure", RECORDED)),
+                (joints, cases, ("measure", RECORDED_MEASURES)),
                 units="mixed",
                 about="M1 to M11 of Goel et al. 2003",
             ),
         ]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.engine.Job`."""
-        law = self.made
+        """See :class:`holdfast.engine.SweepJob`."""
+        law = self.compiled_parts
         count, n = len(chunk), law.arm.n
-        entry, options = LAWS.read(self.plan["law"], "laws")
-        scenarios = [Scenario(k + 1, entry.name, failed, options=options) for k, failed in enumerate((False, True))]
-        bank = task_bank(
+        entry, options = LAW_REGISTRY.read_label(self.plan["law"], "laws")
+        scenarios = [Scenario(number + 1, entry.name, failed, options=options) for number, failed in enumerate((False, True))]
+        bank = make_task_bank(
             law.arm, count, None, distance=self.plan["distance"], task=law.task, seed=chunk.own_seed, scenarios=scenarios
         )
 
-        def by_row(values: NDArray[Any]) -> NDArray[Any]:
-            """(n * count, ...), joint by joint, as (count, n, ...)."""
+        def arrange_by_row(values: NDArray[Any]) -> NDArray[Any]:
+            """Return values (n * count, ...), joint by joint, as (count, n, ...)."""
             return np.ascontiguousarray(values.reshape(n, count, *values.shape[1:]).swapaxes(0, 1))
 
         return {
-            "q0": by_row(bank.tasks.q0),
-            "target": by_row(bank.tasks.target),
-            "end": by_row(bank.end.T),
-            "measures": by_row(bank.measures.swapaxes(0, 1)),
+            "q0": arrange_by_row(bank.tasks.q0),
+            "target": arrange_by_row(bank.tasks.target),
+            "end": arrange_by_row(bank.end.T),
+            "measures": arrange_by_row(bank.measures.swapaxes(0, 1)),
         }

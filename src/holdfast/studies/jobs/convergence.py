@@ -1,4 +1,4 @@
-"""Maps of how failed arms end as cells of a study: random motions under a law, with each joint locked and with none."""
+"""Convergence maps as cells of a study: random motions under a law, with each joint locked and with none."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.clearance.choice import chosen_clearance, from_stored, stored
+from holdfast.clearance.choice import chosen_clearance, decode_clearance, encode_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.convergence.maps import convergence_map
@@ -21,28 +21,28 @@ from holdfast.studies.jobs.laws import PlannedLaw
 Rows = dict[str, NDArray[Any]]
 
 
-def looked_at(arm: Arm, cell: Path | None) -> dict[str, Any]:
-    """What a plan holds of the cell around an arm; nothing without one."""
+def describe_surroundings(arm: Arm, cell: Path | None) -> dict[str, Any]:
+    """Return the entries of a plan for the cell around an arm; nothing without a cell."""
     clearance = chosen_clearance(arm, False, cell, looks=False)
-    return {} if clearance is None else stored(clearance)
+    return {} if clearance is None else encode_clearance(clearance)
 
 
 @dataclass(frozen=True, eq=False)
 class ConvergenceJob(PlannedLaw[tuple[Law, Clearance | None]]):
-    """Motions between random places, as :func:`holdfast.convergence_map` makes them; a row is a motion.
+    """Motions between random poses of :func:`holdfast.convergence_map`; a row is a motion.
 
     Attributes:
         plan: Arm, task, law, time limit; and what was around the arm, if it was looked at.
     """
 
-    def compiled(self) -> tuple[Law, Clearance | None]:
-        """The law, and what the motions are looked at for touching."""
-        law = self.law()
-        return law, from_stored(law.arm, self.plan)
+    def compile_plan(self) -> tuple[Law, Clearance | None]:
+        """Return the law, and the clearance for the contact check of the motions."""
+        law = self.make_law()
+        return law, decode_clearance(law.arm, self.plan)
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.engine.Job`."""
-        law, clearance = self.made
+        """See :class:`holdfast.engine.SweepJob`."""
+        law, clearance = self.compiled_parts
         n = law.arm.n
         locked = (("locked_or_none", n + 1),)
         return [
@@ -58,18 +58,20 @@ class ConvergenceJob(PlannedLaw[tuple[Law, Clearance | None]]):
         ]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.engine.Job`."""
-        law, clearance = self.made
+        """See :class:`holdfast.engine.SweepJob`."""
+        law, clearance = self.compiled_parts
         count = len(chunk)
-        limit = self.plan["time_limit"]
-        found = convergence_map(law, count, count, configurations=1, time_limit=limit, seed=chunk.own_seed, clearance=clearance)
-        touched = {} if found.touched is None else {"touched": found.touched[:, 0].astype(np.uint8)}
+        time_limit = self.plan["time_limit"]
+        result = convergence_map(
+            law, count, count, configurations=1, time_limit=time_limit, seed=chunk.own_seed, clearance=clearance
+        )
+        touched = {} if result.touched is None else {"touched": result.touched[:, 0].astype(np.uint8)}
         return {
-            "q0": found.q0[:, 0],
-            "target": found.target[:, 0],
-            "code": found.code[:, 0],
-            "reason": found.reason[:, 0],
-            "in_reach": found.in_reach[:, 0].astype(np.uint8),
-            "limits_passed": found.limits_passed[:, 0].astype(np.uint8),
+            "q0": result.q0[:, 0],
+            "target": result.target[:, 0],
+            "code": result.code[:, 0],
+            "reason": result.reason[:, 0],
+            "in_reach": result.in_reach[:, 0].astype(np.uint8),
+            "limits_passed": result.limits_passed[:, 0].astype(np.uint8),
             **touched,
         }

@@ -1,4 +1,4 @@
-"""Sweeps of an arm's own numbers as cells of a study: designs spread over their bounds, each with what it guarantees."""
+"""Designs of an arm as cells of a study: designs spread over their bounds, each with its lower quantile of the index."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from holdfast.arm.task import Task
 from holdfast.arms.serial import from_dict
 from holdfast.designs.evaluation import Evaluator
 from holdfast.designs.family import Family
-from holdfast.designs.quantile import guaranteed
-from holdfast.designs.reach import Reaches
-from holdfast.designs.search import region_poses
-from holdfast.designs.space import DesignSpace, Parameter
+from holdfast.designs.quantile import compute_lower_quantile
+from holdfast.designs.reach import ReachEvaluator
+from holdfast.designs.search import sample_comparison_poses
+from holdfast.designs.space import DesignParameter, DesignSpace
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
 from holdfast.indices.own_file import check_digest
@@ -26,22 +26,22 @@ Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 
-def space_of(plan: dict[str, Any]) -> DesignSpace:
-    """The designs of a plan."""
-    return DesignSpace(from_dict(plan["arm"]), tuple(Parameter(*p[:3], unit=p[3]) for p in plan["vary"]))
+def read_design_space(plan: dict[str, Any]) -> DesignSpace:
+    """Return the design space of a plan."""
+    return DesignSpace(from_dict(plan["arm"]), tuple(DesignParameter(*entry[:3], unit=entry[3]) for entry in plan["vary"]))
 
 
-def designs_of(space: DesignSpace, count: int, seed: int) -> Array:
-    """(count, k): the given arm first."""
+def list_designs(space: DesignSpace, count: int, seed: int) -> Array:
+    """Return the designs (count, k), the baseline arm first."""
     return np.concatenate([space.start[None], space.draw(count, seed)])[:count]
 
 
-Made = tuple[Evaluator, Reaches, Array, Array | None]
+CompiledDesigns = tuple[Evaluator, ReachEvaluator, Array, Array | None]
 
 
 @dataclass(frozen=True, eq=False)
-class DesignJob(PlannedJob[Made]):
-    """The given arm, then designs as :meth:`holdfast.DesignSpace.draw` spreads them, all at the same poses; a row is a design.
+class DesignJob(PlannedJob[CompiledDesigns]):
+    """Baseline arm and designs of :meth:`holdfast.DesignSpace.draw`, all at the same poses; a row is a design.
 
     Attributes:
         plan: Arm, what is varied, region, index, task, failures, level, poses, seed.
@@ -50,23 +50,29 @@ class DesignJob(PlannedJob[Made]):
 
     rows: int
 
-    def compiled(self) -> Made:
-        """What is evaluated, its reach, all designs, and the weights of the poses."""
-        p = self.plan
-        space = space_of(p)
-        family = Family(space, p["index"], Task.from_dict(p["task"]), failures=[list(f) for f in p["failures"]])
-        check_digest(family.index, p)
-        poses, weights = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
-        designs = designs_of(space, self.rows, p["seed"])
-        return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs, weights
+    def compile_plan(self) -> CompiledDesigns:
+        """Return the evaluators of index and reach, all designs, and the weights of the poses."""
+        plan = self.plan
+        space = read_design_space(plan)
+        family = Family(
+            space, plan["index"], Task.from_dict(plan["task"]), failures=[list(failed) for failed in plan["failures"]]
+        )
+        check_digest(family.index, plan)
+        poses, weights = sample_comparison_poses(Region.from_dict(plan["region"]), plan["poses"], plan["seed"])
+        designs = list_designs(space, self.rows, plan["seed"])
+        return Evaluator(family, poses, plan["seed"]), ReachEvaluator(family, plan["seed"]), designs, weights
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.engine.Job`."""
-        k = len(self.plan["vary"])
+        """See :class:`holdfast.engine.SweepJob`."""
+        parameter_count = len(self.plan["vary"])
         level = self.plan["level"]
         return [
             Column(
-                "design", "float64", (("parameter", k),), units="rad or m", about=", ".join(p[0] for p in self.plan["vary"])
+                "design",
+                "float64",
+                (("parameter", parameter_count),),
+                units="rad or m",
+                about=", ".join(entry[0] for entry in self.plan["vary"]),
             ),
             Column("guaranteed", "float64", (), units="1", about=f"index that a share {level:g} of the poses have at least"),
             Column("median", "float64", (), units="1", about="median index over the poses, 0 where they are not reached"),
@@ -75,14 +81,14 @@ class DesignJob(PlannedJob[Made]):
         ]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.engine.Job`."""
-        evaluate, reaches, designs, weights = self.made
+        """See :class:`holdfast.engine.SweepJob`."""
+        evaluate, evaluate_reach, designs, weights = self.compiled_parts
         values = designs[chunk.start : chunk.stop]
-        found = evaluate(values)
+        evaluated = evaluate(values)
         return {
             "design": values,
-            "guaranteed": guaranteed(found.value, self.plan["level"], weights),
-            "median": guaranteed(found.value, 0.5, weights),
-            "reached": np.average(found.reached, axis=1, weights=weights),
-            "reach": reaches(values, evaluate.finite_limits(values))[0],
+            "guaranteed": compute_lower_quantile(evaluated.value, self.plan["level"], weights),
+            "median": compute_lower_quantile(evaluated.value, 0.5, weights),
+            "reached": np.average(evaluated.reached, axis=1, weights=weights),
+            "reach": evaluate_reach(values, evaluate.finite_limits(values))[0],
         }

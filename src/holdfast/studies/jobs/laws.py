@@ -1,4 +1,4 @@
-"""What jobs of motions under a law share: their plan, and the law that it defines."""
+"""Jobs of motions under a law: their plan, and the law that it defines."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from dataclasses import dataclass
 from holdfast.arm.task import Task
 from holdfast.arms.serial import from_dict
 from holdfast.control.law import Law
-from holdfast.registry import LAWS
+from holdfast.registry import LAW_REGISTRY
 from holdfast.studies.jobs.process import PlannedJob, T
 
 
 @dataclass(frozen=True, eq=False)
 class PlannedLaw(PlannedJob[T]):
-    """A job whose plan names a law.
+    """Job whose plan names a law.
 
     Attributes:
         plan: Arm, task, law and what the job itself asks for.
     """
 
-    def law(self) -> Law:
-        """The law of the plan."""
+    def make_law(self) -> Law:
+        """Return the law of the plan."""
         task = Task.from_dict(self.plan["task"])
-        made: Law = LAWS.make(self.plan["law"], from_dict(self.plan["arm"]), option="laws", task=task)
-        return made
+        plan_law: Law = LAW_REGISTRY.make(self.plan["law"], from_dict(self.plan["arm"]), option="laws", task=task)
+        return plan_law
 
 
 @dataclass(frozen=True, eq=False)
 class LawJob(PlannedLaw[Law]):
-    """A job that compiles its law and nothing else."""
+    """Job that compiles its law and nothing else."""
 
-    def compiled(self) -> Law:
-        """The law."""
-        return self.law()
+    def compile_plan(self) -> Law:
+        """Return the law."""
+        return self.make_law()

@@ -1,4 +1,4 @@
-"""What the jobs of one process share: compiled things, made once, whatever threads ask for them."""
+"""Compiled objects that the jobs of one process share; each is made once for all threads."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from holdfast.kernels.threads import set_threads, thread_count
 T = TypeVar("T")
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # of malloc.h
-_MOST = 32  # cells whose compiled things are kept
+_MAX_COMPILED_CELLS = 32  # cells whose compiled things are kept
 _lock = threading.RLock()
-_made: OrderedDict[Hashable, Any] = OrderedDict()
+_compiled_by_job: OrderedDict[Hashable, Any] = OrderedDict()
 
 
-def shared(job: Hashable, make: Callable[[], T]) -> T:
-    """What ``make`` gives for a job, made once."""
+def compile_once(job: Hashable, make: Callable[[], T]) -> T:
+    """Return the result of ``make`` for a job, which is called once."""
     with _lock:
-        if job not in _made:
-            _made[job] = make()
-            while len(_made) > _MOST:
-                _made.popitem(last=False)
-        _made.move_to_end(job)
-        found: T = _made[job]
-        return found
+        if job not in _compiled_by_job:
+            _compiled_by_job[job] = make()
+            while len(_compiled_by_job) > _MAX_COMPILED_CELLS:
+                _compiled_by_job.popitem(last=False)
+        _compiled_by_job.move_to_end(job)
+        compiled: T = _compiled_by_job[job]
+        return compiled
 
 
 @lru_cache(maxsize=1)
-def _keep_memory() -> None:
-    """Let this process keep memory from block to block.
+def _retain_memory() -> None:
+    """Let this process retain memory from block to block.
 
     Dask's nanny has the C library give every larger array back at once; getting it again costs more than the equations:
     chunks took 1.7 times as long.
@@ -49,7 +49,7 @@ def _keep_memory() -> None:
 
 @dataclass(frozen=True, eq=False)
 class PlannedJob(ABC, Generic[T]):
-    """A job that is defined by its plan, and compiles something for all its chunks: once in a process.
+    """Job that is defined by its plan and compiles once per process for all its chunks.
 
     Subclasses are ``@dataclass(frozen=True, eq=False)``: a dataclass that compares makes its own hash, and a plan has none.
 
@@ -66,19 +66,19 @@ class PlannedJob(ABC, Generic[T]):
         return hash((type(self), self.plan["fingerprint"], self.plan.get("law")))
 
     @abstractmethod
-    def compiled(self) -> T:
-        """What it needs, made from the plan."""
+    def compile_plan(self) -> T:
+        """Return the compiled objects of the plan."""
 
     @property
-    def made(self) -> T:
-        """What :meth:`compiled` gives, made once."""
-        return shared(self, self.compiled)
+    def compiled_parts(self) -> T:
+        """Result of :meth:`compile_plan`, made once."""
+        return compile_once(self, self.compile_plan)
 
     def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.engine.Job`."""
+        """See :class:`holdfast.engine.SweepJob`."""
         with _lock:
             if alone:
-                _keep_memory()
+                _retain_memory()
                 if thread_count() != 1:
                     set_threads(1)
-        shared(self, self.compiled)
+        compile_once(self, self.compile_plan)

@@ -1,4 +1,4 @@
-"""Workspaces as cells of a study: from which starts a target is still reached."""
+"""Workspaces as cells of a study: the starts from which a target is still reached."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.convergence.analysis import Beginnings, Job, prepared, usual_method
+from holdfast.convergence.analysis import StartConfigurations, TargetAnalysis, choose_method, prepare_analysis
 from holdfast.convergence.places import Places, read_places
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
@@ -19,8 +19,8 @@ Rows = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, eq=False)
-class WorkspaceJob(PlannedLaw[tuple[Job, Places]]):
-    """Starts, random ones, looked at as :func:`holdfast.workspace` does, a chunk with its own seed; a row is a start.
+class WorkspaceJob(PlannedLaw[tuple[TargetAnalysis, Places]]):
+    """Random starts of :func:`holdfast.workspace`, a chunk with its own seed; a row is a start.
 
     Attributes:
         plan: Arm, task, law, target, configurations and points of each start, time limit, seed.
@@ -29,24 +29,32 @@ class WorkspaceJob(PlannedLaw[tuple[Job, Places]]):
 
     rows: int
 
-    def compiled(self) -> tuple[Job, Places]:
-        """What all starts share, and the places that they are drawn from."""
-        p = self.plan
-        law = self.law()
-        method = usual_method(law)
-        job = prepared(law, p["target"], p["configurations"], p["points"], method, time_limit=p["time_limit"], seed=p["seed"])
-        if not job.reached:
+    def compile_plan(self) -> tuple[TargetAnalysis, Places]:
+        """Return the job that all starts share, and the poses from which they are sampled."""
+        plan = self.plan
+        law = self.make_law()
+        method = choose_method(law)
+        job = prepare_analysis(
+            law,
+            plan["target"],
+            plan["configurations"],
+            plan["points"],
+            method,
+            time_limit=plan["time_limit"],
+            seed=plan["seed"],
+        )
+        if not job.is_reached:
             raise InputError(f"no configuration of '{law.arm.name}' was found at the target; choose one within its reach")
-        places = read_places(law.arm, law.task, self.rows, np.random.default_rng(p["seed"]))
+        places = read_places(law.arm, law.task, self.rows, np.random.default_rng(plan["seed"]))
         return job, places
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.engine.Job`."""
-        return self.made[0].store_columns()
+        """See :class:`holdfast.engine.SweepJob`."""
+        return self.compiled_parts[0].store_columns()
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.engine.Job`."""
-        job, places = self.made
-        mine = Places(places.poses[chunk.start : chunk.stop])
-        begin = Beginnings(job.law, mine, job.configurations, job.method, chunk.own_seed)
-        return job.analyse(*begin.of(0, len(chunk)), len(chunk))
+        """See :class:`holdfast.engine.SweepJob`."""
+        job, places = self.compiled_parts
+        chunk_places = Places(places.poses[chunk.start : chunk.stop])
+        beginnings = StartConfigurations(job.law, chunk_places, job.configurations, job.method, chunk.own_seed)
+        return job.analyse(*beginnings.find_block(0, len(chunk)), len(chunk))

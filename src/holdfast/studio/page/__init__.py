@@ -1,1 +1,1 @@
-"""What a browser is given beside the scene: the page itself, its controls, the tour, and files that are sent to it."""
+"""Parts of the page other than the 3-D scene: access control, controls, tour, and uploaded files."""

@@ -1,4 +1,4 @@
-"""The tour: at most six steps in a minute. Each says what is to be seen, and does it in the page itself."""
+"""Guided tour of at most six steps in a minute; each step explains an effect and demonstrates it on the page."""
 
 from __future__ import annotations
 
@@ -7,146 +7,152 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
-from holdfast.indices.lost_directions import manipulability_kept
-from holdfast.studio.scene.bars import percent
-from holdfast.studio.scene.machine import Reading
+from holdfast.indices.lost_directions import remaining_manipulability
+from holdfast.studio.scene.bars import format_percent
+from holdfast.studio.scene.machine import LiveReading
 
 Ask = tuple[str, Any]
 
 
 @dataclass(frozen=True)
-class Sight:
-    """What a step may speak of.
+class GuideContext:
+    """Values that the text of a step can mention.
 
     Attributes:
         worst: The joint whose lock cost most when the tour began.
-        kept: What is left of the manipulability now, if the worst joint locks or with what has failed.
-        before: The same when the joint was locked first.
-        hopeless: A direction is lost with that joint in every configuration.
-        busy: Something is being computed.
+        remaining: What is left of the manipulability now, if the worst joint locks or with what has failed.
+        remaining_before: The same when the joint was locked first.
+        is_hopeless: A direction is lost with that joint in every configuration.
+        is_busy: Something is being computed.
     """
 
     worst: str
-    kept: str
-    before: str
-    hopeless: bool
-    busy: bool
+    remaining: str
+    remaining_before: str
+    is_hopeless: bool
+    is_busy: bool
 
 
 @dataclass(frozen=True)
-class Step:
-    """One step.
+class TourStep:
+    """Step of the tour.
 
     Attributes:
         title: Its title.
         text: What it says, from what is to be seen.
-        do: What it asks of the window; ``worst`` in place of a joint is the worst one.
-        after: What the button for the next step says.
+        actions: What it asks of the window; ``worst`` in place of a joint is the worst one.
+        button_label: What the button for the next step says.
         always: It makes sense where no configuration is better than another.
     """
 
     title: str
-    text: Callable[[Sight], str]
-    do: tuple[Ask, ...]
-    after: str
+    text: Callable[[GuideContext], str]
+    actions: tuple[Ask, ...]
+    button_label: str
     always: bool = True
 
 
-def _first(sight: Sight) -> str:
-    if sight.hopeless:
-        return f"No configuration makes up for every joint: when {sight.worst} locks, a direction of motion is lost for ever."
-    return f"A bar is what is left of the manipulability of the tool if that joint locks. Here {sight.worst} costs most."
+def _explain_bars(context: GuideContext) -> str:
+    if context.is_hopeless:
+        return f"No configuration makes up for every joint: when {context.worst} locks, a direction of motion is lost for ever."
+    return f"A bar is what is left of the manipulability of the tool if that joint locks. Here {context.worst} costs most."
 
 
-def _locked(sight: Sight) -> str:
+def _explain_lock(context: GuideContext) -> str:
     return (
-        f"{sight.worst} is locked: {sight.kept} of the manipulability is left. The blue wire is how fast the tool could go, "
+        f"{context.worst} is locked: {context.remaining} of the manipulability is left. The blue wire is how fast the "
+        f"tool could go, "
         "the orange body how fast it still can. The orange line and ring are the motion that loses most."
     )
 
 
-def _optimised(sight: Sight) -> str:
-    if sight.busy:
+def _explain_optimisation(context: GuideContext) -> str:
+    if context.is_busy:
         return "The same tool pose can be held in many configurations. Looking for the best and the worst ..."
     return "Same tool pose, two other configurations: if its worst joint locks, the green ghost loses least, the orange most."
 
 
-def _compared(sight: Sight) -> str:
+def _explain_comparison(context: GuideContext) -> str:
     return (
-        f"The arm took the green configuration without moving the tool, and {sight.worst} is locked again: {sight.kept} of the "
-        f"manipulability is left, where it was {sight.before}."
+        f"The arm took the green configuration without moving the tool, and {context.worst} is locked again: "
+        f"{context.remaining} of the "
+        f"manipulability is left, where it was {context.remaining_before}."
     )
 
 
-def _driven(sight: Sight) -> str:
-    if sight.busy:
+def _explain_motion(context: GuideContext) -> str:
+    if context.is_busy:
         return "Two controllers that know nothing of the lock bring the tool to the second handle. Compiling and simulating ..."
     return "Two controllers that know nothing of the lock, side by side. The line on top says where each of them ends."
 
 
-def _last(_: Sight) -> str:
+def _explain_next_steps(_: GuideContext) -> str:
     return "Drag the handle, click joints, or drop the URDF file or DH table of your own arm on the page."
 
 
-STEPS = (
-    Step("Which joint matters most", _first, (), "Next: lock it"),
-    Step("A joint locks", _locked, (("fail", ("worst", "locked")),), "Next"),
-    Step("Optimise before it fails", _optimised, (("heal", None), ("best-worst", None)), "Next: compare", always=False),
-    Step("Compare", _compared, (("take0", None), ("fail", ("worst", "locked"))), "Next: move", always=False),
-    Step("Move without knowing", _driven, (("target", None), ("laws", None)), "Next: your own arm"),
-    Step("Your turn", _last, (("clear", None), ("heal", None), ("home", None)), "Done"),
+TOUR_STEPS = (
+    TourStep("Which joint matters most", _explain_bars, (), "Next: lock it"),
+    TourStep("A joint locks", _explain_lock, (("fail", ("worst", "locked")),), "Next"),
+    TourStep(
+        "Optimise before it fails", _explain_optimisation, (("heal", None), ("best-worst", None)), "Next: compare", always=False
+    ),
+    TourStep("Compare", _explain_comparison, (("take0", None), ("fail", ("worst", "locked"))), "Next: move", always=False),
+    TourStep("Move without knowing", _explain_motion, (("target", None), ("laws", None)), "Next: your own arm"),
+    TourStep("Your turn", _explain_next_steps, (("clear", None), ("heal", None), ("home", None)), "Done"),
 )
-NOTHING = 1e-6  # of the manipulability: what is left of a direction that is lost
+LOST_MANIPULABILITY = 1e-6  # of the manipulability: what is left of a direction that is lost
 
 
-class Guide:
-    """Where the tour of one window is.
+class TourGuide:
+    """Progress of the tour in one window.
 
     Args:
-        ask: ``ask(what, value)`` does something in the window.
-        show: Is given the HTML of a step and the label of the button after it; an empty text ends the tour.
+        request_action: ``ask(what, value)`` does something in the window.
+        show_html: Is given the HTML of a step and the label of the button after it; an empty text ends the tour.
     """
 
-    def __init__(self, ask: Callable[[str, Any], None], show: Callable[[str, str], None]) -> None:
-        self._ask, self._show = ask, show
-        self._steps: tuple[Step, ...] = ()
+    def __init__(self, request_action: Callable[[str, Any], None], show_html: Callable[[str, str], None]) -> None:
+        self._request_action, self._show_html = request_action, show_html
+        self._steps: tuple[TourStep, ...] = ()
         self._step: int | None = None
         self._worst, self._before, self._hopeless = 0, "", False
 
-    def begin(self, reading: Reading) -> None:
-        """Show the first step, about the joint that is the worst one now; steps that could show nothing are left out."""
+    def begin_tour(self, reading: LiveReading) -> None:
+        """Show the first step, about the joint that is the worst one now; steps without an effect are left out."""
         bars = reading.bars
-        self._hopeless = isinstance(bars, str) or bool(bars.values[bars.worst] < NOTHING)
+        self._hopeless = isinstance(bars, str) or bool(bars.values[bars.worst] < LOST_MANIPULABILITY)
         self._worst = 0 if isinstance(bars, str) else bars.worst
-        self._steps = tuple(step for step in STEPS if step.always or not self._hopeless)
-        self._go(0)
+        self._steps = tuple(step for step in TOUR_STEPS if step.always or not self._hopeless)
+        self._go_to_step(0)
 
-    def next(self) -> None:
-        """Show the next step; after the last the tour has ended."""
+    def show_next(self) -> None:
+        """Show the next step, or end the tour after the last one."""
         if self._step is not None:
-            self._go(self._step + 1)
+            self._go_to_step(self._step + 1)
 
-    def end(self) -> None:
-        """No step is shown any more; what was done stays."""
+    def end_tour(self) -> None:
+        """Hide the tour; its effects remain."""
         self._step = None
-        self._show("", "")
+        self._show_html("", "")
 
-    def _go(self, step: int) -> None:
+    def _go_to_step(self, step: int) -> None:
         if step >= len(self._steps):
-            self.end()
+            self.end_tour()
             return
         self._step = step
-        for what, value in self._steps[step].do:
-            self._ask(what, (self._worst, value[1]) if what == "fail" else value)
+        for action, value in self._steps[step].actions:
+            self._request_action(action, (self._worst, value[1]) if action == "fail" else value)
 
-    def tell(self, reading: Reading, names: tuple[str, ...], busy: bool) -> None:
-        """Say what the present step has to say about what is shown now."""
+    def show_step(self, reading: LiveReading, names: tuple[str, ...], busy: bool) -> None:
+        """Show the text of the present step for the displayed reading."""
         if self._step is None:
             return
-        kept = percent(manipulability_kept(reading.losses))
+        remaining = format_percent(remaining_manipulability(reading.losses))
         if self._step == 1:
-            self._before = kept
+            self._before = remaining
         step = self._steps[self._step]
-        text = step.text(Sight(names[self._worst], kept, self._before, self._hopeless, busy))
-        head = f"<b>{self._step + 1} of {len(self._steps)}: {step.title}</b><br>"
-        self._show(f'<div class="hf-tour" data-tour="{self._step + 1}" role="status">{head}{escape(text)}</div>', step.after)
+        text = step.text(GuideContext(names[self._worst], remaining, self._before, self._hopeless, busy))
+        heading = f"<b>{self._step + 1} of {len(self._steps)}: {step.title}</b><br>"
+        self._show_html(
+            f'<div class="hf-tour" data-tour="{self._step + 1}" role="status">{heading}{escape(text)}</div>', step.button_label
+        )

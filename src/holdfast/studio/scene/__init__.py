@@ -1,1 +1,1 @@
-"""The arm and what is drawn around it."""
+"""3-D scene of a window: the arm and the objects around it."""

@@ -1,4 +1,4 @@
-"""An arm in the scene of a window: a frame for each link, with what is drawn of it below."""
+"""Arm in the scene of a window: a frame for each link, with its bodies as children."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.present.arm.body import JOINT, Color, Part
+from holdfast.present.arm.body import JOINT_COLOR_RGB, Color, MeshPart
 
 Array = NDArray[np.float64]
 
-LOCKED, FREE = (200, 80, 10), (168, 73, 127)
+LOCKED_RGB, FREE_RGB = (200, 80, 10), (168, 73, 127)
 
 
-def quaternions(rotations: Array) -> Array:
-    """(N, 4) w, x, y, z of rotations (N, 3, 3)."""
+def to_quaternions(rotations: Array) -> Array:
+    """Convert rotations (N, 3, 3) to quaternions (N, 4), w, x, y, z."""
     from viser.transforms import SO3  # SciPy's rotations would double the time to the first picture
 
     return np.asarray(SO3.from_matrix(rotations).wxyz)
 
 
-class Figure:
-    """An arm in a scene: one frame per link, with its parts below.
+class ArmFigure:
+    """Arm in a scene: one frame per link, with its parts as children.
 
     Args:
         scene: A viser scene.
@@ -34,13 +34,13 @@ class Figure:
     """
 
     def __init__(
-        self, scene: Any, root: str, parts: list[Part], frames: int, tint: Color | None = None, opacity: float | None = None
+        self, scene: Any, root: str, parts: list[MeshPart], frames: int, tint: Color | None = None, opacity: float | None = None
     ) -> None:
-        self.companions: list[Figure] = []  # they move along
+        self.companions: list[ArmFigure] = []  # they move along
         self._root = scene.add_frame(root, show_axes=False)
-        self._frames = [scene.add_frame(f"{root}/{k}", show_axes=False) for k in range(frames)]
+        self._frames = [scene.add_frame(f"{root}/{link}", show_axes=False) for link in range(frames)]
         self.joints: dict[int, list[Any]] = {}
-        self._last: Array | None = None
+        self._last_frames: Array | None = None
         for number, part in enumerate(parts):
             handle = scene.add_mesh_simple(
                 f"{root}/{part.frame}/{number}",
@@ -55,23 +55,23 @@ class Figure:
             if part.joint is not None:
                 self.joints.setdefault(part.joint, []).append(handle)
 
-    def move(self, frames: Array) -> None:
-        """Put the links where frames (F, 4, 4) say; only those that changed are sent."""
-        turns = quaternions(frames[:, :3, :3])
-        for k, handle in enumerate(self._frames):
-            if self._last is None or not np.array_equal(self._last[k], frames[k]):
-                handle.wxyz, handle.position = turns[k], frames[k, :3, 3]
-        self._last = frames.copy()
+    def move_links(self, frames: Array) -> None:
+        """Move the links to their frames (F, 4, 4); only changed frames are sent."""
+        orientations = to_quaternions(frames[:, :3, :3])
+        for link, handle in enumerate(self._frames):
+            if self._last_frames is None or not np.array_equal(self._last_frames[link], frames[link]):
+                handle.wxyz, handle.position = orientations[link], frames[link, :3, 3]
+        self._last_frames = frames.copy()
         for figure in self.companions:
-            figure.move(frames)
+            figure.move_links(frames)
 
-    def paint(self, joint: int, condition: str) -> None:
+    def paint_joint(self, joint: int, condition: str) -> None:
         """Show a joint as healthy, locked or free."""
-        color = {"locked": LOCKED, "free": FREE}.get(condition, JOINT)
+        color = {"locked": LOCKED_RGB, "free": FREE_RGB}.get(condition, JOINT_COLOR_RGB)
         for handle in self.joints.get(joint, []):
             if tuple(handle.color) != color:
                 handle.color = color
 
     def remove(self) -> None:
-        """Take it out of the scene."""
+        """Remove the arm from the scene."""
         self._root.remove()

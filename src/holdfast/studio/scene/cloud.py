@@ -1,4 +1,4 @@
-"""The region of an assessment as points that stand for configurations."""
+"""Region of an assessment as points, each of which represents a configuration."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from holdfast.indices.index import Index
 from holdfast.regions.region import Region
 
 Array = NDArray[np.float64]
-MOST = 2500  # points that are drawn
-POSES = 1200  # of a region around the end effector
+MAX_POINTS = 2500  # points that are drawn
+REGION_POSES = 1200  # of a region around the end effector
 
 
 @dataclass(frozen=True)
-class Cloud:
-    """Poses of a region, coloured by the index of the configuration found there.
+class RegionCloud:
+    """Poses of a region, coloured by the index of the configuration found for each.
 
     Attributes:
         label: What it is, for people.
@@ -39,48 +39,55 @@ class Cloud:
     values: Array
 
 
-def around(index: Index, hand: Array, size: float, progress: Callable[[int, int], None]) -> Cloud:
-    """A region of a quarter of the arm's length around the tool, orientations within 30 degrees of its own; assessed now."""
+def assess_around_tool(index: Index, tool_pose: Array, size: float, progress: Callable[[int, int], None]) -> RegionCloud:
+    """Assess a region of a quarter of the arm's length around the tool, with orientations within 30 degrees of its own."""
     from holdfast.regions.region import rpy_from_rotation
 
-    half = np.radians(30)
-    extent = np.r_[np.full(3, 0.5 * size), np.full(3, 2 * half)]
-    region = Region.box(hand[:3, 3], extent[:3], rpy_from_rotation(hand[:3, :3]), extent[3:], order="abdi")
-    found = assess(index.arm, region, index, poses=POSES, restarts=20, progress=progress, keep=True)
-    return cloud_of(found, f"{POSES} poses within {100 * 0.25 * size:.0f} cm and 30 deg of the end effector")
+    half_angle = np.radians(30)
+    extent = np.r_[np.full(3, 0.5 * size), np.full(3, 2 * half_angle)]
+    region = Region.box(tool_pose[:3, 3], extent[:3], rpy_from_rotation(tool_pose[:3, :3]), extent[3:], order="abdi")
+    assessment = assess(index.arm, region, index, poses=REGION_POSES, restarts=20, progress=progress, keep=True)
+    return make_cloud(assessment, f"{REGION_POSES} poses within {100 * 0.25 * size:.0f} cm and 30 deg of the end effector")
 
 
-def read_cloud(arm: Arm, path: str) -> Cloud:
-    """The region of a results folder of ``holdfast assess``.
+def read_cloud(arm: Arm, path: str) -> RegionCloud:
+    """Read the region of a results folder of ``holdfast assess``.
 
     Raises:
         StoreError: It is not one.
         InputError: It is of another arm.
     """
-    found = load(path)
-    if found.arm.fingerprint != arm.fingerprint:
-        raise InputError(f"'{path}' is an assessment of '{found.arm.name}', not of '{arm.name}'; open that arm")
-    return cloud_of(found, f"{path}")
+    assessment = load(path)
+    if assessment.arm.fingerprint != arm.fingerprint:
+        raise InputError(f"'{path}' is an assessment of '{assessment.arm.name}', not of '{arm.name}'; open that arm")
+    return make_cloud(assessment, f"{path}")
 
 
-def cloud_of(found: Assessment, label: str) -> Cloud:
-    """The kept poses of an assessment, at most 2500 of them."""
+def make_cloud(assessment: Assessment, label: str) -> RegionCloud:
+    """Make a cloud of the stored poses of an assessment, at most 2500 of them."""
     from holdfast.report.scenes import Scale
 
-    data = found.columns
-    q, values = np.asarray(data["q"][:], dtype=np.float64), np.asarray(data["index"][:], dtype=np.float64)
-    pick = np.unique(np.linspace(0, len(q) - 1, min(MOST, len(q))).astype(int))
-    q, values = q[pick], values[pick]
-    sound: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
+    columns = assessment.columns
+    q, values = np.asarray(columns["q"][:], dtype=np.float64), np.asarray(columns["index"][:], dtype=np.float64)
+    selected = np.unique(np.linspace(0, len(q) - 1, min(MAX_POINTS, len(q))).astype(int))
+    q, values = q[selected], values[selected]
+    has_configuration: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
     points = np.empty((len(q), 3))
-    points[sound] = found.arm.forward_kinematics(q[sound])[:, :3, 3] if sound.any() else 0.0
-    if "position" in data:
-        points = np.asarray(data["position"][:], dtype=np.float64)[pick]
-    elif not sound.all():
-        points, q, values, sound = points[sound], q[sound], values[sound], sound[sound]
-    scale = Scale.of(values[sound], smaller_is_better=found.index.better == "smaller")
+    points[has_configuration] = (
+        assessment.arm.forward_kinematics(q[has_configuration])[:, :3, 3] if has_configuration.any() else 0.0
+    )
+    if "position" in columns:
+        points = np.asarray(columns["position"][:], dtype=np.float64)[selected]
+    elif not has_configuration.all():
+        points, q, values, has_configuration = (
+            points[has_configuration],
+            q[has_configuration],
+            values[has_configuration],
+            has_configuration[has_configuration],
+        )
+    scale = Scale.of(values[has_configuration], smaller_is_better=assessment.index.better == "smaller")
     colors = np.full((len(q), 3), 150, dtype=np.uint8)
-    if sound.any():
-        colors[sound] = (255 * scale.colors(values[sound])[:, :3]).astype(np.uint8)
-    text = f"{label}: {found.index.name} from {scale.low:.3g} (dark) to {scale.high:.3g} (bright)"
-    return Cloud(text, points, colors, q, values)
+    if has_configuration.any():
+        colors[has_configuration] = (255 * scale.colors(values[has_configuration])[:, :3]).astype(np.uint8)
+    caption = f"{label}: {assessment.index.name} from {scale.low:.3g} (dark) to {scale.high:.3g} (bright)"
+    return RegionCloud(caption, points, colors, q, values)

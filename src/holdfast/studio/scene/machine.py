@@ -1,6 +1,4 @@
-"""The compiled arm behind a window: where its bodies are, what a failure takes, how the end effector is followed, and
-its laws.
-"""
+"""Compiled arm of all windows: its kinematics, indices, objectives, clearance, and control laws."""
 
 from __future__ import annotations
 
@@ -15,7 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.arm.poses import pose_of
+from holdfast.arm.poses import pose_from_quaternion
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
@@ -24,21 +22,21 @@ from holdfast.control.law import Law
 from holdfast.errors import ArmError, HoldfastError, InputError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.indices.index import Index, by_name
-from holdfast.indices.lost_directions import Ellipsoid, Loss, ellipsoid, losses, null_directions
+from holdfast.indices.lost_directions import DirectionLoss, Ellipsoid, find_losses, manipulability_ellipsoid, null_directions
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.recall import recalled
-from holdfast.present.arm.body import stretched
-from holdfast.registry import INDICES, LAWS
+from holdfast.kernels.recall import cached_kernel
+from holdfast.present.arm.body import stretched_length
+from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY
 from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
-TOLERANCE = 1e-6  # m and rad, of an end effector that is dragged
-SLIDE = 0.05  # rad (and m): longest step along a self-motion
+REACH_TOLERANCE = 1e-6  # m and rad, of an end effector that is dragged
+MAX_SLIDE_STEP = 0.05  # rad (and m): longest step along a self-motion
 
 
 @dataclass(frozen=True)
-class Bars:
+class JointBars:
     """One number per joint.
 
     Attributes:
@@ -59,27 +57,28 @@ class Bars:
 
 
 @dataclass(frozen=True)
-class Reading:
-    """Everything that is shown live about one configuration.
+class LiveReading:
+    """All live values of one configuration.
 
     Attributes:
         bars: Of the index, or why there are none.
         weights: Of the susceptibility, or why there are none.
-        before, after: Ellipsoids of the healthy and of the failed arm.
-        hit: The joints whose failure ``after`` and ``losses`` are of: the failed ones, or the worst one if none has failed.
+        healthy_ellipsoid, failed_ellipsoid: Ellipsoids of the healthy and of the failed arm.
+        failure_joints: The joints whose failure ``failed_ellipsoid`` and ``losses`` are of: the failed ones, or the worst one
+            if none has failed.
         losses: Directions in which speed is lost.
     """
 
-    bars: Bars | str
-    weights: Bars | str
-    before: Ellipsoid
-    after: Ellipsoid
-    hit: tuple[int, ...]
-    losses: list[Loss]
+    bars: JointBars | str
+    weights: JointBars | str
+    healthy_ellipsoid: Ellipsoid
+    failed_ellipsoid: Ellipsoid
+    failure_joints: tuple[int, ...]
+    losses: list[DirectionLoss]
 
 
-class Machine:
-    """What all windows of an arm share; safe for several threads."""
+class CompiledArm:
+    """Arm with its compiled functions, shared by all windows; safe for several threads."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
         self.arm, self.task, self.cell = arm, task, cell
@@ -87,50 +86,50 @@ class Machine:
         self._susceptibilities: dict[str, susceptibility.Susceptibility | str] = {}
         self._objectives: dict[str, tuple[Objective, Objective] | str] = {}
         self._laws: dict[str, Law] = {}
-        self._clear: Clearance | None = None
-        self._making = threading.RLock()
+        self._clearance: Clearance | None = None
+        self._compile_lock = threading.RLock()
 
     # ---- where things are ------------------------------------------------------------------------------------------
 
     @cached_property
-    @recalled
+    @cached_kernel
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [ca.densify(self.task.jacobian(self.arm, q))])
 
-    def hand(self, q: Array) -> Array:
-        """Tool pose (4, 4) in the world."""
+    def tool_pose(self, q: Array) -> Array:
+        """Return the tool pose (4, 4) in the world."""
         return np.asarray(self.arm.frames(q)[-1])
 
     @cached_property
     def size(self) -> float:
-        """Length of the stretched arm, m: what things are drawn in proportion to."""
-        return stretched(self.arm)
+        """Length of the stretched arm, m, to which the drawing is scaled."""
+        return stretched_length(self.arm)
 
-    def clearance(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Clearance | None:
-        """What the arm keeps clear of, with objects where they were moved to; None without a cell.
+    def get_clearance(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Clearance | None:
+        """Return the clearance to enforce, with the objects in their moved poses; None without a cell.
 
         Raises:
             InputError: The arm's base touches an object.
         """
         if self.cell is None:
             return None
-        with self._making:
-            if self._clear is None:
-                self._clear = Clearance.by_default(self.arm, self.cell)
-            assert self._clear is not None
-            return self._clear.with_cell(self.cell_with(moved)) if moved else self._clear
+        with self._compile_lock:
+            if self._clearance is None:
+                self._clearance = Clearance.by_default(self.arm, self.cell)
+            assert self._clearance is not None
+            return self._clearance.with_cell(self.cell_with_moved(moved)) if moved else self._clearance
 
-    def cell_with(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Cell:
-        """The cell, of an arm that has one, with objects where they were moved to."""
+    def cell_with_moved(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Cell:
+        """Return the cell, of an arm that has one, with the objects in their moved poses."""
         assert self.cell is not None
-        return self.cell.with_poses({name: pose_of(numbers[:3], numbers[3:]) for name, numbers in moved})
+        return self.cell.with_poses({name: pose_from_quaternion(numbers[:3], numbers[3:]) for name, numbers in moved})
 
     # ---- what a failure takes --------------------------------------------------------------------------------------
 
-    def index(self, name: str) -> Index | str:
-        """The index over single failures, or the sentence that says why the arm has none."""
-        with self._making:
+    def get_index(self, name: str) -> Index | str:
+        """Return the index over single failures, or the reason why the arm has none."""
+        with self._compile_lock:
             if name not in self._indices:
                 try:
                     self._indices[name] = by_name(name, self.arm, self.task)
@@ -138,9 +137,9 @@ class Machine:
                     self._indices[name] = str(error)
             return self._indices[name]
 
-    def susceptibility(self, name: str) -> susceptibility.Susceptibility | str:
-        """The susceptibility, or the sentence that says why the arm has none."""
-        with self._making:
+    def get_susceptibility(self, name: str) -> susceptibility.Susceptibility | str:
+        """Return the susceptibility, or the reason why the arm has none."""
+        with self._compile_lock:
             if name not in self._susceptibilities:
                 try:
                     self._susceptibilities[name] = susceptibility.by_name(name, self.arm)
@@ -148,107 +147,117 @@ class Machine:
                     self._susceptibilities[name] = str(error)
             return self._susceptibilities[name]
 
-    def objectives(self, name: str) -> tuple[Objective, Objective] | str:
-        """What the best and the worst configuration are chosen by, or the sentence that says why they cannot be."""
-        with self._making:
+    def get_objectives(self, name: str) -> tuple[Objective, Objective] | str:
+        """Return the objectives of the best and the worst configuration, or the reason why there are none."""
+        with self._compile_lock:
             if name not in self._objectives:
-                found = self.index(name) if INDICES.covers(name) else self.susceptibility(name)
-                self._objectives[name] = found if isinstance(found, str) else (found, found.reversed())
+                measure = self.get_index(name) if INDEX_REGISTRY.covers(name) else self.get_susceptibility(name)
+                self._objectives[name] = measure if isinstance(measure, str) else (measure, measure.reversed())
             return self._objectives[name]
 
-    def law(self, text: str) -> Law:
-        """A control law as its label says, ``name`` or ``name:value``; compiled once.
+    def get_law(self, text: str) -> Law:
+        """Return the control law with the label ``name`` or ``name:value``; it is compiled once.
 
         Raises:
             InputError: It is not known, or its setting is none, or it takes none.
         """
-        with self._making:
+        with self._compile_lock:
             if text not in self._laws:
-                self._laws[text] = LAWS.make(text, self.arm, option="law", task=self.task)
+                self._laws[text] = LAW_REGISTRY.make(text, self.arm, option="law", task=self.task)
             return self._laws[text]
 
-    def read(self, q: Array, failed: Sequence[int], index: str, weight: str) -> Reading:
-        """Everything that is shown live, at q (n,)."""
-        bars = self._index_bars(q, index)
-        hit = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
-        linear = self.arm.jacobian(q)[:3]
-        j = self._task_jacobian(q).reshape(self.task.m, self.arm.n)
-        return Reading(bars, self._weight_bars(q, weight), ellipsoid(linear), ellipsoid(linear, hit), hit, losses(j, hit))
+    def evaluate(self, q: Array, failed: Sequence[int], index: str, weight: str) -> LiveReading:
+        """Evaluate all live values at q (n,)."""
+        bars = self._evaluate_index_bars(q, index)
+        failure_joints = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
+        linear_jacobian = self.arm.jacobian(q)[:3]
+        task_jacobian = self._task_jacobian(q).reshape(self.task.m, self.arm.n)
+        return LiveReading(
+            bars,
+            self._evaluate_susceptibility_bars(q, weight),
+            manipulability_ellipsoid(linear_jacobian),
+            manipulability_ellipsoid(linear_jacobian, failure_joints),
+            failure_joints,
+            find_losses(task_jacobian, failure_joints),
+        )
 
-    def _index_bars(self, q: Array, name: str) -> Bars | str:
-        index = self.index(name)
+    def _evaluate_index_bars(self, q: Array, name: str) -> JointBars | str:
+        index = self.get_index(name)
         if isinstance(index, str):
             return index
-        found = index.evaluate(q)
+        evaluation = index.evaluate(q)
         units = (index.unit,) * self.arm.n
-        singular = "" if found.status == 0 else "the healthy arm is singular here"
-        return Bars(index.name, index.better, units, found.by_failure, int(found.worst), singular)
+        singular = "" if evaluation.status == 0 else "the healthy arm is singular here"
+        return JointBars(index.name, index.better, units, evaluation.by_failure, int(evaluation.worst), singular)
 
-    def _weight_bars(self, q: Array, name: str) -> Bars | str:
-        measure = self.susceptibility(name)
+    def _evaluate_susceptibility_bars(self, q: Array, name: str) -> JointBars | str:
+        measure = self.get_susceptibility(name)
         if isinstance(measure, str):
             return measure
         values = np.abs(measure.by_joint(q))
-        return Bars(measure.name, "smaller", tuple(measure.joint_unit), values, int(np.nan_to_num(values).argmax()))
+        return JointBars(measure.name, "smaller", tuple(measure.joint_unit), values, int(np.nan_to_num(values).argmax()))
 
     # ---- following the end effector ----------------------------------------------------------------------------------------
 
-    def reach(self, q: Array, pose: Array, failed: Sequence[int]) -> tuple[Array, bool]:
-        """The configuration near q (n,) that brings the end effector to a pose (4, 4), failed joints locked; and
-        whether it does.
+    def solve_near(self, q: Array, pose: Array, failed: Sequence[int]) -> tuple[Array, bool]:
+        """Find the configuration near q (n,) that brings the end effector to a pose (4, 4) with failed joints locked; return it
+        and whether it reaches the pose.
 
         Where the pose is out of reach it is the nearest found, never farther than q itself.
         """
-        engine = solver(self.arm, self.task)
-        free = np.ones(self.arm.n)
-        free[list(failed)] = 0.0
-        return engine.near(q, pose, free, TOLERANCE)
+        ik_solver = solver(self.arm, self.task)
+        is_movable = np.ones(self.arm.n)
+        is_movable[list(failed)] = 0.0
+        return ik_solver.solve_near(q, pose, is_movable, REACH_TOLERANCE)
 
-    def apart(self, q: Array, pose: Array) -> float:
-        """How far the end effector at q (n,) is from a pose (4, 4), by the rows of the task; m and rad."""
+    def pose_error_norm(self, q: Array, pose: Array) -> float:
+        """Return the distance between the end effector at q (n,) and a pose (4, 4), by the rows of the task; m and rad."""
         from scipy.spatial.transform import Rotation
 
-        hand = self.hand(q)
-        turn = hand[:3, :3].T if self.task.frame == "tool" else np.eye(3)
-        angular = Rotation.from_matrix(pose[:3, :3] @ hand[:3, :3].T).as_rotvec()
-        return float(np.linalg.norm(self.task.rows @ np.r_[turn @ (pose[:3, 3] - hand[:3, 3]), turn @ angular]))
+        tool = self.tool_pose(q)
+        to_task_frame = tool[:3, :3].T if self.task.frame == "tool" else np.eye(3)
+        angular = Rotation.from_matrix(pose[:3, :3] @ tool[:3, :3].T).as_rotvec()
+        return float(
+            np.linalg.norm(self.task.rows @ np.r_[to_task_frame @ (pose[:3, 3] - tool[:3, 3]), to_task_frame @ angular])
+        )
 
-    def beside(self, q: Array) -> Array:
-        """A configuration a little away from q (n,), within the limits: its pose is a target that can be reached."""
-        away = np.where(self.arm.prismatic, 0.1 * self.size, 0.3) * np.where(np.arange(self.arm.n) % 2, -1.0, 1.0)
-        inside = (q + away >= self.arm.lower) & (q + away <= self.arm.upper)
-        return np.asarray(np.clip(np.where(inside, q + away, q - away), self.arm.lower, self.arm.upper))
+    def nearby_configuration(self, q: Array) -> Array:
+        """Return a configuration near q (n,) within the limits, whose pose is a reachable target."""
+        offsets = np.where(self.arm.prismatic, 0.1 * self.size, 0.3) * np.where(np.arange(self.arm.n) % 2, -1.0, 1.0)
+        is_within_limits = (q + offsets >= self.arm.lower) & (q + offsets <= self.arm.upper)
+        return np.asarray(np.clip(np.where(is_within_limits, q + offsets, q - offsets), self.arm.lower, self.arm.upper))
 
     @cached_property
-    def swings(self) -> bool:
-        """Whether a free joint can be let swing: the physics is installed, and it is known what the bodies weigh."""
+    def can_swing(self) -> bool:
+        """True if a free joint can be simulated: the physics engine is installed and the bodies have masses."""
         return find_spec("mujoco") is not None and all(link is not None for link in self.arm.links)
 
-    def slide(self, q: Array, along: Array, failed: Sequence[int]) -> tuple[Array, Array]:
-        """One step along the self-motion of q (n,) in the direction nearest to ``along`` (n,), whose norm is its length.
+    def step_self_motion(self, q: Array, step: Array, failed: Sequence[int]) -> tuple[Array, Array]:
+        """Take one step along the self-motion of q (n,) in the direction nearest to ``step`` (n,), whose norm is the step
+        length.
 
         Returns:
             Where it led, within the limits, and the unit direction (n,) it went in; q itself and 0 where there is no way on.
         """
-        length = float(np.linalg.norm(along))
+        length = float(np.linalg.norm(step))
         basis = null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
-        ahead = basis.T @ (basis @ along)
-        size = float(np.linalg.norm(ahead))
-        if length == 0 or size < 1e-6 * length:
+        projected = basis.T @ (basis @ step)
+        projected_norm = float(np.linalg.norm(projected))
+        if length == 0 or projected_norm < 1e-6 * length:
             return q, np.zeros_like(q)
-        direction = ahead / size
-        new, on = self.reach(q + length * direction, self.hand(q), failed)
-        inside = bool(((new >= self.arm.lower) & (new <= self.arm.upper)).all())
-        if not on or not inside or np.linalg.norm(new - q) > 2 * length:
+        direction = projected / projected_norm
+        q_next, is_reached = self.solve_near(q + length * direction, self.tool_pose(q), failed)
+        is_within_limits = bool(((q_next >= self.arm.lower) & (q_next <= self.arm.upper)).all())
+        if not is_reached or not is_within_limits or np.linalg.norm(q_next - q) > 2 * length:
             return q, np.zeros_like(q)
-        return new, direction
+        return q_next, direction
 
-    def self_motions(self, q: Array, failed: Sequence[int]) -> Array:
-        """Unit directions (r, n) of the self-motions of q."""
+    def self_motion_directions(self, q: Array, failed: Sequence[int]) -> Array:
+        """Return unit directions (r, n) of the self-motions of q."""
         return null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
 
 
-def sentence(error: BaseException) -> str:
-    """What a person is told of an exception."""
+def describe_error(error: BaseException) -> str:
+    """Format an exception as a sentence for the user."""
     text = str(error) if isinstance(error, HoldfastError) else f"{type(error).__name__}: {error}"
     return text[:1].upper() + text[1:]

@@ -1,4 +1,4 @@
-"""What is in the 3-D scene of one window, and how it is moved."""
+"""Contents of the 3-D scene of one window, and their motion."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.indices.lost_directions import Ellipsoid, Loss
-from holdfast.present.arm.body import THIN, Color, Part, ball, stick_parts
-from holdfast.studio.scene.body import Figure, quaternions
-from holdfast.studio.scene.cloud import Cloud
-from holdfast.studio.scene.machine import Machine, Reading
+from holdfast.indices.lost_directions import DirectionLoss, Ellipsoid
+from holdfast.present.arm.body import LINK_RADIUS_FRACTION, Color, MeshPart, build_stick_parts, mesh_sphere
+from holdfast.studio.scene.body import ArmFigure, to_quaternions
+from holdfast.studio.scene.cloud import RegionCloud
+from holdfast.studio.scene.machine import CompiledArm, LiveReading
 
 Array = NDArray[np.float64]
 
-BLUE, ORANGE, GREEN, PURPLE = (10, 92, 158), (200, 80, 10), (0, 122, 94), (168, 73, 127)
-GRID = (150, 157, 164)  # to be seen on white and on black
-GHOSTS: tuple[Color, ...] = (GREEN, ORANGE, BLUE, PURPLE)
-ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # names of two ghosts that meet stay apart
-SECONDS = 0.22  # an ellipsoid is drawn as how far the tool gets in this time at joint rates of norm 1
-SHOWN = 0.99  # a direction in which at least this share is left is not marked
-_MARKS = 2  # directions that are marked
-_RING = 24
+BLUE_RGB, ORANGE_RGB, GREEN_RGB, PURPLE_RGB = (10, 92, 158), (200, 80, 10), (0, 122, 94), (168, 73, 127)
+GRID_RGB = (150, 157, 164)  # to be seen on white and on black
+GHOST_COLORS: tuple[Color, ...] = (GREEN_RGB, ORANGE_RGB, BLUE_RGB, PURPLE_RGB)
+LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # names of two ghosts that meet stay apart
+ELLIPSOID_TIME_S = 0.22  # an ellipsoid is drawn as how far the tool gets in this time at joint rates of norm 1
+MAX_MARKED_FRACTION = 0.99  # a direction in which at least this share is left is not marked
+_MAX_MARKS = 2  # directions that are marked
+_RING_SEGMENTS = 24
 
 
 class Stage:
-    """The scene of one window.
+    """3-D scene of one window.
 
     Args:
         scene: The window's viser scene.
@@ -35,7 +35,7 @@ class Stage:
         parts: What it is made of.
     """
 
-    def __init__(self, scene: Any, machine: Machine, parts: list[Part]) -> None:
+    def __init__(self, scene: Any, machine: CompiledArm, parts: list[MeshPart]) -> None:
         self.scene, self.machine, self.parts = scene, machine, parts
         size, arm = machine.size, machine.arm
         scene.add_grid(
@@ -44,155 +44,171 @@ class Stage:
             2.4 * size,
             cell_size=0.1 * size,
             section_size=0.4 * size,
-            cell_color=GRID,
-            section_color=GRID,
+            cell_color=GRID_RGB,
+            section_color=GRID_RGB,
             cell_thickness=0.5,
             position=arm.base[:3, 3] - [0.0, 0.0, 0.004 * size],
             shadow_opacity=0,
         )
-        self.figure = Figure(scene, "/arm", parts, arm.n + 2)
+        self.figure = ArmFigure(scene, "/arm", parts, arm.n + 2)
         if len(self.figure.joints) < arm.n:
             # Meshes hide the joints; knobs show which have failed and can be clicked.
-            self._knobs()
-        self._names = [
+            self._add_joint_knobs()
+        self._joint_labels = [
             scene.add_label(
-                f"/arm/{k + 1}/name",
+                f"/arm/{number + 1}/name",
                 name,
-                position=2.2 * THIN * size * arm.joints[k].axis,  # joints may share an origin, but not an axis
+                position=2.2
+                * LINK_RADIUS_FRACTION
+                * size
+                * arm.joints[number].axis,  # joints may share an origin, but not an axis
                 anchor="center-left",
                 font_screen_scale=0.85,
             )
-            for k, name in enumerate(short_names(arm.joint_names))
+            for number, name in enumerate(shorten_names(arm.joint_names))
         ]
-        vertices, faces = ball()
-        self.before = scene.add_mesh_simple("/before", vertices, faces, color=BLUE, wireframe=True, opacity=0.25)
-        self.after = scene.add_mesh_simple("/after", vertices, faces, color=ORANGE, opacity=0.5, cast_shadow=False)
+        vertices, faces = mesh_sphere()
+        self.before = scene.add_mesh_simple("/before", vertices, faces, color=BLUE_RGB, wireframe=True, opacity=0.25)
+        self.after = scene.add_mesh_simple("/after", vertices, faces, color=ORANGE_RGB, opacity=0.5, cast_shadow=False)
         empty = np.zeros((1, 2, 3))
-        thick = 0.006 * size
-        self._lines = [
-            scene.add_line_segments(f"/lost/{k}", np.repeat(empty, _RING + 3, axis=0), ORANGE, thickness=thick)
-            for k in range(_MARKS)
+        line_width = 0.006 * size
+        self._loss_lines = [
+            scene.add_line_segments(
+                f"/lost/{number}", np.repeat(empty, _RING_SEGMENTS + 3, axis=0), ORANGE_RGB, thickness=line_width
+            )
+            for number in range(_MAX_MARKS)
         ]
-        self.ghosts: list[Figure] = []
-        self._labels: list[Any] = []
+        self.ghosts: list[ArmFigure] = []
+        self._ghost_labels: list[Any] = []
         self.cloud: Any = None
         self.chosen: Any = None
-        flat = machine.task.rows[:, :3]
-        planar = not machine.task.angular and len(flat) == 2 and machine.task.frame == "base"
-        axes = tuple(bool(np.abs(flat[:, k]).max() > 1e-9) for k in range(3)) if planar else (True, True, True)
+        linear_rows = machine.task.rows[:, :3]
+        planar = not machine.task.angular and len(linear_rows) == 2 and machine.task.frame == "base"
+        axes = tuple(bool(np.abs(linear_rows[:, number]).max() > 1e-9) for number in range(3)) if planar else (True, True, True)
         self.gizmo = scene.add_transform_controls(
             "/hand", scale=0.17 * size, active_axes=axes, disable_rotations=not machine.task.angular, depth_test=False
         )
         self.target = scene.add_transform_controls("/target", scale=0.13 * size, opacity=0.6, depth_test=False, visible=False)
-        self._shown = True
+        self._losses_visible = True
 
-    def _knobs(self) -> None:
-        arm, thick = self.machine.arm, 1.15 * self.machine.size
-        joints = [p for p in stick_parts(arm, thick) if p.joint is not None and p.joint not in self.figure.joints]
-        figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.5)
+    def _add_joint_knobs(self) -> None:
+        arm, knob_size = self.machine.arm, 1.15 * self.machine.size
+        joints = [
+            part
+            for part in build_stick_parts(arm, knob_size)
+            if part.joint is not None and part.joint not in self.figure.joints
+        ]
+        figure = ArmFigure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.5)
         self.figure.companions.append(figure)
         self.figure.joints |= figure.joints
 
-    def paint(self, joint: int, condition: str) -> None:
-        """Show a joint as healthy, locked or free, by its colour and beside its name."""
-        self.figure.paint(joint, condition)
-        name = short_names(self.machine.arm.joint_names)[joint]
-        self._names[joint].text = name if condition == "healthy" else f"{name} {condition}"
+    def paint_joint(self, joint: int, condition: str) -> None:
+        """Show a joint as healthy, locked or free, by its colour and in its label."""
+        self.figure.paint_joint(joint, condition)
+        name = shorten_names(self.machine.arm.joint_names)[joint]
+        self._joint_labels[joint].text = name if condition == "healthy" else f"{name} {condition}"
 
     def show_labels(self, visible: bool) -> None:
         """Show or hide the names of the joints."""
-        for label in self._names:
+        for label in self._joint_labels:
             label.visible = visible
 
     # ---- live ------------------------------------------------------------------------------------------------------
 
-    def move(self, frames: Array, gizmo: bool) -> None:
-        """Put the arm where its frames (n + 2, 4, 4) say, and the handle into its end effector unless someone holds it."""
-        self.figure.move(frames)
-        if gizmo:
+    def move_arm(self, frames: Array, moves_gizmo: bool) -> None:
+        """Move the arm to its frames (n + 2, 4, 4), and the handle to the end effector unless the user drags it."""
+        self.figure.move_links(frames)
+        if moves_gizmo:
             self.gizmo.position = frames[-1, :3, 3]
-            self.gizmo.wxyz = quaternions(frames[-1:, :3, :3])[0]
+            self.gizmo.wxyz = to_quaternions(frames[-1:, :3, :3])[0]
 
-    def read(self, reading: Reading, hand: Array) -> None:
-        """Show what a failure takes at the end effector (4, 4)."""
-        self._ellipsoid(self.before, reading.before, hand[:3, 3])
-        self._ellipsoid(self.after, reading.after, hand[:3, 3])
-        self.after.visible = self._shown and bool(reading.hit)
-        for k, line in enumerate(self._lines):
-            loss = reading.losses[k] if k < len(reading.losses) else None
-            if loss is None or loss.kept > SHOWN:
+    def show_reading(self, reading: LiveReading, tool_pose: Array) -> None:
+        """Show the effect of a failure at the end effector (4, 4)."""
+        self._place_ellipsoid(self.before, reading.healthy_ellipsoid, tool_pose[:3, 3])
+        self._place_ellipsoid(self.after, reading.failed_ellipsoid, tool_pose[:3, 3])
+        self.after.visible = self._losses_visible and bool(reading.failure_joints)
+        for number, line in enumerate(self._loss_lines):
+            loss = reading.losses[number] if number < len(reading.losses) else None
+            if loss is None or loss.kept > MAX_MARKED_FRACTION:
                 line.visible = False
                 continue
-            line.points = self._mark(loss, hand).astype(np.float32)
-            line.visible = self._shown
+            line.points = self._loss_segments(loss, tool_pose).astype(np.float32)
+            line.visible = self._losses_visible
 
     def show_losses(self, visible: bool) -> None:
         """Show or hide ellipsoids and lost directions."""
-        self._shown = visible
+        self._losses_visible = visible
         self.before.visible = self.after.visible = visible
-        for line in self._lines:
+        for line in self._loss_lines:
             line.visible = visible
 
-    def _ellipsoid(self, handle: Any, shape: Ellipsoid, place: Array) -> None:
-        least = 2e-3 * self.machine.size
-        handle.scale = tuple(float(max(SECONDS * r, least)) for r in shape.radii)
-        handle.wxyz = quaternions(shape.axes[None])[0]
-        handle.position = place
+    def _place_ellipsoid(self, handle: Any, shape: Ellipsoid, center: Array) -> None:
+        min_radius = 2e-3 * self.machine.size
+        handle.scale = tuple(float(max(ELLIPSOID_TIME_S * radius, min_radius)) for radius in shape.radii)
+        handle.wxyz = to_quaternions(shape.axes[None])[0]
+        handle.position = center
 
-    def _mark(self, loss: Loss, hand: Array) -> Array:
-        """Segments (_RING + 3, 2, 3): a line through the end effector both ways, and a ring about the axis of the turn."""
+    def _loss_segments(self, loss: DirectionLoss, tool_pose: Array) -> Array:
+        """Return segments (_RING_SEGMENTS + 3, 2, 3): a line through the end effector both ways, and a ring about the axis of
+        rotation.
+        """
         task = self.machine.task
         twist = task.rows.T @ loss.direction
-        turn = hand[:3, :3] if task.frame == "tool" else np.eye(3)
-        linear, angular = turn @ twist[:3], turn @ twist[3:]
-        reach, centre = 0.24 * self.machine.size, hand[:3, 3]
-        out = np.tile(centre, (_RING + 3, 2, 1))
-        out[0] = [centre - reach * linear, centre + reach * linear]
-        size = float(np.linalg.norm(angular))
-        if size > 0.05:
-            axis = angular / size
-            first = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
-            first /= np.linalg.norm(first)
-            angle = np.linspace(0, 2 * np.pi, _RING + 1)
-            ring = 0.5 * reach * size * (np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * np.cross(axis, first))
-            out[3:, 0], out[3:, 1] = centre + ring[:-1], centre + ring[1:]
-            out[1] = [centre - 0.3 * reach * axis * size, centre + 0.3 * reach * axis * size]
-        return out
+        rotation = tool_pose[:3, :3] if task.frame == "tool" else np.eye(3)
+        linear, angular = rotation @ twist[:3], rotation @ twist[3:]
+        half_length, center = 0.24 * self.machine.size, tool_pose[:3, 3]
+        segments = np.tile(center, (_RING_SEGMENTS + 3, 2, 1))
+        segments[0] = [center - half_length * linear, center + half_length * linear]
+        angular_norm = float(np.linalg.norm(angular))
+        if angular_norm > 0.05:
+            axis = angular / angular_norm
+            first_axis = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
+            first_axis /= np.linalg.norm(first_axis)
+            angle = np.linspace(0, 2 * np.pi, _RING_SEGMENTS + 1)
+            ring = (
+                0.5
+                * half_length
+                * angular_norm
+                * (np.cos(angle)[:, None] * first_axis + np.sin(angle)[:, None] * np.cross(axis, first_axis))
+            )
+            segments[3:, 0], segments[3:, 1] = center + ring[:-1], center + ring[1:]
+            segments[1] = [center - 0.3 * half_length * axis * angular_norm, center + 0.3 * half_length * axis * angular_norm]
+        return segments
 
     # ---- beside the arm --------------------------------------------------------------------------------------------
 
-    def haunt(self, labels: Sequence[str], colors: Sequence[Color] = GHOSTS) -> None:
-        """Put ghost arms into the scene, one for each label, in place of those that are there."""
-        self.lay()
-        moving = [p for p in self.parts if p.frame]
-        for k, (text, color) in enumerate(zip(labels, colors, strict=False)):
-            figure = Figure(self.scene, f"/ghost{k}", moving, self.machine.arm.n + 2, tint=color, opacity=0.45)
+    def add_ghosts(self, labels: Sequence[str], colors: Sequence[Color] = GHOST_COLORS) -> None:
+        """Add ghost arms to the scene, one for each label, in place of the present ones."""
+        self.remove_ghosts()
+        moving_parts = [part for part in self.parts if part.frame]
+        for number, (text, color) in enumerate(zip(labels, colors, strict=False)):
+            figure = ArmFigure(self.scene, f"/ghost{number}", moving_parts, self.machine.arm.n + 2, tint=color, opacity=0.45)
             self.ghosts.append(figure)
-            self._labels.append(self.scene.add_label(f"/name{k}", text, anchor=ANCHORS[k % 2]))
+            self._ghost_labels.append(self.scene.add_label(f"/name{number}", text, anchor=LABEL_ANCHORS[number % 2]))
 
     def move_ghosts(self, frames: Sequence[Array]) -> None:
-        """Put the ghosts where their frames (n + 2, 4, 4) say."""
-        for figure, label, place in zip(self.ghosts, self._labels, frames, strict=True):
-            figure.move(place)
-            label.position = place[len(place) // 2, :3, 3]  # at the elbow: tools often meet
+        """Move the ghosts to their frames (n + 2, 4, 4)."""
+        for figure, label, ghost_frames in zip(self.ghosts, self._ghost_labels, frames, strict=True):
+            figure.move_links(ghost_frames)
+            label.position = ghost_frames[len(ghost_frames) // 2, :3, 3]  # at the elbow: tools often meet
 
-    def lay(self) -> None:
-        """Take the ghosts out of the scene."""
+    def remove_ghosts(self) -> None:
+        """Remove the ghosts from the scene."""
         for figure in self.ghosts:
             figure.remove()
-        for label in self._labels:
+        for label in self._ghost_labels:
             label.remove()
-        self.ghosts, self._labels = [], []
+        self.ghosts, self._ghost_labels = [], []
 
-    def draw_cloud(self, cloud: Cloud | None, clicked: Callable[[int], None]) -> None:
-        """Show a region as points that can be clicked; None: none."""
+    def draw_cloud(self, cloud: RegionCloud | None, on_point: Callable[[int], None]) -> None:
+        """Show a region as points that can be clicked; None removes it."""
         for handle in (self.cloud, self.chosen):
             if handle is not None:
                 handle.remove()
         self.cloud = self.chosen = None
         if cloud is None or not len(cloud.points):
             return
-        vertices, faces = ball(3)
+        vertices, faces = mesh_sphere(3)
         self.cloud = self.scene.add_batched_meshes_simple(
             "/region",
             vertices * 0.009 * self.machine.size,
@@ -205,22 +221,28 @@ class Stage:
             receive_shadow=False,
         )
 
-        async def told(event: Any) -> None:
+        async def on_click(event: Any) -> None:
             if event.instance_index is not None:
-                clicked(int(event.instance_index))
+                on_point(int(event.instance_index))
 
-        self.cloud.on_click(told)
+        self.cloud.on_click(on_click)
 
     def mark_point(self, point: Array) -> None:
-        """Show which point of the region was chosen."""
+        """Mark the chosen point of the region."""
         if self.chosen is not None:
             self.chosen.remove()
-        vertices, faces = ball(6)
+        vertices, faces = mesh_sphere(6)
         size = 0.02 * self.machine.size
-        self.chosen = self.scene.add_mesh_simple("/chosen", vertices * size, faces, color=ORANGE, position=point)
+        self.chosen = self.scene.add_mesh_simple("/chosen", vertices * size, faces, color=ORANGE_RGB, position=point)
 
 
-def short_names(names: Sequence[str]) -> list[str]:
-    """Names of joints without what they all begin with: 4 for panda_joint4."""
-    start = next((k for k, same in enumerate(zip(*names, strict=False)) if len(set(same)) > 1), min(map(len, names)))
-    return [name[start:] for name in names] if len(names) > 1 and all(len(name) > start for name in names) else list(names)
+def shorten_names(names: Sequence[str]) -> list[str]:
+    """Remove the common prefix from the names of joints: 4 for panda_joint4."""
+    prefix_length = next(
+        (position for position, letters in enumerate(zip(*names, strict=False)) if len(set(letters)) > 1), min(map(len, names))
+    )
+    return (
+        [name[prefix_length:] for name in names]
+        if len(names) > 1 and all(len(name) > prefix_length for name in names)
+        else list(names)
+    )

@@ -1,4 +1,4 @@
-"""Paired comparisons: t-tests with Holm's correction, effect sizes with intervals, and a test by ranks beside each."""
+"""Paired comparisons: t-tests with Holm's correction, effect sizes with intervals, and rank tests."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paired:
-    """A paired comparison, two-sided; NaN where there is nothing to compute it from.
+class PairedComparison:
+    """Two-sided paired comparison; NaN where there is nothing to compute a value from.
 
     Attributes:
         n: Pairs.
@@ -45,7 +45,7 @@ class Paired:
     rank_biserial: float
 
 
-def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Paired:
+def compare_pairs(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> PairedComparison:
     """Compare pairs of values.
 
     Args:
@@ -65,85 +65,85 @@ def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Pai
         raise InputError(f"the values have shapes {x.shape} and {y.shape}; pairs need two lists of the same length")
     if not 0 < confidence < 1:
         raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")
-    d = (x - y)[np.isfinite(x) & np.isfinite(y)]
-    n, nan = len(d), float("nan")
-    untold = dict.fromkeys(("t", "p", "dz", "dz_low", "dz_high", "wilcoxon", "rank_biserial"), nan)
+    differences = (x - y)[np.isfinite(x) & np.isfinite(y)]
+    n, nan = len(differences), float("nan")
+    undefined = dict.fromkeys(("t", "p", "dz", "dz_low", "dz_high", "wilcoxon", "rank_biserial"), nan)
     if n < 2:
-        difference = float(d.mean()) if n else nan
-        return Paired(n=n, difference=difference, low=nan, high=nan, df=n - 1, median_difference=nan, **untold)
-    mean, spread = float(d.mean()), float(d.std(ddof=1))
-    median = float(np.median(d))
-    if spread <= 1e-14 * np.abs(d).max():
-        return Paired(n=n, difference=mean, low=mean, high=mean, df=n - 1, median_difference=median, **untold)
-    t = float(mean / (spread / np.sqrt(n)))
-    half = float(stats.t.ppf(0.5 + confidence / 2, n - 1) * spread / np.sqrt(n))
-    limits = [z / float(np.sqrt(n)) for z in noncentrality_interval(t, n - 1, confidence)]
-    ranks = stats.rankdata(np.abs(d[d != 0]))
-    favour = float(np.sum(ranks * np.sign(d[d != 0])) / ranks.sum())
+        difference = float(differences.mean()) if n else nan
+        return PairedComparison(n=n, difference=difference, low=nan, high=nan, df=n - 1, median_difference=nan, **undefined)
+    mean, deviation = float(differences.mean()), float(differences.std(ddof=1))
+    median = float(np.median(differences))
+    if deviation <= 1e-14 * np.abs(differences).max():
+        return PairedComparison(n=n, difference=mean, low=mean, high=mean, df=n - 1, median_difference=median, **undefined)
+    t = float(mean / (deviation / np.sqrt(n)))
+    half_width = float(stats.t.ppf(0.5 + confidence / 2, n - 1) * deviation / np.sqrt(n))
+    dz_limits = [noncentrality / float(np.sqrt(n)) for noncentrality in noncentrality_interval(t, n - 1, confidence)]
+    ranks = stats.rankdata(np.abs(differences[differences != 0]))
+    rank_biserial = float(np.sum(ranks * np.sign(differences[differences != 0])) / ranks.sum())
     p = float(2 * stats.t.sf(abs(t), n - 1))
-    by_rank = signed_rank_p(ranks, d[d != 0] > 0)
-    return Paired(
+    wilcoxon_p = signed_rank_p(ranks, differences[differences != 0] > 0)
+    return PairedComparison(
         n=n,
         difference=mean,
-        low=mean - half,
-        high=mean + half,
+        low=mean - half_width,
+        high=mean + half_width,
         t=t,
         df=n - 1,
         p=p,
-        dz=mean / spread,
-        dz_low=limits[0],
-        dz_high=limits[1],
+        dz=mean / deviation,
+        dz_low=dz_limits[0],
+        dz_high=dz_limits[1],
         median_difference=median,
-        wilcoxon=by_rank,
-        rank_biserial=favour,
+        wilcoxon=wilcoxon_p,
+        rank_biserial=rank_biserial,
     )
 
 
 def signed_rank_p(ranks: NDArray[np.float64], positive: NDArray[np.bool_]) -> float:
-    """Two-sided p of Wilcoxon's signed-rank test, exact for any ties: every sign of every rank is as likely as the other.
+    """Return the two-sided p of Wilcoxon's signed-rank test, exact for any ties, from all equally likely signs of the ranks.
 
     Args:
         ranks: (N,) of the absolute differences that are not zero, ties with their mean rank.
         positive: (N,) which of them are above zero.
     """
-    whole = np.rint(2 * ranks).astype(np.int64)  # mean ranks are halves
-    chance = np.zeros(int(whole.sum()) + 1)  # of each sum of positive ranks
-    chance[0] = 1.0
-    for rank in whole:
-        moved = np.zeros_like(chance)
-        moved[rank:] = chance[: len(chance) - rank]
-        chance = (chance + moved) / 2
-    found = int(whole[positive].sum())
-    return float(min(2 * min(chance[: found + 1].sum(), chance[found:].sum()), 1.0))
+    doubled_ranks = np.rint(2 * ranks).astype(np.int64)  # mean ranks are halves
+    probabilities = np.zeros(int(doubled_ranks.sum()) + 1)  # of each sum of positive ranks
+    probabilities[0] = 1.0
+    for rank in doubled_ranks:
+        shifted = np.zeros_like(probabilities)
+        shifted[rank:] = probabilities[: len(probabilities) - rank]
+        probabilities = (probabilities + shifted) / 2
+    positive_sum = int(doubled_ranks[positive].sum())
+    return float(min(2 * min(probabilities[: positive_sum + 1].sum(), probabilities[positive_sum:].sum()), 1.0))
 
 
 def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float, float]:
-    """The noncentralities under which the observed t is just not too large and just not too small."""
+    """Return the confidence interval of the noncentrality of an observed t."""
     from scipy import optimize, stats
 
     if t < 0:  # scipy's far lower tail of a noncentral t is NaN: stay with positive t
-        low, high = noncentrality_interval(-t, df, confidence)
-        return -high, -low
+        lower, upper = noncentrality_interval(-t, df, confidence)
+        return -upper, -lower
 
-    def at(probability: float) -> float:
-        def excess(z: float) -> float:
-            return float(stats.nct.cdf(t, df, z)) - probability
+    def solve_noncentrality(probability: float) -> float:
+        def cdf_excess(noncentrality: float) -> float:
+            return float(stats.nct.cdf(t, df, noncentrality)) - probability
 
         if stats.t.cdf(t, df) < probability:
-            return float(optimize.brentq(excess, -10.0, 0.0, xtol=1e-10))
-        return float(optimize.brentq(excess, 0.0, 4 * t + 10.0, xtol=1e-10))
+            return float(optimize.brentq(cdf_excess, -10.0, 0.0, xtol=1e-10))
+        return float(optimize.brentq(cdf_excess, 0.0, 4 * t + 10.0, xtol=1e-10))
 
-    return at(0.5 + confidence / 2), at(0.5 - confidence / 2)
+    return solve_noncentrality(0.5 + confidence / 2), solve_noncentrality(0.5 - confidence / 2)
 
 
-def holm(p: ArrayLike) -> Array:
-    """Correct several p for their number by Holm's step-down; NaN stay, and are not counted.
+def correct_by_holm(p: ArrayLike) -> Array:
+    """Correct p-values for multiple testing by Holm's step-down procedure; NaN stay NaN and do not count as tests.
 
     Source: Holm 1979.
     """
     values = np.asarray(p, dtype=np.float64)
-    out = np.full(values.shape, np.nan)
-    there = np.flatnonzero(np.isfinite(values))
-    order = there[np.argsort(values[there])]
-    out[order] = np.minimum(1.0, np.maximum.accumulate(values[order] * np.arange(len(order), 0, -1)))
-    return out
+    corrected = np.full(values.shape, np.nan)
+    finite = np.flatnonzero(np.isfinite(values))
+    order = finite[np.argsort(values[finite])]
+    corrected[order] = np.minimum(1.0, np.maximum.accumulate(values[order] * np.arange(len(order), 0, -1)))
+    return corrected

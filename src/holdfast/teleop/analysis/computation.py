@@ -1,4 +1,4 @@
-"""The analysis of an experiment, from its table of trials.
+"""Analysis of an experiment, from its table of trials.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 7.
 """
@@ -13,17 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.teleop.analysis import sample_sizes as sufficient
 from holdfast.teleop.analysis import tables
-from holdfast.teleop.analysis.correlations import Correlation, correlation
-from holdfast.teleop.analysis.groups import Cells, Groups, in_groups
-from holdfast.teleop.analysis.mixed_model import mixed
-from holdfast.teleop.analysis.observations import Observed
-from holdfast.teleop.analysis.remarks import notes
+from holdfast.teleop.analysis.correlations import Correlation, correlate
+from holdfast.teleop.analysis.groups import CellMeans, TaskGroups, group_by_difficulty
+from holdfast.teleop.analysis.mixed_model import fit_mixed_model
+from holdfast.teleop.analysis.observations import TrialTable
+from holdfast.teleop.analysis.remarks import write_notes
 from holdfast.teleop.analysis.result import Analysis
-from holdfast.teleop.analysis.variance import anova, empty_cells
-from holdfast.teleop.trials.performance import RECORDED
+from holdfast.teleop.analysis.variance import anova, describe_empty_cells
+from holdfast.teleop.trials.performance import RECORDED_MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Missing = Literal["refuse", "complete", "mixed"]
 
-FACTORS = ("law", "difficulty")
-_LAW = "pseudoinverse"
+FACTOR_NAMES = ("law", "difficulty")
+_REFERENCE_LAW = "pseudoinverse"
 
 
-@says("analysing the trials")
+@reports_progress("analysing the trials")
 def analyse(
     table: DataFrame,
     computer: DataFrame | None = None,
@@ -50,7 +50,7 @@ def analyse(
     confidence: float = 0.95,
     seed: int = 0,
 ) -> Analysis:
-    """Analyse the trials of an experiment: what does the control law do to how well people cope with a failed joint?
+    """Analyse the trials of an experiment for the effect of the control law on how well people cope with a failed joint.
 
     With the scenarios in which the arm has failed: a within-subjects ANOVA of CPM (law x difficulty), paired comparisons of the
     laws in each group of tasks, and how anticipated, actual and perceived difficulty go together. With those in which it is
@@ -86,180 +86,209 @@ def analyse(
         raise HoldfastError(
             "statsmodels is needed here and is not installed; install holdfast[stats] (pip install 'holdfast[stats]')"
         )
-    for name, value, known in (
+    for name, value, choices in (
         ("missing", missing, ("refuse", "complete", "mixed")),
         ("difficulty", difficulty, ("operators", "computer")),
         ("normalise", normalise, ("apart", "together")),
     ):
-        if value not in known:
-            raise InputError(f"{name} is '{value}'; it is one of {', '.join(known)}")
+        if value not in choices:
+            raise InputError(f"{name} is '{value}'; it is one of {', '.join(choices)}")
     if not (0 < limit < power < 1 and 0 < confidence < 1):
         raise InputError(
             f"limit is {limit:g}, power {power:g}, confidence {confidence:g}; give 0 < limit < power < 1 and 0 < confidence < 1"
         )
-    observed = Observed.of(table)
-    machine = None if computer is None else _matched(Observed.of(computer, "computer's table"), observed)
-    if difficulty == "computer" and machine is None:
+    observed = TrialTable.from_table(table)
+    matched_computer = (
+        None if computer is None else _match_to_operators(TrialTable.from_table(computer, "computer's table"), observed)
+    )
+    if difficulty == "computer" and matched_computer is None:
         raise InputError("tasks cannot be sorted by the computer's difficulty without its trials; give them as computer")
     left_out: tuple[str, ...] = ()
     while True:
-        who, it = _together(observed, machine) if normalise == "together" else (observed, machine)
-        conditions = _laws(who, reference)
-        grouped = _grouped(who, it, conditions[0], groups, difficulty)
-        cells = Cells.of(who, conditions, grouped)
-        if not (lacking := cells.empty()) or missing == "mixed":
+        operator_trials, computer_trials = (
+            _normalise_together(observed, matched_computer) if normalise == "together" else (observed, matched_computer)
+        )
+        conditions = _list_failed_scenarios(operator_trials, reference)
+        task_groups = _group_tasks(operator_trials, computer_trials, conditions[0], groups, difficulty)
+        cells = CellMeans.from_trials(operator_trials, conditions, task_groups)
+        if not (lacking_cells := cells.list_empty()) or missing == "mixed":
             break
         if missing == "refuse":
             raise InputError(
-                f"the ANOVA needs every subject in every cell, and {empty_cells(lacking)}; missing='complete' leaves these "
+                f"the ANOVA needs every subject in every cell, and {describe_empty_cells(lacking_cells)}; "
+                f"missing='complete' leaves these "
                 "subjects out, missing='mixed' fits a mixed model"
             )
-        full = np.asarray((cells.tasks > 0).all(axis=(1, 2)))
-        left_out += tuple(s for s, ok in zip(observed.subjects, full, strict=True) if not ok)
-        if full.sum() < 2:
+        complete = np.asarray((cells.tasks > 0).all(axis=(1, 2)))
+        left_out += tuple(subject for subject, is_complete in zip(observed.subjects, complete, strict=True) if not is_complete)
+        if complete.sum() < 2:
             raise InputError(
-                f"only {int(full.sum())} of the subjects have trials in every cell; missing='mixed' needs none complete"
+                f"only {int(complete.sum())} of the subjects have trials in every cell; missing='mixed' needs none complete"
             )
         # Without them the medians change, and with these the groups: look again.
-        observed = observed.keep(np.flatnonzero(full).tolist())
-    if len(who.subjects) < 2:
+        observed = observed.select_subjects(np.flatnonzero(complete).tolist())
+    if len(operator_trials.subjects) < 2:
         raise InputError("the table has one subject; statistics between subjects need 2 or more")
-    by_laws = None
+    law_anova = None
     if missing != "mixed":
-        by_laws = anova(cells.values, FACTORS, (cells.laws, cells.groups), subjects=cells.subjects)
-    model = mixed(who, conditions, grouped.of_task) if missing == "mixed" else None
-    correlations = _correlations(who, it, conditions, confidence)
-    parts = {
-        "trials": tables.trials(who, grouped),
-        **({} if it is None else {"computer": tables.trials(it, grouped)}),
-        "cells": cells.long(),
-        "cells_wide": cells.wide(),
-        "means": tables.means(cells),
-        **({} if by_laws is None else {"anova": by_laws.table()}),
-        **({} if model is None else {"mixed": model.table()}),
-        "comparisons": tables.comparisons(cells, confidence),
-        "correlations": tables.rows(correlations),
-        "tasks": tables.tasks(who, it, conditions, grouped),
-        "measures": tables.measures(who, it),
-        "failed": tables.by_measure(who, conditions, confidence),
+        law_anova = anova(cells.values, FACTOR_NAMES, (cells.laws, cells.groups), subjects=cells.subjects)
+    mixed_model = fit_mixed_model(operator_trials, conditions, task_groups.of_task) if missing == "mixed" else None
+    correlations = _correlate_difficulties(operator_trials, computer_trials, conditions, confidence)
+    tables_by_name = {
+        "trials": tables.tabulate_trials(operator_trials, task_groups),
+        **({} if computer_trials is None else {"computer": tables.tabulate_trials(computer_trials, task_groups)}),
+        "cells": cells.to_long_table(),
+        "cells_wide": cells.to_wide_table(),
+        "means": tables.tabulate_means(cells),
+        **({} if law_anova is None else {"anova": law_anova.table()}),
+        **({} if mixed_model is None else {"mixed": mixed_model.table()}),
+        "comparisons": tables.compare_laws(cells, confidence),
+        "correlations": tables.tabulate_correlations(correlations),
+        "tasks": tables.tabulate_tasks(operator_trials, computer_trials, conditions, task_groups),
+        "measures": tables.tabulate_measures(operator_trials, computer_trials),
+        "failed": tables.compare_measures(operator_trials, conditions, confidence),
     }
-    if len(healthy := who.with_arm(failed=False)) > 1:
-        parts["healthy"] = tables.by_measure(who, _first(healthy, who, conditions[0]), confidence)
-    parts |= {
-        "ends": tables.ends(who, it),
-        "missing": who.missing(),
-        "normalisers": tables.normalisers(who, it),
+    if len(healthy := operator_trials.find_conditions(failed=False)) > 1:
+        tables_by_name["healthy"] = tables.compare_measures(
+            operator_trials, _list_healthy_scenarios(healthy, operator_trials, conditions[0]), confidence
+        )
+    tables_by_name |= {
+        "ends": tables.tabulate_ends(operator_trials, computer_trials),
+        "missing": operator_trials.list_missing(),
+        "normalisers": tables.tabulate_normalisers(operator_trials, computer_trials),
     }
-    if it is not None:
-        parts["gains"] = tables.gains(parts["tasks"], who, conditions, grouped)
-    parts |= sufficient.tables(cells, by_laws, parts["comparisons"], limit, power, confidence, seed)
-    other = _other_groups(who, it, conditions, grouped)
-    if by_laws is not None and other is not None:
-        parts["anova_other_groups"] = other
+    if computer_trials is not None:
+        tables_by_name["gains"] = tables.tabulate_gains(tables_by_name["tasks"], operator_trials, conditions, task_groups)
+    tables_by_name |= sufficient.tabulate_sample_sizes(
+        cells, law_anova, tables_by_name["comparisons"], limit, power, confidence, seed
+    )
+    other_anova = _analyse_other_groups(operator_trials, computer_trials, conditions, task_groups)
+    if law_anova is not None and other_anova is not None:
+        tables_by_name["anova_other_groups"] = other_anova
     return Analysis(
-        observed=who,
-        computer=it,
-        conditions=tuple(who.conditions[k] for k in conditions),
-        groups=grouped,
+        observed=operator_trials,
+        computer=computer_trials,
+        conditions=tuple(operator_trials.conditions[position] for position in conditions),
+        groups=task_groups,
         cells=cells,
-        anova=by_laws,
-        mixed=model,
+        anova=law_anova,
+        mixed=mixed_model,
         correlations=correlations,
-        tables={name: t.assign(data=who.kind) for name, t in parts.items()},
+        tables={name: frame.assign(data=operator_trials.kind) for name, frame in tables_by_name.items()},
         missing=missing,
         left_out=left_out,
         limit=limit,
         power=power,
         confidence=confidence,
-        notes=tuple(notes(who, it, conditions, grouped, cells, left_out, normalise)),
+        notes=tuple(write_notes(operator_trials, computer_trials, conditions, task_groups, cells, left_out, normalise)),
     )
 
 
-def _laws(observed: Observed, reference: int | None) -> list[int]:
-    """The positions of the scenarios with the failed arm, the reference first."""
-    failed = observed.with_arm(failed=True)
+def _list_failed_scenarios(observed: TrialTable, reference: int | None) -> list[int]:
+    """Return the positions of the scenarios with the failed arm, the reference first."""
+    failed = observed.find_conditions(failed=True)
     if len(failed) < 2:
         raise InputError(
             f"the table has {len(failed)} scenarios with the failed arm; comparing laws needs 2 or more, with different laws"
         )
     if reference is None:
-        named = [k for k in failed if observed.conditions[k].law == _LAW]
-        return _front(failed, named[0] if named else failed[0])
-    chosen = observed.index(reference)
+        with_reference_law = [position for position in failed if observed.conditions[position].law == _REFERENCE_LAW]
+        return _move_to_front(failed, with_reference_law[0] if with_reference_law else failed[0])
+    chosen = observed.condition_index(reference)
     if chosen not in failed:
         raise InputError(f"the reference is scenario {reference}, with the healthy arm; give one with the failed arm")
-    return _front(failed, chosen)
+    return _move_to_front(failed, chosen)
 
 
-def _front(rows: list[int], one: int) -> list[int]:
-    return [one, *(k for k in rows if k != one)]
+def _move_to_front(positions: list[int], first: int) -> list[int]:
+    return [first, *(position for position in positions if position != first)]
 
 
-def _first(healthy: list[int], observed: Observed, reference: int) -> list[int]:
-    """The scenarios with the healthy arm, that with the reference's law first."""
-    same = [k for k in healthy if observed.conditions[k].law == observed.conditions[reference].law]
-    return _front(healthy, same[0] if same else healthy[0])
+def _list_healthy_scenarios(healthy: list[int], observed: TrialTable, reference: int) -> list[int]:
+    """Return the positions of the scenarios with the healthy arm, the one with the reference's law first."""
+    same_law = [position for position in healthy if observed.conditions[position].law == observed.conditions[reference].law]
+    return _move_to_front(healthy, same_law[0] if same_law else healthy[0])
 
 
-def _matched(machine: Observed, observed: Observed) -> Observed:
-    """The computer's trials in the order of the operators' tasks and scenarios."""
-    if len(machine.subjects) > 1:
-        raise InputError(f"the computer's table has {len(machine.subjects)} subjects; there is one computer")
-    there = {c.scenario: c for c in machine.conditions}
-    for c in observed.conditions:
-        if there.get(c.scenario) != c:
-            raise InputError(f"the computer's table has no scenario {c.label}; give its trials in the same scenarios")
-    lacking = [t for t in observed.tasks if t not in machine.tasks]
+def _match_to_operators(computer: TrialTable, observed: TrialTable) -> TrialTable:
+    """Return the computer's trials in the order of the operators' tasks and scenarios."""
+    if len(computer.subjects) > 1:
+        raise InputError(f"the computer's table has {len(computer.subjects)} subjects; there is one computer")
+    by_scenario = {condition.scenario: condition for condition in computer.conditions}
+    for condition in observed.conditions:
+        if by_scenario.get(condition.scenario) != condition:
+            raise InputError(f"the computer's table has no scenario {condition.label}; give its trials in the same scenarios")
+    lacking = [task for task in observed.tasks if task not in computer.tasks]
     if lacking:
         raise InputError(f"the computer's table has no task {lacking[0]}; give its trials with the same tasks")
-    return machine.pick(
-        [machine.tasks.index(t) for t in observed.tasks], [machine.index(c.scenario) for c in observed.conditions]
+    return computer.select_trials(
+        [computer.tasks.index(task) for task in observed.tasks],
+        [computer.condition_index(condition.scenario) for condition in observed.conditions],
     )
 
 
-def _together(observed: Observed, machine: Observed | None) -> tuple[Observed, Observed | None]:
-    """Both with the largest measures of both."""
-    if machine is None:
+def _normalise_together(observed: TrialTable, computer: TrialTable | None) -> tuple[TrialTable, TrialTable | None]:
+    """Normalise the trials of operators and computer by the largest measures of both."""
+    if computer is None:
         return observed, None
     common = observed.normalisers.copy()
-    common[:RECORDED] = np.maximum(common[:RECORDED], machine.normalisers[:RECORDED])
-    return observed.normalised(common), machine.normalised(common[: len(machine.normalisers)])
+    common[:RECORDED_MEASURES] = np.maximum(common[:RECORDED_MEASURES], computer.normalisers[:RECORDED_MEASURES])
+    return observed.normalise_by(common), computer.normalise_by(common[: len(computer.normalisers)])
 
 
-def _grouped(observed: Observed, machine: Observed | None, reference: int, count: int, by: str) -> Groups:
-    known = observed.middle()[:, reference] if machine is None or by == "operators" else machine.cpm[0, :, reference]
-    return in_groups(np.asarray(known), count, by)
+def _group_tasks(
+    observed: TrialTable, computer: TrialTable | None, reference: int, group_count: int, difficulty_source: str
+) -> TaskGroups:
+    difficulty = (
+        observed.median_cpm()[:, reference]
+        if computer is None or difficulty_source == "operators"
+        else computer.cpm[0, :, reference]
+    )
+    return group_by_difficulty(np.asarray(difficulty), group_count, difficulty_source)
 
 
-def _other_groups(observed: Observed, machine: Observed | None, conditions: list[int], grouped: Groups) -> DataFrame | None:
-    """The ANOVA with tasks sorted by the other's difficulty, if there is one and no cell is empty then."""
-    if machine is None:
+def _analyse_other_groups(
+    observed: TrialTable, computer: TrialTable | None, conditions: list[int], grouped: TaskGroups
+) -> DataFrame | None:
+    """Return the ANOVA with tasks grouped by the other source of difficulty; None without one, or with an empty cell."""
+    if computer is None:
         return None
-    by = "computer" if grouped.by == "operators" else "operators"
-    cells = Cells.of(observed, conditions, _grouped(observed, machine, conditions[0], len(grouped.names), by))
-    return None if cells.empty() else anova(cells.values, FACTORS).table()
+    other_source = "computer" if grouped.by == "operators" else "operators"
+    cells = CellMeans.from_trials(
+        observed, conditions, _group_tasks(observed, computer, conditions[0], len(grouped.names), other_source)
+    )
+    return None if cells.list_empty() else anova(cells.values, FACTOR_NAMES).table()
 
 
-def _correlations(
-    observed: Observed, machine: Observed | None, conditions: list[int], confidence: float
+def _correlate_difficulties(
+    observed: TrialTable, computer: TrialTable | None, conditions: list[int], confidence: float
 ) -> tuple[Correlation, ...]:
-    labels = [f"task {t}" for t in observed.tasks]
-    middle, reference = observed.middle(), conditions[0]
-    levels = {"actual": middle[:, reference]}
-    if machine is not None:
-        levels = {"anticipated": machine.cpm[0, :, reference], **levels}
-    if observed.rated:
+    labels = [f"task {task}" for task in observed.tasks]
+    medians, reference = observed.median_cpm(), conditions[0]
+    levels = {"actual": medians[:, reference]}
+    if computer is not None:
+        levels = {"anticipated": computer.cpm[0, :, reference], **levels}
+    if observed.has_ratings:
         levels["perceived"] = observed.median_rating()[:, reference]
-    found = [
-        correlation(levels[a], levels[b], (a, b), labels=labels, confidence=confidence) for a, b in combinations(levels, 2)
+    correlations = [
+        correlate(levels[first], levels[second], (first, second), labels=labels, confidence=confidence)
+        for first, second in combinations(levels, 2)
     ]
-    if machine is not None:
-        of = observed.conditions
-        for k in conditions[1:]:
+    if computer is not None:
+        scenarios = observed.conditions
+        for position in conditions[1:]:
             with np.errstate(divide="ignore", invalid="ignore"):
-                ours, its = (np.asarray(x[:, k] / x[:, reference]) for x in (middle, machine.cpm[0]))
-            ratio = f"CPM{of[k].scenario}/CPM{of[reference].scenario}"
-            found.append(
-                correlation(ours, its, (f"operators' {ratio}", f"computer's {ratio}"), labels=labels, confidence=confidence)
+                operator_ratios, computer_ratios = (
+                    np.asarray(levels_of[:, position] / levels_of[:, reference]) for levels_of in (medians, computer.cpm[0])
+                )
+            ratio = f"CPM{scenarios[position].scenario}/CPM{scenarios[reference].scenario}"
+            correlations.append(
+                correlate(
+                    operator_ratios,
+                    computer_ratios,
+                    (f"operators' {ratio}", f"computer's {ratio}"),
+                    labels=labels,
+                    confidence=confidence,
+                )
             )
-    return tuple(found)
+    return tuple(correlations)

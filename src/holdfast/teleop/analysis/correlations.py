@@ -1,4 +1,4 @@
-"""How alike two lists are: Pearson's r with its interval, and Spearman's by ranks."""
+"""Correlation of two lists: Pearson's r with its confidence interval, and Spearman's rank correlation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from holdfast.errors import InputError
 
 @dataclass(frozen=True, kw_only=True)
 class Correlation:
-    """A correlation over tasks; NaN where there is nothing to compute it from.
+    """Correlation over tasks; NaN where there is nothing to compute a value from.
 
     Attributes:
         first, second: What was correlated.
@@ -40,7 +40,7 @@ class Correlation:
         return f"{self.first} and {self.second}: r = {self.r:.3f} ({self.low:.3f} to {self.high:.3f}), {self.n} tasks"
 
 
-def correlation(
+def correlate(
     first: ArrayLike,
     second: ArrayLike,
     names: tuple[str, str] = ("first", "second"),
@@ -67,10 +67,10 @@ def correlation(
     x, y = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     if x.ndim != 1 or x.shape != y.shape:
         raise InputError(f"the values have shapes {x.shape} and {y.shape}; a correlation needs two lists of the same length")
-    there = np.isfinite(x) & np.isfinite(y)
-    who = [str(k + 1) for k in range(len(x))] if labels is None else labels
-    left_out = tuple(who[k] for k in np.flatnonzero(~there))
-    x, y = x[there], y[there]
+    finite = np.isfinite(x) & np.isfinite(y)
+    pair_labels = [str(index + 1) for index in range(len(x))] if labels is None else labels
+    left_out = tuple(pair_labels[index] for index in np.flatnonzero(~finite))
+    x, y = x[finite], y[finite]
     nan = float("nan")
     if len(x) < 3 or np.ptp(x) == 0 or np.ptp(y) == 0:
         return Correlation(
@@ -81,14 +81,14 @@ def correlation(
             left_out=left_out,
         )
     pearson, spearman = stats.pearsonr(x, y), stats.spearmanr(x, y)
-    low, high = pearson.confidence_interval(confidence) if len(x) > 3 else (nan, nan)
+    lower, upper = pearson.confidence_interval(confidence) if len(x) > 3 else (nan, nan)
     return Correlation(
         first=names[0],
         second=names[1],
         n=len(x),
         r=float(pearson.statistic),
-        low=float(low),
-        high=float(high),
+        low=float(lower),
+        high=float(upper),
         p=float(pearson.pvalue),
         spearman=float(spearman.statistic),
         p_spearman=float(spearman.pvalue),

@@ -1,4 +1,4 @@
-"""From the records of an experiment to its analysis: whose trials count."""
+"""Analysis of an experiment from its records, limited to the trials that count."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 from holdfast.errors import InputError
-from holdfast.teleop.records.entries import State, Who
+from holdfast.teleop.records.entries import SubjectKind, SubjectState
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.tables import computer_table, trial_table
 
@@ -21,7 +21,7 @@ def analyse_records(
     groups: int = 3,
     difficulty: Literal["operators", "computer"] = "operators",
 ) -> Analysis:
-    """Analyse what was recorded, beside the computer in the same tasks.
+    """Analyse the recorded trials, compared with the computer operator in the same tasks.
 
     Subjects who dropped out are no part of any number, and where people took part programs are not; the notes name them.
 
@@ -39,11 +39,11 @@ def analyse_records(
 
     table = trial_table(records)
     subjects = records.subjects()
-    dropped = [s.code for s in subjects if s.state == State.DROPPED]
+    dropped = [subject.code for subject in subjects if subject.state == SubjectState.DROPPED]
     table = table[~table["subject"].isin(dropped)]
-    people = table["kind"] == Who.PERSON
-    programs = sorted(set(table["subject"][~people])) if people.any() else []
-    table = table[~table["subject"].isin(programs)]
+    is_person = table["kind"] == SubjectKind.PERSON
+    simulated = sorted(set(table["subject"][~is_person])) if is_person.any() else []
+    table = table[~table["subject"].isin(simulated)]
     if table.empty:
         raise InputError(
             f"'{records.folder}' holds no trials of subjects who have not dropped out; there is nothing to analyse"
@@ -51,6 +51,6 @@ def analyse_records(
     result = analyse(table, computer_table(records.protocol), missing=missing, groups=groups, difficulty=difficulty)
     notes = (
         *([f"dropped out, and not part of any number: {', '.join(dropped)}"] if dropped else []),
-        *([f"simulated, and not part of any number: {', '.join(programs)}"] if programs else []),
+        *([f"simulated, and not part of any number: {', '.join(simulated)}"] if simulated else []),
     )
     return replace(result, notes=(*result.notes, *notes))

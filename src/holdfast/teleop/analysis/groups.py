@@ -1,4 +1,4 @@
-"""Tasks in groups of difficulty, and the cell means of the analysis of variance with what they are means of."""
+"""Groups of tasks by difficulty, and the cell means of the analysis of variance with their numbers of tasks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.analysis.observations import Observed
+from holdfast.teleop.analysis.observations import TrialTable
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_NAMES = {2: ("easy", "difficult"), 3: ("easy", "medium", "difficult")}
+_GROUP_NAMES = {2: ("easy", "difficult"), 3: ("easy", "medium", "difficult")}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Groups:
-    """Tasks in groups of difficulty.
+class TaskGroups:
+    """Groups of tasks by difficulty.
 
     Attributes:
         names: (B,) from the easiest.
@@ -38,12 +38,12 @@ class Groups:
 
     @property
     def sizes(self) -> Indices:
-        """(B,) tasks in each."""
+        """(B,) number of tasks in each group."""
         return np.bincount(self.of_task, minlength=len(self.names))
 
 
-def in_groups(difficulty: Array, count: int, by: str) -> Groups:
-    """Sort tasks by difficulty and cut the list into equal parts; tasks left over go one each to the easiest groups.
+def group_by_difficulty(difficulty: Array, count: int, by: str) -> TaskGroups:
+    """Group tasks by difficulty into equal parts of their sorted list; surplus tasks go one each to the easiest groups.
 
     Tasks without a known difficulty are put behind all others: nobody, or not the computer, could do them.
 
@@ -61,14 +61,14 @@ def in_groups(difficulty: Array, count: int, by: str) -> Groups:
         )
     order = np.argsort(np.where(np.isnan(difficulty), np.inf, difficulty), kind="stable")
     of_task = np.empty(len(difficulty), dtype=np.int64)
-    for k, part in enumerate(np.array_split(order, count)):
-        of_task[part] = k
-    names = _NAMES.get(count, tuple(f"level {k + 1} of {count}" for k in range(count)))
-    return Groups(names=names, of_task=of_task, difficulty=difficulty, by=by)
+    for group, members in enumerate(np.array_split(order, count)):
+        of_task[members] = group
+    names = _GROUP_NAMES.get(count, tuple(f"level {group + 1} of {count}" for group in range(count)))
+    return TaskGroups(names=names, of_task=of_task, difficulty=difficulty, by=by)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Cells:
+class CellMeans:
     """Mean CPM of each subject with each law in each group of tasks.
 
     Attributes:
@@ -86,42 +86,53 @@ class Cells:
     groups: tuple[str, ...]
 
     @classmethod
-    def of(cls, observed: Observed, conditions: list[int], grouped: Groups) -> Cells:
-        """From the trials with some scenarios."""
+    def from_trials(cls, observed: TrialTable, conditions: list[int], grouped: TaskGroups) -> CellMeans:
+        """Compute the cell means from the trials with some scenarios."""
         cpm = observed.cpm[:, :, conditions]
-        there = np.isfinite(cpm)
-        member = np.eye(len(grouped.names))[grouped.of_task]
-        sums = np.einsum("pta,tb->pab", np.where(there, cpm, 0.0), member)
-        tasks = np.einsum("pta,tb->pab", there, member).round().astype(np.int64)
+        finite = np.isfinite(cpm)
+        membership = np.eye(len(grouped.names))[grouped.of_task]
+        sums = np.einsum("pta,tb->pab", np.where(finite, cpm, 0.0), membership)
+        tasks = np.einsum("pta,tb->pab", finite, membership).round().astype(np.int64)
         with np.errstate(invalid="ignore"):
             values = np.where(tasks > 0, sums / np.maximum(tasks, 1), np.nan)
-        laws = tuple(observed.conditions[k].law for k in conditions)
+        laws = tuple(observed.conditions[position].law for position in conditions)
         return cls(values=values, tasks=tasks, subjects=observed.subjects, laws=laws, groups=grouped.names)
 
-    def empty(self) -> list[str]:
-        """Cells without a task, as people read them."""
-        return [f"{self.subjects[p]} / {self.laws[a]} / {self.groups[b]}" for p, a, b in np.argwhere(self.tasks == 0)]
+    def list_empty(self) -> list[str]:
+        """Return the cells without a task as text for people."""
+        return [
+            f"{self.subjects[subject]} / {self.laws[law]} / {self.groups[group]}"
+            for subject, law, group in np.argwhere(self.tasks == 0)
+        ]
 
-    def long(self) -> DataFrame:
-        """A row for each cell: subject, law, difficulty, cpm, tasks."""
+    def to_long_table(self) -> DataFrame:
+        """Return a table with a row for each cell: subject, law, difficulty, cpm, tasks."""
         from pandas import DataFrame
 
         rows = [
-            (self.subjects[p], self.laws[a], self.groups[b], self.values[p, a, b], int(self.tasks[p, a, b]))
-            for p, a, b in np.ndindex(*self.values.shape)
+            (
+                self.subjects[subject],
+                self.laws[law],
+                self.groups[group],
+                self.values[subject, law, group],
+                int(self.tasks[subject, law, group]),
+            )
+            for subject, law, group in np.ndindex(*self.values.shape)
         ]
         return DataFrame(rows, columns=["subject", "law", "difficulty", "cpm", "tasks"])
 
-    def wide(self) -> DataFrame:
-        """A row for each subject, a column for each cell, named ``law_difficulty`` in small letters and underscores."""
+    def to_wide_table(self) -> DataFrame:
+        """Return a table with a row for each subject and a column for each cell, named ``law_difficulty`` in lower case."""
         from pandas import DataFrame
 
-        columns = [slug(f"{law}_{group}") for law in self.laws for group in self.groups]
+        columns = [make_column_name(f"{law}_{group}") for law in self.laws for group in self.groups]
         table = DataFrame(self.values.reshape(len(self.subjects), -1), columns=columns)
         table.insert(0, "subject", list(self.subjects))
         return table
 
 
-def slug(text: str) -> str:
-    """A name that R and JASP take for a column: letters, digits and underscores."""
-    return "_".join("".join(c if c.isascii() and c.isalnum() else " " for c in text.lower()).split())
+def make_column_name(text: str) -> str:
+    """Return a column name for R and JASP: letters, digits and underscores."""
+    return "_".join(
+        "".join(character if character.isascii() and character.isalnum() else " " for character in text.lower()).split()
+    )

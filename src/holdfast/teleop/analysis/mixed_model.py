@@ -1,4 +1,4 @@
-"""A linear mixed model of single trials: what can be done when cells are empty."""
+"""Linear mixed model of single trials, for an experiment with empty cells."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.analysis.observations import Observed
+from holdfast.teleop.analysis.observations import TrialTable
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 Array = NDArray[np.float64]
 
-_OPTIMISERS = ("lbfgs", "powell", "nm")
+_OPTIMISER_NAMES = ("lbfgs", "powell", "nm")
 
 
 @dataclass(frozen=True, kw_only=True)
 class WaldTest:
-    """Whether an effect of the mixed model is 0: asymptotic, so a little too sure of itself with few subjects or tasks.
+    """Wald test that an effect of the mixed model is 0; asymptotic, so its p is slightly too small with few subjects or tasks.
 
     Attributes:
         name: The effect.
@@ -39,8 +39,8 @@ class WaldTest:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Mixed:
-    """A linear mixed model of the CPM of single trials with the failed arm, by restricted maximum likelihood.
+class MixedModel:
+    """Linear mixed model of the CPM of single trials with the failed arm, fitted by restricted maximum likelihood.
 
     Fixed effects are law, difficulty and their interaction, coded as deviations from the mean; subjects and tasks are crossed
     random intercepts. So it tells of other subjects *and* other tasks, where the ANOVA takes the tasks as they are: difficulty,
@@ -67,15 +67,15 @@ class Mixed:
     messages: tuple[str, ...]
 
     def table(self) -> DataFrame:
-        """A row for each effect: effect, chi2, df, p, converged."""
+        """Return a table with a row for each effect: effect, chi2, df, p, converged."""
         from pandas import DataFrame
 
-        rows = [(t.name, t.chi2, t.df, t.p, int(self.converged)) for t in self.tests]
+        rows = [(test.name, test.chi2, test.df, test.p, int(self.converged)) for test in self.tests]
         return DataFrame(rows, columns=["effect", "chi2", "df", "p", "converged"])
 
 
-def mixed(observed: Observed, conditions: list[int], group: NDArray[np.int64]) -> Mixed:
-    """Fit the model.
+def fit_mixed_model(observed: TrialTable, conditions: list[int], group: NDArray[np.int64]) -> MixedModel:
+    """Fit the linear mixed model.
 
     Args:
         observed: The trials.
@@ -86,32 +86,39 @@ def mixed(observed: Observed, conditions: list[int], group: NDArray[np.int64]) -
         InputError: No trial at all of a law at a difficulty, or too few trials for the model.
     """
     values = observed.cpm[:, :, conditions]
-    p, t, a = np.nonzero(np.isfinite(values))
-    y, b = values[p, t, a], group[t]
+    subjects, tasks, laws = np.nonzero(np.isfinite(values))
+    y, groups = values[subjects, tasks, laws], group[tasks]
     levels = (len(conditions), int(group.max()) + 1)
-    count = np.zeros(levels, dtype=np.int64)
-    np.add.at(count, (a, b), 1)
-    if (count == 0).any():
-        i, j = np.argwhere(count == 0)[0]
-        law = observed.conditions[conditions[i]].law
-        raise InputError(f"no subject has a trial with {law} in difficulty group {j + 1}: no model can fill that cell")
-    if len(y) <= levels[0] * levels[1] + len(set(p)) + len(set(t)):
-        raise InputError(f"{len(y)} trials are too few for a mixed model of {len(set(p))} subjects and {len(set(t))} tasks")
-    cells = [(i, j) for i in range(levels[0]) for j in range(levels[1])]
-    coded, slices = _coded(np.array(cells), levels)
-    of_cell = np.zeros(levels, dtype=np.int64)
-    of_cell[tuple(np.array(cells).T)] = np.arange(len(cells))
-    result, optimiser, messages = _fit(y, coded[of_cell[a, b]], p, t)
-    beta = np.asarray(result.fe_params, dtype=np.float64)
-    covariance = np.asarray(result.cov_params(), dtype=np.float64)[: len(beta), : len(beta)]
-    tests = [_wald(name, beta[s], covariance[s, s]) for name, s in zip(_EFFECTS, slices, strict=True)]
-    rest = float(result.scale)
-    random = dict(zip(result.model.exog_vc.names, np.asarray(result.vcomp, dtype=np.float64).tolist(), strict=True))
-    return Mixed(
+    counts = np.zeros(levels, dtype=np.int64)
+    np.add.at(counts, (laws, groups), 1)
+    if (counts == 0).any():
+        law_level, group_level = np.argwhere(counts == 0)[0]
+        law = observed.conditions[conditions[law_level]].law
+        raise InputError(
+            f"no subject has a trial with {law} in difficulty group {group_level + 1}: no model can fill that cell"
+        )
+    if len(y) <= levels[0] * levels[1] + len(set(subjects)) + len(set(tasks)):
+        raise InputError(
+            f"{len(y)} trials are too few for a mixed model of {len(set(subjects))} subjects and {len(set(tasks))} tasks"
+        )
+    cells = [(law_level, group_level) for law_level in range(levels[0]) for group_level in range(levels[1])]
+    design, effect_columns = _code_deviations(np.array(cells), levels)
+    cell_number = np.zeros(levels, dtype=np.int64)
+    cell_number[tuple(np.array(cells).T)] = np.arange(len(cells))
+    result, optimiser, messages = _fit_with_fallback(y, design[cell_number[laws, groups]], subjects, tasks)
+    coefficients = np.asarray(result.fe_params, dtype=np.float64)
+    covariance = np.asarray(result.cov_params(), dtype=np.float64)[: len(coefficients), : len(coefficients)]
+    tests = [
+        _test_coefficients(name, coefficients[columns], covariance[columns, columns])
+        for name, columns in zip(_EFFECT_NAMES, effect_columns, strict=True)
+    ]
+    residual_variance = float(result.scale)
+    random_variances = dict(zip(result.model.exog_vc.names, np.asarray(result.vcomp, dtype=np.float64).tolist(), strict=True))
+    return MixedModel(
         tests=(tests[0], tests[1], tests[2]),
-        means=(coded @ beta).reshape(levels),
-        mean_errors=np.sqrt(np.einsum("ki,ij,kj->k", coded, covariance, coded)).reshape(levels),
-        variances={"subject": random["subject"], "task": random["task"], "rest": rest},
+        means=(design @ coefficients).reshape(levels),
+        mean_errors=np.sqrt(np.einsum("ki,ij,kj->k", design, covariance, design)).reshape(levels),
+        variances={"subject": random_variances["subject"], "task": random_variances["task"], "rest": residual_variance},
         trials=len(y),
         converged=bool(result.converged),
         optimiser=optimiser,
@@ -119,27 +126,31 @@ def mixed(observed: Observed, conditions: list[int], group: NDArray[np.int64]) -
     )
 
 
-_EFFECTS = ("law", "difficulty", "law x difficulty")
+_EFFECT_NAMES = ("law", "difficulty", "law x difficulty")
 
 
-def _coded(cells: NDArray[np.int64], levels: tuple[int, int]) -> tuple[Array, list[slice]]:
-    """(K, A B) deviation-coded columns of cells (K, 2): one, law, difficulty, both; and where the last three are."""
-    parts = []
-    for k, size in enumerate(levels):
-        codes = np.vstack([np.eye(size - 1), -np.ones(size - 1)])
-        parts.append(codes[cells[:, k]])
-    both = np.einsum("ki,kj->kij", *parts).reshape(len(cells), -1)
-    ends = np.cumsum([1, *(x.shape[1] for x in (*parts, both))])
-    columns = np.hstack([np.ones((len(cells), 1)), *parts, both])
-    return columns, [slice(int(s), int(e)) for s, e in pairwise(ends)]
+def _code_deviations(cells: NDArray[np.int64], levels: tuple[int, int]) -> tuple[Array, list[slice]]:
+    """Return the (K, A B) deviation-coded columns of cells (K, 2): intercept, law, difficulty, interaction; and the slices of
+    the last three.
+    """
+    factor_codes = []
+    for factor, level_count in enumerate(levels):
+        codes = np.vstack([np.eye(level_count - 1), -np.ones(level_count - 1)])
+        factor_codes.append(codes[cells[:, factor]])
+    interaction = np.einsum("ki,kj->kij", *factor_codes).reshape(len(cells), -1)
+    boundaries = np.cumsum([1, *(block.shape[1] for block in (*factor_codes, interaction))])
+    columns = np.hstack([np.ones((len(cells), 1)), *factor_codes, interaction])
+    return columns, [slice(int(start), int(stop)) for start, stop in pairwise(boundaries)]
 
 
-def _fit(y: Array, x: Array, subject: NDArray[np.int64], task: NDArray[np.int64]) -> tuple[Any, str, tuple[str, ...]]:
-    """The fit of the first optimiser that converges; of the last one otherwise."""
+def _fit_with_fallback(
+    y: Array, x: Array, subject: NDArray[np.int64], task: NDArray[np.int64]
+) -> tuple[Any, str, tuple[str, ...]]:
+    """Return the fit of the first optimiser that converges, or that of the last one."""
     from pandas import DataFrame
     from statsmodels.regression.mixed_linear_model import MixedLM
 
-    columns = [f"x{k}" for k in range(x.shape[1])]
+    columns = [f"x{column}" for column in range(x.shape[1])]
     table = DataFrame(x, columns=columns).assign(y=y, subject=subject, task=task, one=0)
     # Crossed random effects are variance components of one group with everything in it.
     model = MixedLM.from_formula(
@@ -149,19 +160,19 @@ def _fit(y: Array, x: Array, subject: NDArray[np.int64], task: NDArray[np.int64]
         re_formula="0",
         vc_formula={"subject": "0 + C(subject)", "task": "0 + C(task)"},
     )
-    result, said = None, []
-    for name in _OPTIMISERS:
+    result, texts = None, []
+    for optimiser in _OPTIMISER_NAMES:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            result = model.fit(reml=True, method=[name])
-        said += [f"{name}: {' '.join(str(w.message).split())}" for w in caught]
+            result = model.fit(reml=True, method=[optimiser])
+        texts += [f"{optimiser}: {' '.join(str(warning.message).split())}" for warning in caught]
         if result.converged:
             break
-    return result, name, tuple(dict.fromkeys(said))
+    return result, optimiser, tuple(dict.fromkeys(texts))
 
 
-def _wald(name: str, beta: Array, covariance: Array) -> WaldTest:
+def _test_coefficients(name: str, coefficients: Array, covariance: Array) -> WaldTest:
     from scipy import stats
 
-    chi2 = float(beta @ np.linalg.solve(covariance, beta))
-    return WaldTest(name=name, chi2=chi2, df=len(beta), p=float(stats.chi2.sf(chi2, len(beta))))
+    chi2 = float(coefficients @ np.linalg.solve(covariance, coefficients))
+    return WaldTest(name=name, chi2=chi2, df=len(coefficients), p=float(stats.chi2.sf(chi2, len(coefficients))))

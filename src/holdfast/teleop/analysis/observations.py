@@ -1,4 +1,4 @@
-"""What was observed: a table of trials, checked, as arrays over subjects, tasks and scenarios, and what is missing from it."""
+"""Observed trials: a checked table of trials as arrays over subjects, tasks and scenarios, with the missing ones."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.trials.performance import MEASURES, RECORDED, cpm
+from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES, compute_cpm
 from holdfast.teleop.trials.recordings import End
 
 if TYPE_CHECKING:
@@ -19,22 +19,22 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Words = NDArray[Any]
 
-NAMES = tuple(m.name for m in MEASURES)
-NEEDED = ("subject", "task", "scenario", "law", "failed", "end", *NAMES[:RECORDED])
-ENDS = tuple(e.name.lower() for e in End)
-UNRATED, ABSENT = "no rating", "not recorded"
-CAUSES = {
+MEASURE_NAMES = tuple(m.name for m in MEASURES)
+REQUIRED_COLUMNS = ("subject", "task", "scenario", "law", "failed", "end", *MEASURE_NAMES[:RECORDED_MEASURES])
+END_NAMES = tuple(e.name.lower() for e in End)
+UNRATED_CAUSE, ABSENT_CAUSE = "no rating", "not recorded"
+CAUSE_SENTENCES = {
     **{e.name.lower(): e.sentence for e in End if e != End.ARRIVED},
-    UNRATED: "the end effector reached the target, but the operator did not rate the trial",
-    ABSENT: "the table has no such trial",
+    UNRATED_CAUSE: "the end effector reached the target, but the operator did not rate the trial",
+    ABSENT_CAUSE: "the table has no such trial",
 }
 """Why a trial has no CPM."""
-_WORSE = tuple(e.name.lower() for e in (End.STILL, End.TIME, End.ABORTED))
+_FAILED_ENDS = tuple(e.name.lower() for e in (End.STILL, End.TIME, End.ABORTED))
 
 
 @dataclass(frozen=True)
 class Condition:
-    """A scenario as the table has it.
+    """Scenario as it is in the table.
 
     Attributes:
         scenario: Its number.
@@ -48,13 +48,13 @@ class Condition:
 
     @property
     def label(self) -> str:
-        """For people: ``3: failed, pseudoinverse``."""
+        """Label of the scenario for people: ``3: failed, pseudoinverse``."""
         return f"{self.scenario}: {'failed' if self.failed else 'healthy'}, {self.law}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Observed:
-    """The trials of P subjects with T tasks in S scenarios.
+class TrialTable:
+    """Trials of P subjects with T tasks in S scenarios.
 
     Attributes:
         kind: ``person``, ``simulated`` or ``computer``.
@@ -64,7 +64,7 @@ class Observed:
         measures: (P, T, S, 12) M1 to M12, NaN in trials without a CPM.
         ratings: (P, T, S) M12 of every trial that was rated, whether or not the end effector reached the target.
         cause: (P, T, S) why there is no CPM; empty where there is one.
-        rated: Operators rated trials at all. If not, CPM is made of eleven measures.
+        has_ratings: Operators rated trials at all. If not, CPM is made of eleven measures.
         cpm: (P, T, S) combined performance measures.
         normalisers: (11 or 12,) of the CPM.
     """
@@ -76,43 +76,43 @@ class Observed:
     measures: Array
     ratings: Array
     cause: Words
-    rated: bool
+    has_ratings: bool
     cpm: Array
     normalisers: Array
 
     @classmethod
-    def of(cls, table: DataFrame, what: str = "table") -> Observed:
-        """From a table with one row for each trial.
+    def from_table(cls, table: DataFrame, table_name: str = "table") -> TrialTable:
+        """Read the trials from a table with one row for each trial.
 
         Raises:
             InputError: A column or value that is missing, twice there or impossible; the message says which.
         """
-        _check(table, what)
+        _check_table(table, table_name)
         kind = str(table["kind"].iloc[0]) if "kind" in table else "person"
-        subjects = tuple(dict.fromkeys(_words(_by_number(table)["subject"])))
-        tasks = tuple(sorted({int(t) for t in table["task"]}))
-        conditions = _conditions(table, what)
-        at = tuple(
-            np.array([{x: k for k, x in enumerate(levels)}[v] for v in values], dtype=np.int64)
+        subjects = tuple(dict.fromkeys(_to_strings(_sort_by_number(table)["subject"])))
+        tasks = tuple(sorted({int(task) for task in table["task"]}))
+        conditions = _read_conditions(table, table_name)
+        positions = tuple(
+            np.array([{level: index for index, level in enumerate(levels)}[value] for value in values], dtype=np.int64)
             for levels, values in (
-                (subjects, _words(table["subject"])),
-                (tasks, [int(t) for t in table["task"]]),
-                (tuple(c.scenario for c in conditions), [int(s) for s in table["scenario"]]),
+                (subjects, _to_strings(table["subject"])),
+                (tasks, [int(task) for task in table["task"]]),
+                (tuple(condition.scenario for condition in conditions), [int(scenario) for scenario in table["scenario"]]),
             )
         )
         shape = (len(subjects), len(tasks), len(conditions))
-        measured, cause = np.full((*shape, len(NAMES)), np.nan), np.full(shape, ABSENT, dtype="<U16")
-        for k, name in enumerate(NAMES):
+        measured, causes = np.full((*shape, len(MEASURE_NAMES)), np.nan), np.full(shape, ABSENT_CAUSE, dtype="<U16")
+        for index, name in enumerate(MEASURE_NAMES):
             if name in table:
-                measured[(*at, np.full(len(table), k))] = table[name].to_numpy(dtype=np.float64)
-        end = np.array(_words(table["end"]))
-        cause[at] = np.where(end == "arrived", "", end)
-        ratings = measured[..., RECORDED].copy()
-        rated = bool(np.isfinite(ratings).any())
-        if rated:
-            cause[(cause == "") & np.isnan(ratings)] = UNRATED
-        measured[cause != ""] = np.nan
-        combined = cpm(measured if rated else measured[..., :RECORDED])
+                measured[(*positions, np.full(len(table), index))] = table[name].to_numpy(dtype=np.float64)
+        ends = np.array(_to_strings(table["end"]))
+        causes[positions] = np.where(ends == "arrived", "", ends)
+        ratings = measured[..., RECORDED_MEASURES].copy()
+        is_rated = bool(np.isfinite(ratings).any())
+        if is_rated:
+            causes[(causes == "") & np.isnan(ratings)] = UNRATED_CAUSE
+        measured[causes != ""] = np.nan
+        combined = compute_cpm(measured if is_rated else measured[..., :RECORDED_MEASURES])
         return cls(
             kind=kind,
             subjects=subjects,
@@ -120,41 +120,41 @@ class Observed:
             conditions=conditions,
             measures=measured,
             ratings=ratings,
-            cause=cause,
-            rated=rated,
+            cause=causes,
+            has_ratings=is_rated,
             cpm=combined.values,
             normalisers=combined.normalisers,
         )
 
-    def normalised(self, normalisers: Array) -> Observed:
-        """The same trials with other normalisers of the CPM, as many as they have."""
-        used = self.measures[..., : len(self.normalisers)]
-        return replace(self, cpm=cpm(used, normalisers).values, normalisers=normalisers)
+    def normalise_by(self, normalisers: Array) -> TrialTable:
+        """Return the same trials with other normalisers of the CPM, as many as they have."""
+        included = self.measures[..., : len(self.normalisers)]
+        return replace(self, cpm=compute_cpm(included, normalisers).values, normalisers=normalisers)
 
-    def index(self, scenario: int) -> int:
-        """The position of a scenario in ``conditions``.
+    def condition_index(self, scenario: int) -> int:
+        """Return the position of a scenario in ``conditions``.
 
         Raises:
             InputError: There is no such scenario.
         """
-        for k, c in enumerate(self.conditions):
-            if c.scenario == scenario:
-                return k
-        numbers = ", ".join(str(c.scenario) for c in self.conditions)
+        for position, condition in enumerate(self.conditions):
+            if condition.scenario == scenario:
+                return position
+        numbers = ", ".join(str(condition.scenario) for condition in self.conditions)
         raise InputError(f"there is no scenario {scenario}; there are {numbers}")
 
-    def with_arm(self, failed: bool) -> list[int]:
-        """The positions of the scenarios with the failed or the healthy arm."""
-        return [k for k, c in enumerate(self.conditions) if c.failed == failed]
+    def find_conditions(self, failed: bool) -> list[int]:
+        """Return the positions of the scenarios with the failed or the healthy arm."""
+        return [position for position, condition in enumerate(self.conditions) if condition.failed == failed]
 
-    def keep(self, rows: Sequence[int]) -> Observed:
-        """The same with some of the subjects; CPM are normalised again."""
+    def select_subjects(self, rows: Sequence[int]) -> TrialTable:
+        """Return the trials of some of the subjects, with their CPM normalised again."""
         rows = list(rows)
         measured = self.measures[rows]
-        combined = cpm(measured[..., : len(self.normalisers)])
+        combined = compute_cpm(measured[..., : len(self.normalisers)])
         return replace(
             self,
-            subjects=tuple(self.subjects[r] for r in rows),
+            subjects=tuple(self.subjects[row] for row in rows),
             measures=measured,
             ratings=self.ratings[rows],
             cause=self.cause[rows],
@@ -162,113 +162,117 @@ class Observed:
             normalisers=combined.normalisers,
         )
 
-    def pick(self, tasks: Sequence[int], conditions: Sequence[int]) -> Observed:
-        """Some of the tasks and scenarios, in the order given; CPM are normalised again."""
-        at = np.ix_(range(len(self.subjects)), list(tasks), list(conditions))
-        measured = self.measures[at]
-        combined = cpm(measured[..., : len(self.normalisers)])
+    def select_trials(self, tasks: Sequence[int], conditions: Sequence[int]) -> TrialTable:
+        """Return the trials with some of the tasks and scenarios, in the given order, with their CPM normalised again."""
+        selection = np.ix_(range(len(self.subjects)), list(tasks), list(conditions))
+        measured = self.measures[selection]
+        combined = compute_cpm(measured[..., : len(self.normalisers)])
         return replace(
             self,
-            tasks=tuple(self.tasks[t] for t in tasks),
-            conditions=tuple(self.conditions[c] for c in conditions),
+            tasks=tuple(self.tasks[task] for task in tasks),
+            conditions=tuple(self.conditions[condition] for condition in conditions),
             measures=measured,
-            ratings=self.ratings[at],
-            cause=self.cause[at],
+            ratings=self.ratings[selection],
+            cause=self.cause[selection],
             cpm=combined.values,
             normalisers=combined.normalisers,
         )
 
-    def middle(self) -> Array:
-        """(T, S) the median CPM over subjects, where a trial that was seen to fail counts as worse than any other.
+    def median_cpm(self) -> Array:
+        """Return the median CPM (T, S) over subjects; a trial that was seen to fail counts as worse than any other.
 
         Infinite where that is the median; NaN where there are no trials. Trials that were not recorded, broken off or not
         rated say nothing about difficulty and are left out.
         """
-        ranked = np.where(np.isin(self.cause, _WORSE), np.inf, self.cpm)
-        out = np.full(ranked.shape[1:], np.nan)
-        for t, s in np.ndindex(*out.shape):
-            seen = np.sort(ranked[:, t, s][~np.isnan(ranked[:, t, s])])
-            if seen.size:
-                out[t, s] = (seen[(seen.size - 1) // 2] + seen[seen.size // 2]) / 2
-        return out
+        ranked = np.where(np.isin(self.cause, _FAILED_ENDS), np.inf, self.cpm)
+        medians = np.full(ranked.shape[1:], np.nan)
+        for task, scenario in np.ndindex(*medians.shape):
+            known = np.sort(ranked[:, task, scenario][~np.isnan(ranked[:, task, scenario])])
+            if known.size:
+                medians[task, scenario] = (known[(known.size - 1) // 2] + known[known.size // 2]) / 2
+        return medians
 
     def median_rating(self) -> Array:
-        """(T, S) the median rating over subjects; NaN where nobody rated."""
-        out = np.full(self.ratings.shape[1:], np.nan)
-        for t, s in np.ndindex(*out.shape):
-            given = self.ratings[:, t, s]
-            if np.isfinite(given).any():
-                out[t, s] = np.nanmedian(given)
-        return out
+        """Return the median rating (T, S) over subjects; NaN where no subject rated a trial."""
+        medians = np.full(self.ratings.shape[1:], np.nan)
+        for task, scenario in np.ndindex(*medians.shape):
+            ratings = self.ratings[:, task, scenario]
+            if np.isfinite(ratings).any():
+                medians[task, scenario] = np.nanmedian(ratings)
+        return medians
 
-    def missing(self) -> DataFrame:
-        """The trials without a CPM: subject, task, scenario, law, failed, cause."""
+    def list_missing(self) -> DataFrame:
+        """Return a table of the trials without a CPM: subject, task, scenario, law, failed, cause."""
         from pandas import DataFrame
 
         rows = [
             (
-                self.subjects[p],
-                self.tasks[t],
-                c.scenario,
-                c.law,
-                int(c.failed),
-                str(self.cause[p, t, s]),
+                self.subjects[subject],
+                self.tasks[task],
+                condition.scenario,
+                condition.law,
+                int(condition.failed),
+                str(self.cause[subject, task, scenario]),
             )
-            for p, t, s in np.argwhere(self.cause != "")
-            for c in [self.conditions[s]]
+            for subject, task, scenario in np.argwhere(self.cause != "")
+            for condition in [self.conditions[scenario]]
         ]
         return DataFrame(rows, columns=["subject", "task", "scenario", "law", "failed", "cause"])
 
 
-def _words(column: Any) -> list[str]:
-    return [str(x) for x in column]
+def _to_strings(column: Any) -> list[str]:
+    return [str(value) for value in column]
 
 
-def _by_number(table: DataFrame) -> DataFrame:
+def _sort_by_number(table: DataFrame) -> DataFrame:
     return table.sort_values("number", kind="stable") if "number" in table else table
 
 
-def _check(table: DataFrame, what: str) -> None:
-    lacking = [c for c in NEEDED if c not in table]
+def _check_table(table: DataFrame, table_name: str) -> None:
+    lacking = [c for c in REQUIRED_COLUMNS if c not in table]
     if lacking:
-        raise InputError(f"the {what} has no column '{lacking[0]}'; a table of trials has {', '.join(NEEDED)}")
+        raise InputError(f"the {table_name} has no column '{lacking[0]}'; a table of trials has {', '.join(REQUIRED_COLUMNS)}")
     if not len(table):
-        raise InputError(f"the {what} has no trials; there is nothing to analyse")
+        raise InputError(f"the {table_name} has no trials; there is nothing to analyse")
     if "kind" in table and table["kind"].nunique() > 1:
-        kinds = " and ".join(sorted({str(k) for k in table["kind"]}))
-        raise InputError(f"the {what} has trials of kind {kinds}; analyse one kind at a time")
-    wrong = sorted({str(e) for e in table["end"]} - set(ENDS))
-    if wrong:
-        raise InputError(f"the {what} has a trial that ended '{wrong[0]}'; an end is one of {', '.join(ENDS)}")
-    twice = table.duplicated(["subject", "task", "scenario"])
-    if twice.any():
-        s, t, c = table.loc[twice, ["subject", "task", "scenario"]].iloc[0]
+        kinds = " and ".join(sorted({str(kind) for kind in table["kind"]}))
+        raise InputError(f"the {table_name} has trials of kind {kinds}; analyse one kind at a time")
+    unknown_ends = sorted({str(end) for end in table["end"]} - set(END_NAMES))
+    if unknown_ends:
         raise InputError(
-            f"the {what} has subject {s}, task {t}, scenario {c} twice; give each trial once, and no training trials"
+            f"the {table_name} has a trial that ended '{unknown_ends[0]}'; an end is one of {', '.join(END_NAMES)}"
+        )
+    duplicates = table.duplicated(["subject", "task", "scenario"])
+    if duplicates.any():
+        subject, task, c = table.loc[duplicates, ["subject", "task", "scenario"]].iloc[0]
+        raise InputError(
+            f"the {table_name} has subject {subject}, task {task}, scenario {c} twice; give each trial once, and no "
+            f"training trials"
         )
     arrived = (table["end"] == "arrived").to_numpy()
-    for name in NAMES:
-        if name not in table:
+    for measure in MEASURE_NAMES:
+        if measure not in table:
             continue
-        values = table[name].to_numpy(dtype=np.float64)
-        bad = np.isinf(values) | (values < 0)
-        if name != NAMES[-1]:
-            bad |= arrived & np.isnan(values)
-        if bad.any():
-            s, t, c = table.loc[bad, ["subject", "task", "scenario"]].iloc[0]
+        values = table[measure].to_numpy(dtype=np.float64)
+        invalid = np.isinf(values) | (values < 0)
+        if measure != MEASURE_NAMES[-1]:
+            invalid |= arrived & np.isnan(values)
+        if invalid.any():
+            subject, task, c = table.loc[invalid, ["subject", "task", "scenario"]].iloc[0]
             raise InputError(
-                f"the {what} has {name} = {values[bad][0]:g} for subject {s}, task {t}, scenario {c}; a measure of a trial "
+                f"the {table_name} has {measure} = {values[invalid][0]:g} for subject {subject}, task {task}, scenario "
+                f"{c}; a measure of a trial "
                 "that reached the target is a number of 0 or more"
             )
 
 
-def _conditions(table: DataFrame, what: str) -> tuple[Condition, ...]:
-    found: dict[int, tuple[str, bool]] = {}
+def _read_conditions(table: DataFrame, table_name: str) -> tuple[Condition, ...]:
+    scenarios: dict[int, tuple[str, bool]] = {}
     for number, law, failed in zip(table["scenario"], table["law"], table["failed"], strict=True):
-        if found.setdefault(int(number), (str(law), bool(failed))) != (str(law), bool(failed)):
-            raise InputError(f"the {what} has scenario {number} with different laws or failures; a scenario has one")
-    same = [pair for pair in found.values() if list(found.values()).count(pair) > 1]
+        if scenarios.setdefault(int(number), (str(law), bool(failed))) != (str(law), bool(failed)):
+            raise InputError(f"the {table_name} has scenario {number} with different laws or failures; a scenario has one")
+    repeated = [pair for pair in scenarios.values() if list(scenarios.values()).count(pair) > 1]
     return tuple(
-        Condition(number, f"{law} ({number})" if (law, failed) in same else law, failed)
-        for number, (law, failed) in sorted(found.items())
+        Condition(number, f"{law} ({number})" if (law, failed) in repeated else law, failed)
+        for number, (law, failed) in sorted(scenarios.items())
     )

@@ -1,4 +1,4 @@
-"""How many subjects would have sufficed.
+"""Statistical power of the tests, and the numbers of subjects that suffice for it.
 
 Power is the probability that a test of an effect as large as the one observed gives p below a limit. An observed effect is
 itself uncertain, and where the result was significant it is more often too large than too small: plan with the lower end of
@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.analysis.variance import freedom, squares
+from holdfast.teleop.analysis.variance import degrees_of_freedom, sums_of_squares
 
 Array = NDArray[np.float64]
 
-MOST = 10_000
-_BLOCK = 2_000_000  # values resampled at once
+MAX_SUBJECTS = 10_000
+_MAX_BLOCK_VALUES = 2_000_000  # values resampled at once
 
 
 def t_power(dz: float, subjects: int, limit: float = 0.05) -> float:
-    """Power of a two-sided paired t-test.
+    """Return the power of a two-sided paired t-test.
 
     Args:
         dz: Mean difference over the standard deviation of the differences.
@@ -32,14 +32,14 @@ def t_power(dz: float, subjects: int, limit: float = 0.05) -> float:
     from scipy import stats
 
     df = subjects - 1
-    edge = stats.t.isf(limit / 2, df)
-    size = abs(dz) * np.sqrt(subjects)
-    other_way = stats.nct.cdf(-edge, df, size)  # NaN where it is too small to be computed
-    return float(1 - stats.nct.cdf(edge, df, size) + np.nan_to_num(other_way))
+    critical_t = stats.t.isf(limit / 2, df)
+    noncentrality = abs(dz) * np.sqrt(subjects)
+    lower_tail = stats.nct.cdf(-critical_t, df, noncentrality)  # NaN where it is too small to be computed
+    return float(1 - stats.nct.cdf(critical_t, df, noncentrality) + np.nan_to_num(lower_tail))
 
 
 def f_power(effect: float, df: float, subjects: int, limit: float = 0.05, epsilon: float = 1.0) -> float:
-    """Power of a within-subjects F test with noncentrality ``effect * subjects``.
+    """Return the power of a within-subjects F test with noncentrality ``effect * subjects``.
 
     Args:
         effect: Noncentrality for each subject: of an observed F, ``F df / subjects`` of that experiment.
@@ -52,24 +52,24 @@ def f_power(effect: float, df: float, subjects: int, limit: float = 0.05, epsilo
     """
     from scipy import stats
 
-    one, two = epsilon * df, epsilon * df * (subjects - 1)
-    return float(stats.ncf.sf(stats.f.isf(limit, one, two), one, two, epsilon * effect * subjects))
+    df_effect, df_error = epsilon * df, epsilon * df * (subjects - 1)
+    return float(stats.ncf.sf(stats.f.isf(limit, df_effect, df_error), df_effect, df_error, epsilon * effect * subjects))
 
 
 def subjects_for_t(dz: float, power: float = 0.8, limit: float = 0.05) -> int | None:
-    """The smallest number of subjects with which a paired t-test has the power; None above 10,000."""
-    _check(power, limit)
-    return None if not np.isfinite(dz) else _smallest(lambda n: t_power(dz, n, limit), power)
+    """Return the smallest number of subjects with which a paired t-test has the power; None above 10,000."""
+    _check_power(power, limit)
+    return None if not np.isfinite(dz) else _find_smallest_sample(lambda n: t_power(dz, n, limit), power)
 
 
 def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float = 0.05, epsilon: float = 1.0) -> int | None:
-    """The smallest number of subjects with which a within-subjects F test has the power; None above 10,000."""
-    _check(power, limit)
-    return _smallest(lambda n: f_power(effect, df, n, limit, epsilon), power)
+    """Return the smallest number of subjects with which a within-subjects F test has the power; None above 10,000."""
+    _check_power(power, limit)
+    return _find_smallest_sample(lambda n: f_power(effect, df, n, limit, epsilon), power)
 
 
-def resampled(values: Array, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> Array:
-    """(3,) how often so many of the subjects, drawn at random, would have shown each effect of the ANOVA.
+def estimate_power(values: Array, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> Array:
+    """Return the fraction (3,) of random samples of ``subjects`` subjects that would have shown each effect of the ANOVA.
 
     They are drawn without replacement, so this holds for this experiment only and assumes no distribution; close to the number
     of all subjects the draws hardly differ.
@@ -84,47 +84,49 @@ def resampled(values: Array, subjects: int, limit: float = 0.05, draws: int = 20
     from scipy import stats
 
     n, a, b = values.shape
-    df, df_error = freedom(subjects, a, b)
-    edge = stats.f.isf(limit, df, df_error)
+    df, df_error = degrees_of_freedom(subjects, a, b)
+    critical_f = stats.f.isf(limit, df, df_error)
     generator = np.random.default_rng([seed, subjects])
-    hits, done = np.zeros(3), 0
-    while done < draws:
-        block = min(draws - done, max(1, _BLOCK // (subjects * a * b)))
-        rows = generator.permuted(np.tile(np.arange(n), (block, 1)), axis=1)[:, :subjects]
-        sums = squares(values[rows])
-        hits += (sums.effects / df > edge * sums.errors / df_error).sum(axis=0)
-        done += block
+    hits, sampled = np.zeros(3), 0
+    while sampled < draws:
+        block_draws = min(draws - sampled, max(1, _MAX_BLOCK_VALUES // (subjects * a * b)))
+        samples = generator.permuted(np.tile(np.arange(n), (block_draws, 1)), axis=1)[:, :subjects]
+        sums = sums_of_squares(values[samples])
+        hits += (sums.effects / df > critical_f * sums.errors / df_error).sum(axis=0)
+        sampled += block_draws
     return hits / draws
 
 
-def _check(power: float, limit: float) -> None:
+def _check_power(power: float, limit: float) -> None:
     if not (0 < limit < power < 1):
         raise InputError(
             f"power is {power:g} and the limit of p {limit:g}; give 0 < limit < power < 1, for example 0.05 and 0.8"
         )
 
 
-def _smallest(power_of: Callable[[int], float], power: float) -> int | None:
-    """Bisection: power grows with the number of subjects."""
-    low, high = 1, 2
-    while power_of(high) < power:
-        low, high = high, 2 * high
-        if low >= MOST:
+def _find_smallest_sample(power_of: Callable[[int], float], power: float) -> int | None:
+    """Return the smallest number of subjects with the power by bisection, because power grows with the number of subjects."""
+    lower, upper = 1, 2
+    while power_of(upper) < power:
+        lower, upper = upper, 2 * upper
+        if lower >= MAX_SUBJECTS:
             return None
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if power_of(middle) < power else (low, middle)
-    return high if high <= MOST else None
+    while upper - lower > 1:
+        midpoint = (lower + upper) // 2
+        lower, upper = (midpoint, upper) if power_of(midpoint) < power else (lower, midpoint)
+    return upper if upper <= MAX_SUBJECTS else None
 
 
-def least_noncentrality(f: float, df: float, df_error: float, confidence: float = 0.95) -> float:
-    """The lower end of the confidence interval of an observed F's noncentrality; 0 where it may be none at all.
+def lower_noncentrality_limit(f: float, df: float, df_error: float, confidence: float = 0.95) -> float:
+    """Return the lower end of the confidence interval of the noncentrality of an observed F; 0 where it may be zero.
 
     Source: Steiger 2004.
     """
     from scipy import optimize, stats
 
-    wanted = 0.5 + confidence / 2
-    if stats.f.cdf(f, df, df_error) <= wanted:
+    level = 0.5 + confidence / 2
+    if stats.f.cdf(f, df, df_error) <= level:
         return 0.0
-    return float(optimize.brentq(lambda z: stats.ncf.cdf(f, df, df_error, z) - wanted, 0.0, f * df, xtol=1e-8))
+    return float(
+        optimize.brentq(lambda noncentrality: stats.ncf.cdf(f, df, df_error, noncentrality) - level, 0.0, f * df, xtol=1e-8)
+    )

@@ -1,4 +1,4 @@
-"""What a reader must know about the numbers of an analysis."""
+"""Notes on the limits of the numbers of an analysis."""
 
 from __future__ import annotations
 
@@ -6,45 +6,47 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from holdfast.teleop.analysis.groups import Cells, Groups
-from holdfast.teleop.analysis.observations import Observed
-from holdfast.words import counted
+from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
+from holdfast.teleop.analysis.observations import TrialTable
+from holdfast.words import format_count
 
 
-def notes(
-    observed: Observed,
-    machine: Observed | None,
+def write_notes(
+    observed: TrialTable,
+    computer: TrialTable | None,
     conditions: Sequence[int],
-    grouped: Groups,
-    cells: Cells,
+    grouped: TaskGroups,
+    cells: CellMeans,
     left_out: Sequence[str],
     normalise: str,
 ) -> Iterator[str]:
-    """One sentence or two each."""
+    """Yield the notes of an analysis, one or two sentences each."""
     if observed.kind == "simulated":
         yield "The operators are simulated: these numbers tell about the simulation, not about people."
     if left_out:
-        yield f"{counted(len(left_out), 'subject')} left out of everything because of empty cells: {', '.join(left_out)}."
-    lost = observed.cause != ""
-    if lost.any():
-        where = ", ".join(
-            f"{int(lost[:, :, k].sum())} in scenario {c.scenario}"
-            for k, c in enumerate(observed.conditions)
-            if lost[:, :, k].any()
+        yield f"{format_count(len(left_out), 'subject')} left out of everything because of empty cells: {', '.join(left_out)}."
+    without_cpm = observed.cause != ""
+    if without_cpm.any():
+        by_scenario = ", ".join(
+            f"{int(without_cpm[:, :, position].sum())} in scenario {condition.scenario}"
+            for position, condition in enumerate(observed.conditions)
+            if without_cpm[:, :, position].any()
         )
         yield (
-            f"{counted(int(lost.sum()), 'trial')} of {lost.size:,} {'has' if lost.sum() == 1 else 'have'} no CPM "
-            f"({where}). Means are over the "
+            f"{format_count(int(without_cpm.sum()), 'trial')} of {without_cpm.size:,} "
+            f"{'has' if without_cpm.sum() == 1 else 'have'} no CPM "
+            f"({by_scenario}). Means are over the "
             "trials that reached the target, which flatters a law under which the hardest ones do not."
         )
-    short = cells.tasks < grouped.sizes
-    if short.any():
+    incomplete = cells.tasks < grouped.sizes
+    if incomplete.any():
         fewest = int((grouped.sizes - cells.tasks).max())
         yield (
-            f"{int(short.sum())} of {short.size} cell means are over fewer tasks than their group has, at most {fewest} fewer; "
+            f"{int(incomplete.sum())} of {incomplete.size} cell means are over fewer tasks than their group has, at most "
+            f"{fewest} fewer; "
             "the table of cells counts the tasks of each."
         )
-    unknown = [observed.tasks[t] for t in np.flatnonzero(~np.isfinite(grouped.difficulty))]
+    unknown = [observed.tasks[task] for task in np.flatnonzero(~np.isfinite(grouped.difficulty))]
     if unknown:
         yield (
             f"Task {', '.join(map(str, unknown))}: no difficulty is known, because the reference trial was not completed by "
@@ -59,13 +61,13 @@ def notes(
         )
     if len(set(grouped.sizes.tolist())) > 1:
         yield f"The groups have {', '.join(map(str, grouped.sizes))} tasks: those left over went to the easiest groups."
-    if not observed.rated:
+    if not observed.has_ratings:
         yield "Nobody rated a trial: CPM is the sum of eleven measures, without the operators' own."
     yield (
         "Each measure is divided in CPM by its largest value, which is that of one extreme trial. Levels of CPM compare within "
         "this analysis only; ratios and single measures compare with others."
     )
-    if machine is not None:
+    if computer is not None:
         yield (
             "CPM of operators and of the computer are divided by common largest measures."
             if normalise == "together"

@@ -1,4 +1,4 @@
-"""What an analysis of the experiment found."""
+"""Result of an analysis of the experiment."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from holdfast.errors import InputError
 from holdfast.result import Result
 from holdfast.teleop.analysis.correlations import Correlation
-from holdfast.teleop.analysis.groups import Cells, Groups
-from holdfast.teleop.analysis.mixed_model import Mixed
-from holdfast.teleop.analysis.observations import Condition, Observed
+from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
+from holdfast.teleop.analysis.mixed_model import MixedModel
+from holdfast.teleop.analysis.observations import Condition, TrialTable
 from holdfast.teleop.analysis.variance import Anova
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ Paths = Callable[[str | None, int, int], Array | None]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Analysis(Result):
-    """An experiment analysed: :func:`holdfast.teleop.analysis.analyse` makes it.
+    """Result of the analysis of an experiment, returned by :func:`holdfast.teleop.analysis.analyse`.
 
     Attributes:
         observed: The operators' trials that were analysed, with their CPM and normalisers.
@@ -49,13 +49,13 @@ class Analysis(Result):
         notes: What a reader must know about these numbers.
     """
 
-    observed: Observed
-    computer: Observed | None
+    observed: TrialTable
+    computer: TrialTable | None
     conditions: tuple[Condition, ...]
-    groups: Groups
-    cells: Cells
+    groups: TaskGroups
+    cells: CellMeans
     anova: Anova | None
-    mixed: Mixed | None
+    mixed: MixedModel | None
     correlations: tuple[Correlation, ...]
     tables: Mapping[str, DataFrame]
     missing: str
@@ -66,38 +66,38 @@ class Analysis(Result):
     notes: tuple[str, ...]
 
     @property
-    def simulated(self) -> bool:
-        """The operators are no people."""
+    def is_simulated(self) -> bool:
+        """True if the operators are simulated."""
         return self.observed.kind == "simulated"
 
     @property
-    def who(self) -> str:
-        """``24 simulated subjects``: how a sentence must call them."""
+    def subject_phrase(self) -> str:
+        """Number and kind of the subjects for use in a sentence, for example ``24 simulated subjects``."""
         count = len(self.observed.subjects)
-        return f"{count} {'simulated ' if self.simulated else ''}subject{'' if count == 1 else 's'}"
+        return f"{count} {'simulated ' if self.is_simulated else ''}subject{'' if count == 1 else 's'}"
 
     def law_means(self) -> dict[str, float]:
-        """Mean CPM with the failed arm under each law, over subjects and groups (NaN with empty cells)."""
+        """Return the mean CPM with the failed arm under each law, over subjects and groups (NaN with empty cells)."""
         return dict(zip(self.cells.laws, self.cells.values.mean(axis=(0, 2)).tolist(), strict=True))
 
     def group_means(self) -> dict[str, float]:
-        """Mean CPM with the failed arm in each group of tasks, over subjects and laws (NaN with empty cells)."""
+        """Return the mean CPM with the failed arm in each group of tasks, over subjects and laws (NaN with empty cells)."""
         return dict(zip(self.cells.groups, self.cells.values.mean(axis=(0, 1)).tolist(), strict=True))
 
     def correlation(self, first: str, second: str) -> Correlation:
-        """The correlation of two of ``anticipated``, ``actual`` and ``perceived`` difficulty.
+        """Return the correlation of two of ``anticipated``, ``actual`` and ``perceived`` difficulty.
 
         Raises:
             InputError: It was not computed: without a computer nothing is anticipated, without ratings nothing perceived.
         """
-        for c in self.correlations:
-            if {c.first, c.second} == {first, second}:
-                return c
-        there = "; ".join(f"{c.first} and {c.second}" for c in self.correlations) or "none"
-        raise InputError(f"there is no correlation of '{first}' and '{second}'; there are: {there}")
+        for candidate in self.correlations:
+            if {candidate.first, candidate.second} == {first, second}:
+                return candidate
+        available = "; ".join(f"{candidate.first} and {candidate.second}" for candidate in self.correlations) or "none"
+        raise InputError(f"there is no correlation of '{first}' and '{second}'; there are: {available}")
 
     def table(self, name: str) -> DataFrame:
-        """One of the tables.
+        """Return one of the tables.
 
         Raises:
             InputError: There is none of that name.
@@ -107,27 +107,29 @@ class Analysis(Result):
         return self.tables[name]
 
     def describe(self) -> list[str]:
-        """The result in a few lines for people."""
-        o = self.observed
-        missing = int((o.cause != "").sum())
+        """Describe the result in a few lines for people."""
+        observed = self.observed
+        missing = int((observed.cause != "").sum())
         lines = [
-            f"{self.who}, {len(o.tasks)} tasks, {len(o.conditions)} scenarios: {o.cause.size} trials, {missing} without a CPM"
+            f"{self.subject_phrase}, {len(observed.tasks)} tasks, {len(observed.conditions)} scenarios: "
+            f"{observed.cause.size} trials, {missing} without a CPM"
         ]
         means = ", ".join(f"{law} {value:.3f}" for law, value in self.law_means().items())
         lines.append(f"mean CPM with the failed arm: {means}")
         if self.anova is not None:
             lines += [
-                f"{e}, Greenhouse-Geisser p = {e.p_gg:.2g}, partial eta squared {e.partial_eta2:.3f}"
-                for e in self.anova.effects
+                f"{effect}, Greenhouse-Geisser p = {effect.p_gg:.2g}, partial eta squared {effect.partial_eta2:.3f}"
+                for effect in self.anova.effects
             ]
         if self.mixed is not None:
             state = "converged" if self.mixed.converged else "did NOT converge: do not use it"
             lines.append(f"mixed model of {self.mixed.trials} trials, {state}")
-            lines += [f"{t.name}: chi2({t.df}) = {t.chi2:.2f}, p = {t.p:.2g}" for t in self.mixed.tests]
-        for _, r in self.tables["comparisons"].iterrows():
+            lines += [f"{test.name}: chi2({test.df}) = {test.chi2:.2f}, p = {test.p:.2g}" for test in self.mixed.tests]
+        for _, row in self.tables["comparisons"].iterrows():
             lines.append(
-                f"{r['difficulty']}: {r['first']} - {r['second']} = {r['difference']:.3f}, t({r['df']}) = {r['t']:.2f}, "
-                f"Holm p = {r['p_holm']:.2g}, dz {r['dz']:.2f}"
+                f"{row['difficulty']}: {row['first']} - {row['second']} = {row['difference']:.3f}, t({row['df']}) = "
+                f"{row['t']:.2f}, "
+                f"Holm p = {row['p_holm']:.2g}, dz {row['dz']:.2f}"
             )
-        lines += [str(c) for c in self.correlations]
-        return lines + [f"note: {n}" for n in self.notes]
+        lines += [str(correlation) for correlation in self.correlations]
+        return lines + [f"note: {note}" for note in self.notes]

@@ -1,4 +1,4 @@
-"""The tables of an analysis, as data frames."""
+"""Tables of an analysis, as data frames."""
 
 from __future__ import annotations
 
@@ -10,259 +10,304 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.teleop.analysis.comparisons import holm, paired
+from holdfast.teleop.analysis.comparisons import compare_pairs, correct_by_holm
 from holdfast.teleop.analysis.correlations import Correlation
-from holdfast.teleop.analysis.groups import Cells, Groups
-from holdfast.teleop.analysis.observations import CAUSES, NAMES, Observed
-from holdfast.teleop.trials.performance import MEASURES, RECORDED
+from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
+from holdfast.teleop.analysis.observations import CAUSE_SENTENCES, MEASURE_NAMES, TrialTable
+from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 Array = NDArray[np.float64]
 
-_ROUNDING = 1e-9
+_ZERO_TOLERANCE = 1e-9
 
 
-def trials(observed: Observed, grouped: Groups) -> DataFrame:
-    """A row for each trial that there should be: its measures, its CPM, and why there is none."""
+def tabulate_trials(observed: TrialTable, grouped: TaskGroups) -> DataFrame:
+    """Return a table with a row for each planned trial: its measures, its CPM, and the cause of a missing CPM."""
     from pandas import DataFrame
 
-    p, t, s = (k.ravel() for k in np.indices(observed.cause.shape))
+    subjects, task_indices, scenarios = (index.ravel() for index in np.indices(observed.cause.shape))
     columns: dict[str, Any] = {
-        "subject": [observed.subjects[k] for k in p],
-        "task": [observed.tasks[k] for k in t],
-        "difficulty": [grouped.names[grouped.of_task[k]] for k in t],
-        "scenario": [observed.conditions[k].scenario for k in s],
-        "law": [observed.conditions[k].law for k in s],
-        "failed": [int(observed.conditions[k].failed) for k in s],
-        "cause": [str(c) for c in observed.cause.ravel()],
-        **{name: observed.measures[..., k].ravel() for k, name in enumerate(NAMES[:RECORDED])},
-        NAMES[RECORDED]: observed.ratings.ravel(),
+        "subject": [observed.subjects[index] for index in subjects],
+        "task": [observed.tasks[index] for index in task_indices],
+        "difficulty": [grouped.names[grouped.of_task[index]] for index in task_indices],
+        "scenario": [observed.conditions[index].scenario for index in scenarios],
+        "law": [observed.conditions[index].law for index in scenarios],
+        "failed": [int(observed.conditions[index].failed) for index in scenarios],
+        "cause": [str(cause) for cause in observed.cause.ravel()],
+        **{name: observed.measures[..., index].ravel() for index, name in enumerate(MEASURE_NAMES[:RECORDED_MEASURES])},
+        MEASURE_NAMES[RECORDED_MEASURES]: observed.ratings.ravel(),
         "cpm": observed.cpm.ravel(),
     }
     return DataFrame(columns)
 
 
-def means(cells: Cells) -> DataFrame:
-    """Of each law in each group of tasks: mean, standard deviation and standard error over subjects."""
+def tabulate_means(cells: CellMeans) -> DataFrame:
+    """Return the mean, standard deviation and standard error over subjects of each law in each group of tasks."""
     from pandas import DataFrame
 
-    out = []
-    for a, b in np.ndindex(len(cells.laws), len(cells.groups)):
-        y = cells.values[:, a, b]
-        y = y[np.isfinite(y)]
-        spread = float(y.std(ddof=1)) if len(y) > 1 else float("nan")
-        mean = float(y.mean()) if len(y) else float("nan")
-        error = spread / np.sqrt(max(len(y), 1))
-        out.append((cells.laws[a], cells.groups[b], len(y), mean, spread, error, int(cells.tasks[:, a, b].sum())))
-    return DataFrame(out, columns=["law", "difficulty", "subjects", "mean", "sd", "se", "trials"])
+    mean_rows = []
+    for law, group in np.ndindex(len(cells.laws), len(cells.groups)):
+        values = cells.values[:, law, group]
+        values = values[np.isfinite(values)]
+        deviation = float(values.std(ddof=1)) if len(values) > 1 else float("nan")
+        mean = float(values.mean()) if len(values) else float("nan")
+        standard_error = deviation / np.sqrt(max(len(values), 1))
+        mean_rows.append(
+            (
+                cells.laws[law],
+                cells.groups[group],
+                len(values),
+                mean,
+                deviation,
+                standard_error,
+                int(cells.tasks[:, law, group].sum()),
+            )
+        )
+    return DataFrame(mean_rows, columns=["law", "difficulty", "subjects", "mean", "sd", "se", "trials"])
 
 
-def comparisons(cells: Cells, confidence: float) -> DataFrame:
-    """The laws in pairs, within each group of tasks; Holm's correction is over all rows."""
+def compare_laws(cells: CellMeans, confidence: float) -> DataFrame:
+    """Compare the laws in pairs within each group of tasks; Holm's correction is over all rows."""
     from pandas import DataFrame
 
-    out = []
-    for i, j in combinations(range(len(cells.laws)), 2):
-        for b, group in enumerate(cells.groups):
-            found = asdict(paired(cells.values[:, i, b], cells.values[:, j, b], confidence))
-            out.append({"difficulty": group, "first": cells.laws[i], "second": cells.laws[j], **found})
-    return _with_holm(DataFrame(out))
+    comparison_rows = []
+    for first, second in combinations(range(len(cells.laws)), 2):
+        for index, group in enumerate(cells.groups):
+            comparison = asdict(compare_pairs(cells.values[:, first, index], cells.values[:, second, index], confidence))
+            comparison_rows.append(
+                {"difficulty": group, "first": cells.laws[first], "second": cells.laws[second], **comparison}
+            )
+    return _add_holm_column(DataFrame(comparison_rows))
 
 
-def by_measure(observed: Observed, conditions: Sequence[int], confidence: float) -> DataFrame:
-    """Scenarios in pairs, CPM and each measure, over the tasks that a subject completed in both.
+def compare_measures(observed: TrialTable, conditions: Sequence[int], confidence: float) -> DataFrame:
+    """Compare scenarios in pairs by CPM and each measure, over the tasks that a subject completed in both.
 
     Holm's correction is over all rows.
     """
     from pandas import DataFrame
 
-    out = []
-    everything = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)
+    comparison_rows = []
+    all_values = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)
     # Rounding of what is 0, as an error of the healthy pseudoinverse, must not become a significant difference.
-    everything[np.abs(everything) < _ROUNDING] = 0.0
-    for i, j in combinations(conditions, 2):
-        both = np.isfinite(observed.cpm[:, :, i]) & np.isfinite(observed.cpm[:, :, j])
-        for k, name in enumerate(("CPM", *NAMES)):
-            if k == len(NAMES) and not observed.rated:
+    all_values[np.abs(all_values) < _ZERO_TOLERANCE] = 0.0
+    for first_scenario, second_scenario in combinations(conditions, 2):
+        completed = np.isfinite(observed.cpm[:, :, first_scenario]) & np.isfinite(observed.cpm[:, :, second_scenario])
+        for index, name in enumerate(("CPM", *MEASURE_NAMES)):
+            if index == len(MEASURE_NAMES) and not observed.has_ratings:
                 continue
-            first, second = (_mean(np.where(both, everything[:, :, c, k], np.nan)) for c in (i, j))
-            about, unit = ("combined performance measure", "1") if k == 0 else (MEASURES[k - 1].about, MEASURES[k - 1].unit)
-            out.append(
+            first, second = (
+                _average_over_tasks(np.where(completed, all_values[:, :, scenario, index], np.nan))
+                for scenario in (first_scenario, second_scenario)
+            )
+            about, unit = (
+                ("combined performance measure", "1") if index == 0 else (MEASURES[index - 1].about, MEASURES[index - 1].unit)
+            )
+            comparison_rows.append(
                 {
                     "measure": name,
                     "about": about,
                     "unit": unit,
-                    "first": observed.conditions[i].law,
-                    "second": observed.conditions[j].law,
-                    "first_mean": _overall(first),
-                    "second_mean": _overall(second),
-                    "trials": int(both.sum()),
-                    **asdict(paired(first, second, confidence)),
+                    "first": observed.conditions[first_scenario].law,
+                    "second": observed.conditions[second_scenario].law,
+                    "first_mean": _average_over_subjects(first),
+                    "second_mean": _average_over_subjects(second),
+                    "trials": int(completed.sum()),
+                    **asdict(compare_pairs(first, second, confidence)),
                 }
             )
-    return _with_holm(DataFrame(out))
+    return _add_holm_column(DataFrame(comparison_rows))
 
 
-def _mean(values: Array) -> Array:
-    """(P,) over tasks, of those that there are; NaN where there are none."""
-    there = np.isfinite(values)
-    count = there.sum(axis=1)
-    return np.where(count > 0, np.where(there, values, 0.0).sum(axis=1) / np.maximum(count, 1), np.nan)
+def _average_over_tasks(values: Array) -> Array:
+    """Return the mean (P,) over the tasks that have a value; NaN where there are none."""
+    finite = np.isfinite(values)
+    counts = finite.sum(axis=1)
+    return np.where(counts > 0, np.where(finite, values, 0.0).sum(axis=1) / np.maximum(counts, 1), np.nan)
 
 
-def _overall(values: Array) -> float:
+def _average_over_subjects(values: Array) -> float:
     return float(np.nanmean(values)) if np.isfinite(values).any() else float("nan")
 
 
-def _with_holm(table: DataFrame) -> DataFrame:
-    table.insert(table.columns.get_loc("p") + 1, "p_holm", holm(table["p"].to_numpy()))
+def _add_holm_column(table: DataFrame) -> DataFrame:
+    table.insert(table.columns.get_loc("p") + 1, "p_holm", correct_by_holm(table["p"].to_numpy()))
     return table
 
 
-def rows(correlations: Sequence[Correlation]) -> DataFrame:
-    """A row for each correlation."""
+def tabulate_correlations(correlations: Sequence[Correlation]) -> DataFrame:
+    """Return a table with a row for each correlation."""
     from pandas import DataFrame
 
-    return DataFrame([{**asdict(c), "left_out": "; ".join(c.left_out)} for c in correlations])
+    return DataFrame([{**asdict(entry), "left_out": "; ".join(entry.left_out)} for entry in correlations])
 
 
-def tasks(observed: Observed, machine: Observed | None, conditions: Sequence[int], grouped: Groups) -> DataFrame:
-    """A row for each task, sorted from the easiest: its difficulty, and CPM of operators and computer with the failed arm.
+def tabulate_tasks(
+    observed: TrialTable, computer: TrialTable | None, conditions: Sequence[int], grouped: TaskGroups
+) -> DataFrame:
+    """Return a table with a row for each task, easiest first: its difficulty, and the CPM of operators and computer with the
+    failed arm.
 
     The median operator of a task is the one whose CPM of the reference scenario is nearest to the median of all.
     """
     from pandas import DataFrame
 
-    middle, felt, reference = observed.middle(), observed.median_rating(), conditions[0]
-    number = [c.scenario for c in observed.conditions]
-    out = []
-    for t in np.lexsort((np.nan_to_num(middle[:, reference], nan=np.inf), grouped.of_task)):
-        of = median_operator(observed, int(t), reference)
+    medians, ratings, reference = observed.median_cpm(), observed.median_rating(), conditions[0]
+    numbers = [condition.scenario for condition in observed.conditions]
+    task_rows = []
+    for task in np.lexsort((np.nan_to_num(medians[:, reference], nan=np.inf), grouped.of_task)):
+        operator = median_operator(observed, int(task), reference)
         row: dict[str, Any] = {
-            "task": observed.tasks[t],
-            "difficulty": grouped.names[grouped.of_task[t]],
-            "anticipated": float("nan") if machine is None else machine.cpm[0, t, reference],
-            "actual": middle[t, reference],
-            "perceived": felt[t, reference],
-            "median_operator": "" if of is None else observed.subjects[of],
+            "task": observed.tasks[task],
+            "difficulty": grouped.names[grouped.of_task[task]],
+            "anticipated": float("nan") if computer is None else computer.cpm[0, task, reference],
+            "actual": medians[task, reference],
+            "perceived": ratings[task, reference],
+            "median_operator": "" if operator is None else observed.subjects[operator],
         }
-        for k in conditions:
-            row[f"cpm_{number[k]}"] = middle[t, k]
-            row[f"median_operator_cpm_{number[k]}"] = float("nan") if of is None else observed.cpm[of, t, k]
-            row[f"computer_cpm_{number[k]}"] = float("nan") if machine is None else machine.cpm[0, t, k]
-            row[f"reached_{number[k]}"] = int(np.isfinite(observed.measures[:, t, k, 0]).sum())
-        for k in conditions[1:]:
-            ratio = f"{number[k]}_{number[reference]}"
-            row[f"ratio_{ratio}"] = _ratio(middle[t, k], middle[t, reference])
-            row[f"computer_ratio_{ratio}"] = float("nan")
-            if machine is not None:
-                row[f"computer_ratio_{ratio}"] = _ratio(machine.cpm[0, t, k], machine.cpm[0, t, reference])
-        out.append(row)
-    return DataFrame(out)
+        for scenario in conditions:
+            row[f"cpm_{numbers[scenario]}"] = medians[task, scenario]
+            row[f"median_operator_cpm_{numbers[scenario]}"] = (
+                float("nan") if operator is None else observed.cpm[operator, task, scenario]
+            )
+            row[f"computer_cpm_{numbers[scenario]}"] = float("nan") if computer is None else computer.cpm[0, task, scenario]
+            row[f"reached_{numbers[scenario]}"] = int(np.isfinite(observed.measures[:, task, scenario, 0]).sum())
+        for scenario in conditions[1:]:
+            ratio_name = f"{numbers[scenario]}_{numbers[reference]}"
+            row[f"ratio_{ratio_name}"] = _divide_or_nan(medians[task, scenario], medians[task, reference])
+            row[f"computer_ratio_{ratio_name}"] = float("nan")
+            if computer is not None:
+                row[f"computer_ratio_{ratio_name}"] = _divide_or_nan(
+                    computer.cpm[0, task, scenario], computer.cpm[0, task, reference]
+                )
+        task_rows.append(row)
+    return DataFrame(task_rows)
 
 
-def median_operator(observed: Observed, task: int, reference: int) -> int | None:
-    """The subject, by place, whose CPM of a task is nearest to the median of all; None if nobody reached the target."""
-    cpm, middle = observed.cpm[:, task, reference], observed.middle()[task, reference]
-    if not np.isfinite(cpm).any():
+def median_operator(observed: TrialTable, task: int, reference: int) -> int | None:
+    """Return the index of the subject whose CPM of a task is closest to the median of all; None if no subject reached the
+    target.
+    """
+    task_cpm, median = observed.cpm[:, task, reference], observed.median_cpm()[task, reference]
+    if not np.isfinite(task_cpm).any():
         return None
-    if not np.isfinite(middle):
-        return int(np.nanargmax(cpm))  # the median one failed: the last who did not
-    return int(np.nanargmin(np.abs(cpm - middle)))
+    if not np.isfinite(median):
+        return int(np.nanargmax(task_cpm))  # the median one failed: the last who did not
+    return int(np.nanargmin(np.abs(task_cpm - median)))
 
 
-def _ratio(one: float, other: float) -> float:
-    return float(one / other) if np.isfinite(one) and np.isfinite(other) and other > 0 else float("nan")
+def _divide_or_nan(numerator: float, denominator: float) -> float:
+    return (
+        float(numerator / denominator)
+        if np.isfinite(numerator) and np.isfinite(denominator) and denominator > 0
+        else float("nan")
+    )
 
 
-def gains(of_tasks: DataFrame, observed: Observed, conditions: Sequence[int], grouped: Groups) -> DataFrame:
-    """Operators against computer: in how many tasks of a group another law than the reference did better, for whom."""
+def tabulate_gains(task_table: DataFrame, observed: TrialTable, conditions: Sequence[int], grouped: TaskGroups) -> DataFrame:
+    """Return the numbers of tasks of each group in which another law than the reference did better, for operators and for the
+    computer.
+    """
     from pandas import DataFrame
 
-    out = []
+    gain_rows = []
     reference = observed.conditions[conditions[0]]
-    for k in conditions[1:]:
-        c = observed.conditions[k]
-        name = f"ratio_{c.scenario}_{reference.scenario}"
+    for scenario in conditions[1:]:
+        condition = observed.conditions[scenario]
+        column = f"ratio_{condition.scenario}_{reference.scenario}"
         for group in (*grouped.names, "all"):
-            mine = of_tasks if group == "all" else of_tasks[of_tasks["difficulty"] == group]
-            ours, its = (mine[x].to_numpy(dtype=np.float64) for x in (name, f"computer_{name}"))
-            both = np.isfinite(ours) & np.isfinite(its)
-            ours, its = ours[both], its[both]
-            out.append(
+            selected = task_table if group == "all" else task_table[task_table["difficulty"] == group]
+            operator_ratios, computer_ratios = (
+                selected[header].to_numpy(dtype=np.float64) for header in (column, f"computer_{column}")
+            )
+            finite = np.isfinite(operator_ratios) & np.isfinite(computer_ratios)
+            operator_ratios, computer_ratios = operator_ratios[finite], computer_ratios[finite]
+            gain_rows.append(
                 {
-                    "law": c.law,
+                    "law": condition.law,
                     "against": reference.law,
                     "difficulty": group,
-                    "tasks": int(both.sum()),
-                    "operators_gain": int((ours < 1).sum()),
-                    "computer_gains": int((its < 1).sum()),
-                    "same_direction": int(((ours < 1) == (its < 1)).sum()),
-                    "operators_median_ratio": float(np.median(ours)) if len(ours) else float("nan"),
-                    "computer_median_ratio": float(np.median(its)) if len(its) else float("nan"),
+                    "tasks": int(finite.sum()),
+                    "operators_gain": int((operator_ratios < 1).sum()),
+                    "computer_gains": int((computer_ratios < 1).sum()),
+                    "same_direction": int(((operator_ratios < 1) == (computer_ratios < 1)).sum()),
+                    "operators_median_ratio": float(np.median(operator_ratios)) if len(operator_ratios) else float("nan"),
+                    "computer_median_ratio": float(np.median(computer_ratios)) if len(computer_ratios) else float("nan"),
                 }
             )
-    return DataFrame(out)
+    return DataFrame(gain_rows)
 
 
-def measures(observed: Observed, machine: Observed | None) -> DataFrame:
-    """The distribution of CPM and each measure in each scenario, over all trials that reached the target."""
+def tabulate_measures(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
+    """Return the distribution of CPM and each measure in each scenario, over all trials that reached the target."""
     from pandas import DataFrame
 
-    out = []
-    for s, c in enumerate(observed.conditions):
-        for k, name in enumerate(("CPM", *NAMES)):
-            values = _values(observed, s, k)
-            its = np.empty(0) if machine is None else _values(machine, s, k)
-            five = np.quantile(values, [0, 0.25, 0.5, 0.75, 1]).tolist() if values.size else [float("nan")] * 5
-            out.append(
+    measure_rows = []
+    for scenario, condition in enumerate(observed.conditions):
+        for measure, name in enumerate(("CPM", *MEASURE_NAMES)):
+            values = _select_values(observed, scenario, measure)
+            computer_values = np.empty(0) if computer is None else _select_values(computer, scenario, measure)
+            quantiles = np.quantile(values, [0, 0.25, 0.5, 0.75, 1]).tolist() if values.size else [float("nan")] * 5
+            measure_rows.append(
                 {
-                    "scenario": c.scenario,
-                    "law": c.law,
-                    "failed": int(c.failed),
+                    "scenario": condition.scenario,
+                    "law": condition.law,
+                    "failed": int(condition.failed),
                     "measure": name,
-                    "unit": "1" if k == 0 else MEASURES[k - 1].unit,
+                    "unit": "1" if measure == 0 else MEASURES[measure - 1].unit,
                     "trials": int(values.size),
                     "mean": float(values.mean()) if values.size else float("nan"),
                     "sd": float(values.std(ddof=1)) if values.size > 1 else float("nan"),
-                    **dict(zip(("lowest", "quarter", "median", "three_quarters", "highest"), five, strict=True)),
-                    "computer_median": float(np.median(its)) if its.size else float("nan"),
+                    **dict(zip(("lowest", "quarter", "median", "three_quarters", "highest"), quantiles, strict=True)),
+                    "computer_median": float(np.median(computer_values)) if computer_values.size else float("nan"),
                 }
             )
-    return DataFrame(out)
+    return DataFrame(measure_rows)
 
 
-def _values(observed: Observed, scenario: int, measure: int) -> Array:
-    """CPM (0) or a measure (from 1) of all trials of a scenario that have one."""
-    v = observed.cpm if measure == 0 else observed.ratings if measure == len(NAMES) else observed.measures[..., measure - 1]
-    chosen = v[:, :, scenario]
+def _select_values(observed: TrialTable, scenario: int, measure: int) -> Array:
+    """Return the CPM (0) or a measure (from 1) of all trials of a scenario that have a value."""
+    all_values = (
+        observed.cpm
+        if measure == 0
+        else observed.ratings
+        if measure == len(MEASURE_NAMES)
+        else observed.measures[..., measure - 1]
+    )
+    chosen = all_values[:, :, scenario]
     return chosen[np.isfinite(chosen)]
 
 
-def ends(observed: Observed, machine: Observed | None) -> DataFrame:
-    """How the trials of each scenario ended: target reached and rated, or why they have no CPM."""
+def tabulate_ends(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
+    """Count for each scenario the trials that reached the target and were rated, and the causes of a missing CPM."""
     from pandas import DataFrame
 
-    out = []
-    for s, c in enumerate(observed.conditions):
-        cause = observed.cause[:, :, s]
-        row: dict[str, Any] = {"scenario": c.scenario, "law": c.law, "failed": int(c.failed), "trials": int(cause.size)}
-        row["with_cpm"] = int((cause == "").sum())
-        row |= {name.replace(" ", "_"): int((cause == name).sum()) for name in CAUSES}
-        if machine is not None:
-            row["computer_with_cpm"] = int((machine.cause[:, :, s] == "").sum())
-        out.append(row)
-    return DataFrame(out)
+    end_rows = []
+    for scenario, condition in enumerate(observed.conditions):
+        causes = observed.cause[:, :, scenario]
+        row: dict[str, Any] = {
+            "scenario": condition.scenario,
+            "law": condition.law,
+            "failed": int(condition.failed),
+            "trials": int(causes.size),
+        }
+        row["with_cpm"] = int((causes == "").sum())
+        row |= {cause.replace(" ", "_"): int((causes == cause).sum()) for cause in CAUSE_SENTENCES}
+        if computer is not None:
+            row["computer_with_cpm"] = int((computer.cause[:, :, scenario] == "").sum())
+        end_rows.append(row)
+    return DataFrame(end_rows)
 
 
-def normalisers(observed: Observed, machine: Observed | None) -> DataFrame:
-    """What each measure was divided by in CPM."""
+def tabulate_normalisers(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
+    """Return the normaliser of each measure in the CPM."""
     from pandas import DataFrame
 
-    columns: dict[str, Any] = {"measure": NAMES, "unit": [m.unit for m in MEASURES]}
-    for name, of in (("operators", observed), ("computer", machine)):
-        if of is not None:
-            columns[name] = np.concatenate([of.normalisers, np.full(len(NAMES) - len(of.normalisers), np.nan)])
+    columns: dict[str, Any] = {"measure": MEASURE_NAMES, "unit": [measure.unit for measure in MEASURES]}
+    for name, source in (("operators", observed), ("computer", computer)):
+        if source is not None:
+            columns[name] = np.concatenate([source.normalisers, np.full(len(MEASURE_NAMES) - len(source.normalisers), np.nan)])
     return DataFrame(columns)

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_NOTHING = 1e-24  # of the whole variation, squared rounding: below it there is no error to compare with
+_ERROR_TOLERANCE = 1e-24  # of the whole variation, squared rounding: below it there is no error to compare with
 
 
 @dataclass(frozen=True, kw_only=True)
 class Effect:
-    """One effect of a within-subjects analysis of variance.
+    """Effect of a within-subjects analysis of variance.
 
     Attributes:
         name: Of the factor, or ``first x second`` for the interaction.
@@ -62,7 +62,7 @@ class Effect:
 
 @dataclass(frozen=True)
 class Anova:
-    """A within-subjects analysis of variance with two factors.
+    """Within-subjects analysis of variance with two factors.
 
     Attributes:
         effects: Of the first factor, of the second, and of their interaction.
@@ -75,27 +75,29 @@ class Anova:
     ss_subjects: float
 
     def effect(self, name: str) -> Effect:
-        """By name.
+        """Return the effect with a given name.
 
         Raises:
             InputError: There is none of that name.
         """
-        for e in self.effects:
-            if e.name == name:
-                return e
-        raise InputError(f"the ANOVA has no effect '{name}'; it has {', '.join(e.name for e in self.effects)}")
+        for effect in self.effects:
+            if effect.name == name:
+                return effect
+        raise InputError(f"the ANOVA has no effect '{name}'; it has {', '.join(effect.name for effect in self.effects)}")
 
     def table(self) -> DataFrame:
-        """A row for each effect, with the columns of :class:`holdfast.teleop.analysis.Effect`; the name is ``effect``."""
+        """Return a table with a row for each effect and the columns of :class:`holdfast.teleop.analysis.Effect`; the name is in
+        ``effect``.
+        """
         from pandas import DataFrame
 
-        columns = ["effect", *(f.name for f in fields(Effect)[1:])]
-        return DataFrame([astuple(e) for e in self.effects], columns=columns)
+        columns = ["effect", *(field.name for field in fields(Effect)[1:])]
+        return DataFrame([astuple(effect) for effect in self.effects], columns=columns)
 
 
 @dataclass(frozen=True)
-class Squares:
-    """Sums of squares of a two-factor within-subjects design, or of many at once.
+class SumsOfSquares:
+    """Sums of squares of one two-factor within-subjects design, or of many.
 
     Attributes:
         effects: (..., 3) of the factors and the interaction.
@@ -108,32 +110,36 @@ class Squares:
     subjects: Array
 
 
-def squares(y: Array) -> Squares:
-    """Sums of squares of (..., n, A, B) values of n subjects, A levels of the first factor and B of the second."""
+def sums_of_squares(y: Array) -> SumsOfSquares:
+    """Return the sums of squares of (..., n, A, B) values of n subjects, A levels of the first factor and B of the second."""
     n, a, b = y.shape[-3:]
-    whole = y.mean(axis=(-3, -2, -1), keepdims=True)
-    s = y.mean(axis=(-2, -1), keepdims=True)
-    first, second, both = (y.mean(axis=k, keepdims=True) for k in ((-3, -1), (-3, -2), -3))
-    s_first, s_second = y.mean(axis=-1, keepdims=True), y.mean(axis=-2, keepdims=True)
+    grand_mean = y.mean(axis=(-3, -2, -1), keepdims=True)
+    subject_mean = y.mean(axis=(-2, -1), keepdims=True)
+    first_mean, second_mean, cell_mean = (y.mean(axis=axes, keepdims=True) for axes in ((-3, -1), (-3, -2), -3))
+    subject_first_mean, subject_second_mean = y.mean(axis=-1, keepdims=True), y.mean(axis=-2, keepdims=True)
 
-    def total(weight: int, part: Array) -> Array:
-        return np.asarray(weight * np.square(part).sum(axis=(-3, -2, -1)))
+    def weighted_total(weight: int, deviations: Array) -> Array:
+        return np.asarray(weight * np.square(deviations).sum(axis=(-3, -2, -1)))
 
     effects = [
-        total(n * b, first - whole),
-        total(n * a, second - whole),
-        total(n, both - first - second + whole),
+        weighted_total(n * b, first_mean - grand_mean),
+        weighted_total(n * a, second_mean - grand_mean),
+        weighted_total(n, cell_mean - first_mean - second_mean + grand_mean),
     ]
     errors = [
-        total(b, s_first - s - first + whole),
-        total(a, s_second - s - second + whole),
-        total(1, y - s_first - s_second - both + s + first + second - whole),
+        weighted_total(b, subject_first_mean - subject_mean - first_mean + grand_mean),
+        weighted_total(a, subject_second_mean - subject_mean - second_mean + grand_mean),
+        weighted_total(
+            1, y - subject_first_mean - subject_second_mean - cell_mean + subject_mean + first_mean + second_mean - grand_mean
+        ),
     ]
-    return Squares(np.stack(effects, axis=-1), np.stack(errors, axis=-1), total(a * b, s - whole))
+    return SumsOfSquares(
+        np.stack(effects, axis=-1), np.stack(errors, axis=-1), weighted_total(a * b, subject_mean - grand_mean)
+    )
 
 
-def freedom(subjects: int, first: int, second: int) -> tuple[Array, Array]:
-    """(3,) degrees of freedom of factors and interaction, and (3,) of their errors."""
+def degrees_of_freedom(subjects: int, first: int, second: int) -> tuple[Array, Array]:
+    """Return the degrees of freedom (3,) of the factors and the interaction, and (3,) of their errors."""
     df = np.array([first - 1, second - 1, (first - 1) * (second - 1)], dtype=np.float64)
     return df, df * (subjects - 1)
 
@@ -145,7 +151,7 @@ def anova(
     *,
     subjects: Sequence[str] | None = None,
 ) -> Anova:
-    """Within-subjects analysis of variance with two factors, every subject in every cell.
+    """Compute the within-subjects analysis of variance with two factors, every subject in every cell.
 
     F and p are those of statsmodels' ``AnovaRM``; the corrections and effect sizes, which it does not have, are ours.
 
@@ -164,85 +170,87 @@ def anova(
     from scipy import stats
 
     y = np.asarray(values, dtype=np.float64)
-    _check(y, factors, levels, subjects)
+    _check_values(y, factors, levels, subjects)
     n, a, b = y.shape
-    sums = squares(y)
-    df, df_error = freedom(n, a, b)
+    sums = sums_of_squares(y)
+    df, df_error = degrees_of_freedom(n, a, b)
     names = (*factors, f"{factors[0]} x {factors[1]}")
     scale = float(sums.effects.sum() + sums.errors.sum() + sums.subjects) + a * b * n * float(y.mean()) ** 2
     for name, error in zip(names, sums.errors.tolist(), strict=True):
-        if error <= _NOTHING * scale:
+        if error <= _ERROR_TOLERANCE * scale:
             raise InputError(f"the effect of {name} is the same in every subject: there is no error to test it against")
-    f, p = _statsmodels(y)
-    found = []
-    for k, name in enumerate(names):
-        gg, hf = epsilons(_contrasted(y, k))
-        ss, ss_error = float(sums.effects[k]), float(sums.errors[k])
-        corrected = [float(stats.f.sf(f[k], e * df[k], e * df_error[k])) for e in (gg, hf)]
-        found.append(
+    f_values, p_values = _fit_statsmodels(y)
+    effects = []
+    for index, name in enumerate(names):
+        gg, hf = sphericity_epsilons(_project_on_contrasts(y, index))
+        sum_effect, sum_error = float(sums.effects[index]), float(sums.errors[index])
+        corrected = [float(stats.f.sf(f_values[index], epsilon * df[index], epsilon * df_error[index])) for epsilon in (gg, hf)]
+        effects.append(
             Effect(
                 name=name,
-                F=f[k],
-                df=int(df[k]),
-                df_error=int(df_error[k]),
-                p=p[k],
+                F=f_values[index],
+                df=int(df[index]),
+                df_error=int(df_error[index]),
+                p=p_values[index],
                 gg=gg,
                 p_gg=corrected[0],
                 hf=hf,
                 p_hf=corrected[1],
-                partial_eta2=ss / (ss + ss_error),
-                generalised_eta2=ss / (ss + float(sums.subjects + sums.errors.sum())),
-                ss=ss,
-                ss_error=ss_error,
+                partial_eta2=sum_effect / (sum_effect + sum_error),
+                generalised_eta2=sum_effect / (sum_effect + float(sums.subjects + sums.errors.sum())),
+                ss=sum_effect,
+                ss_error=sum_error,
             )
         )
-    return Anova((found[0], found[1], found[2]), n, float(sums.subjects))
+    return Anova((effects[0], effects[1], effects[2]), n, float(sums.subjects))
 
 
-def epsilons(contrasts: Array) -> tuple[float, float]:
-    """Epsilons of Greenhouse and Geisser and of Huynh and Feldt.
+def sphericity_epsilons(contrasts: Array) -> tuple[float, float]:
+    """Return the epsilons of Greenhouse and Geisser and of Huynh and Feldt.
 
     Args:
         contrasts: (n, k) values of k orthonormal contrasts of n subjects.
     """
-    n, k = contrasts.shape
-    if k == 1:
+    n, contrast_count = contrasts.shape
+    if contrast_count == 1:
         return 1.0, 1.0
     covariance = np.cov(contrasts, rowvar=False)
-    gg = float(np.trace(covariance) ** 2 / (k * np.sum(covariance**2)))
-    left = k * (n - 1 - k * gg)
-    return gg, min(1.0, (n * k * gg - 2) / left) if left > 0 else 1.0
+    gg = float(np.trace(covariance) ** 2 / (contrast_count * np.sum(covariance**2)))
+    denominator = contrast_count * (n - 1 - contrast_count * gg)
+    return gg, min(1.0, (n * contrast_count * gg - 2) / denominator) if denominator > 0 else 1.0
 
 
-def _contrasted(y: Array, effect: int) -> Array:
-    """(n, df) of each subject the orthonormal contrasts of an effect: of the first factor, the second, or both."""
+def _project_on_contrasts(y: Array, effect: int) -> Array:
+    """Return the orthonormal contrasts (n, df) of each subject for an effect: the first factor, the second, or both."""
     n, a, b = y.shape
-    first = _orthonormal(a) if effect in (0, 2) else np.full((a, 1), 1 / np.sqrt(a))
-    second = _orthonormal(b) if effect in (1, 2) else np.full((b, 1), 1 / np.sqrt(b))
-    return np.asarray(np.einsum("nab,ai,bj->nij", y, first, second).reshape(n, -1))
+    first_contrasts = _orthonormal_contrasts(a) if effect in (0, 2) else np.full((a, 1), 1 / np.sqrt(a))
+    second_contrasts = _orthonormal_contrasts(b) if effect in (1, 2) else np.full((b, 1), 1 / np.sqrt(b))
+    return np.asarray(np.einsum("nab,ai,bj->nij", y, first_contrasts, second_contrasts).reshape(n, -1))
 
 
-def _orthonormal(levels: int) -> Array:
-    """(levels, levels - 1) orthonormal contrasts."""
+def _orthonormal_contrasts(levels: int) -> Array:
+    """Return the (levels, levels - 1) orthonormal contrasts."""
     from scipy.linalg import helmert
 
     return np.asarray(helmert(levels).T)
 
 
-def _statsmodels(y: Array) -> tuple[list[float], list[float]]:
+def _fit_statsmodels(y: Array) -> tuple[list[float], list[float]]:
     from pandas import DataFrame
     from statsmodels.stats.anova import AnovaRM
 
     n, a, b = y.shape
-    subject, first, second = (k.ravel() for k in np.indices((n, a, b)))
+    subject, first, second = (index.ravel() for index in np.indices((n, a, b)))
     # Its search for the subject's name in those of the effects takes parts of words: the names are ours, not the caller's.
     table = DataFrame({"value": y.ravel(), "subject": subject, "one": first, "two": second})
-    found = AnovaRM(table, "value", "subject", within=["one", "two"]).fit().anova_table
-    rows = ["one", "two", "one:two"]
-    return [float(x) for x in found.loc[rows, "F Value"]], [float(x) for x in found.loc[rows, "Pr > F"]]
+    results = AnovaRM(table, "value", "subject", within=["one", "two"]).fit().anova_table
+    effect_names = ["one", "two", "one:two"]
+    return [float(value) for value in results.loc[effect_names, "F Value"]], [
+        float(value) for value in results.loc[effect_names, "Pr > F"]
+    ]
 
 
-def _check(
+def _check_values(
     y: Array,
     factors: tuple[str, str],
     levels: tuple[Sequence[str], Sequence[str]] | None,
@@ -256,13 +264,18 @@ def _check(
         )
     n, a, b = y.shape
     if not np.isfinite(y).all():
-        who = [str(k + 1) for k in range(n)] if subjects is None else list(subjects)
-        one, two = ([str(k + 1) for k in range(a)], [str(k + 1) for k in range(b)]) if levels is None else levels
-        cells = [f"{who[s]} / {one[i]} / {two[j]}" for s, i, j in np.argwhere(~np.isfinite(y))]
-        raise InputError(f"the ANOVA needs every subject in every cell, and {empty_cells(cells)}")
+        subject_names = [str(index + 1) for index in range(n)] if subjects is None else list(subjects)
+        first_levels, second_levels = (
+            ([str(index + 1) for index in range(a)], [str(index + 1) for index in range(b)]) if levels is None else levels
+        )
+        cells = [
+            f"{subject_names[subject]} / {first_levels[first]} / {second_levels[second]}"
+            for subject, first, second in np.argwhere(~np.isfinite(y))
+        ]
+        raise InputError(f"the ANOVA needs every subject in every cell, and {describe_empty_cells(cells)}")
 
 
-def empty_cells(cells: Sequence[str], most: int = 8) -> str:
-    """``2 are empty: a, b``, with so many named at most."""
-    more = f" and {len(cells) - most} more" if len(cells) > most else ""
-    return f"{len(cells)} {'is' if len(cells) == 1 else 'are'} empty: {', '.join(cells[:most])}{more}"
+def describe_empty_cells(cells: Sequence[str], max_names: int = 8) -> str:
+    """Return ``2 are empty: a, b``, with at most ``max_names`` names."""
+    remainder = f" and {len(cells) - max_names} more" if len(cells) > max_names else ""
+    return f"{len(cells)} {'is' if len(cells) == 1 else 'are'} empty: {', '.join(cells[:max_names])}{remainder}"

@@ -1,4 +1,4 @@
-"""Tasks to choose from, and the choice."""
+"""Bank of tasks, and the choice of tasks for an experiment."""
 
 from holdfast._lazy import offer
 

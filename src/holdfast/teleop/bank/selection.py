@@ -1,4 +1,4 @@
-"""The tasks of an experiment, chosen from the bank so that they cover the range of every measure.
+"""Choice of the tasks of an experiment from the bank, so that they cover the range of every measure.
 
 Source: Goel et al. 2003, section 5 and Fig. 2; the deterministic rule is ours.
 """
@@ -16,21 +16,21 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.result import Result
 from holdfast.teleop.bank.tasks import TaskBank
-from holdfast.teleop.trials.driving import Operator, Rules, drive
-from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.driving import EndRules, Operator, drive_trials
+from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_LEVELS = 5  # a selection should hold equally many tasks of each fifth of each measure
+_LEVEL_COUNT = 5  # a selection should hold equally many tasks of each fifth of each measure
 
 
 @dataclass(frozen=True, eq=False)
 class Binning:
-    """The plane of difficulty and ratio, cut into equal cells.
+    """Plane of difficulty and ratio, cut into equal cells.
 
     Attributes:
         difficulty: (columns + 1,) edges of CPM3.
@@ -43,12 +43,12 @@ class Binning:
     cell: Indices
 
     @property
-    def occupied(self) -> Indices:
-        """Numbers of the cells that hold a task."""
+    def occupied_cells(self) -> Indices:
+        """Numbers of the cells that contain a task."""
         return np.unique(self.cell[self.cell >= 0])
 
 
-def binning(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
+def bin_tasks(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
     """Cut the plane of CPM3 and CPM4/CPM3 into ``columns x rows`` equal cells over the whole range of the bank.
 
     Raises:
@@ -58,21 +58,24 @@ def binning(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
     """
     if columns < 1 or rows < 1:
         raise InputError(f"the plane cannot be cut into {columns} x {rows} cells; give 1 or more each way")
-    good = bank.completed()
-    if not good.any():
+    completed = bank.is_completed()
+    if not completed.any():
         raise InputError("no task of the bank was completed in every scenario; give more tasks")
     cell = np.full(len(bank), -1, dtype=np.int64)
-    edges = [np.linspace(v[good].min(), v[good].max(), k + 1) for v, k in ((bank.difficulty, columns), (bank.ratio, rows))]
+    edges = [
+        np.linspace(values[completed].min(), values[completed].max(), count + 1)
+        for values, count in ((bank.difficulty, columns), (bank.ratio, rows))
+    ]
     column, row = (
-        np.clip(np.searchsorted(e, v[good], side="right") - 1, 0, len(e) - 2)
-        for e, v in zip(edges, (bank.difficulty, bank.ratio), strict=True)
+        np.clip(np.searchsorted(bounds, values[completed], side="right") - 1, 0, len(bounds) - 2)
+        for bounds, values in zip(edges, (bank.difficulty, bank.ratio), strict=True)
     )
-    cell[good] = row * columns + column
+    cell[completed] = row * columns + column
     return Binning(edges[0], edges[1], cell)
 
 
-def select(bank: TaskBank, cells: Binning, count: int = 22) -> Indices:
-    """Tasks of the bank, one from each cell that holds any, that together cover the range of every measure.
+def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> Indices:
+    """Select tasks of the bank, one from each occupied cell, that together cover the range of every measure.
 
     Each measure of scenario 3 is replaced by its rank; the choice makes the numbers of tasks in the fifths of each measure
     as equal as an exchange of one task at a time can, beginning with the task nearest the middle of each cell. With fewer
@@ -84,84 +87,84 @@ def select(bank: TaskBank, cells: Binning, count: int = 22) -> Indices:
     Raises:
         InputError: More tasks wanted than were completed in every scenario, or fewer than 1.
     """
-    good = np.flatnonzero(cells.cell >= 0)
-    if not 1 <= count <= good.size:
-        raise InputError(f"{count} tasks were asked for; the bank holds {good.size} that were completed in every scenario")
-    numbers, sizes = np.unique(cells.cell[good], return_counts=True)
-    by_size = numbers[np.lexsort((numbers, -sizes))]
-    places = _places(by_size, dict(zip(numbers.tolist(), sizes.tolist(), strict=True)), count)
-    level = _levels(bank, good)
-    chosen = _nearest_the_middle(bank, cells, places)
-    members = {c: np.flatnonzero(cells.cell == c) for c in numbers.tolist()}
-    wanted = count / _LEVELS
+    eligible = np.flatnonzero(cells.cell >= 0)
+    if not 1 <= count <= eligible.size:
+        raise InputError(f"{count} tasks were asked for; the bank holds {eligible.size} that were completed in every scenario")
+    cell_numbers, sizes = np.unique(cells.cell[eligible], return_counts=True)
+    by_size = cell_numbers[np.lexsort((cell_numbers, -sizes))]
+    task_cells = _assign_cells(by_size, dict(zip(cell_numbers.tolist(), sizes.tolist(), strict=True)), count)
+    levels = _rank_in_levels(bank, eligible)
+    chosen = _choose_central_tasks(bank, cells, task_cells)
+    members = {cell: np.flatnonzero(cells.cell == cell) for cell in cell_numbers.tolist()}
+    target_count = count / _LEVEL_COUNT
     changed = True
     while changed:
         changed = False
-        for place, c in enumerate(places):
-            others = np.delete(np.arange(count), place)
-            histogram = sum(_one_hot(level[chosen[k]]) for k in others)
-            candidates = np.setdiff1d(members[c], chosen[others])
-            cost = ((histogram + _one_hot(level[candidates]) - wanted) ** 2).sum(axis=(1, 2))
-            best = candidates[int(np.argmin(cost))]
-            here = cost[np.flatnonzero(candidates == chosen[place])[0]]
-            if cost.min() < here - 1e-9:
-                chosen[place], changed = best, True
+        for slot, cell in enumerate(task_cells):
+            other_slots = np.delete(np.arange(count), slot)
+            histogram = sum(_one_hot(levels[chosen[other]]) for other in other_slots)
+            candidates = np.setdiff1d(members[cell], chosen[other_slots])
+            costs = ((histogram + _one_hot(levels[candidates]) - target_count) ** 2).sum(axis=(1, 2))
+            best = candidates[int(np.argmin(costs))]
+            current_cost = costs[np.flatnonzero(candidates == chosen[slot])[0]]
+            if costs.min() < current_cost - 1e-9:
+                chosen[slot], changed = best, True
     return chosen[np.argsort(bank.difficulty[chosen], kind="stable")]
 
 
-def _places(by_size: Indices, sizes: dict[int, int], count: int) -> list[int]:
-    """The cell of each task to be chosen: one each, and more of the fullest while tasks are wanted."""
-    places: list[int] = []
-    left = dict(sizes)
-    while len(places) < count:
-        places += [int(c) for c in by_size if left[int(c)] > 0][: count - len(places)]
-        left = {c: n - 1 for c, n in left.items()}
-    return places
+def _assign_cells(by_size: Indices, sizes: dict[int, int], count: int) -> list[int]:
+    """Return the cell of each task to be chosen: each occupied cell once, then the fullest cells again up to ``count``."""
+    task_cells: list[int] = []
+    remaining = dict(sizes)
+    while len(task_cells) < count:
+        task_cells += [int(cell) for cell in by_size if remaining[int(cell)] > 0][: count - len(task_cells)]
+        remaining = {cell: size - 1 for cell, size in remaining.items()}
+    return task_cells
 
 
-def _levels(bank: TaskBank, good: Indices) -> NDArray[np.int64]:
-    """(N, 11) fifth, from 0, of each task in each measure of scenario 3."""
-    values = bank.measures[bank.scenario("pseudoinverse", failed=True)]
-    level = np.zeros(values.shape, dtype=np.int64)
-    rank = np.argsort(np.argsort(values[good], axis=0, kind="stable"), axis=0, kind="stable")
-    level[good] = rank * _LEVELS // good.size
-    return level
+def _rank_in_levels(bank: TaskBank, eligible: Indices) -> NDArray[np.int64]:
+    """Return the level (N, 11), from 0, of each task in each measure of scenario 3."""
+    values = bank.measures[bank.scenario_index("pseudoinverse", failed=True)]
+    levels = np.zeros(values.shape, dtype=np.int64)
+    ranks = np.argsort(np.argsort(values[eligible], axis=0, kind="stable"), axis=0, kind="stable")
+    levels[eligible] = ranks * _LEVEL_COUNT // eligible.size
+    return levels
 
 
-def _one_hot(level: NDArray[np.int64]) -> Array:
-    return np.asarray(level[..., None] == np.arange(_LEVELS), dtype=np.float64)
+def _one_hot(levels: NDArray[np.int64]) -> Array:
+    return np.asarray(levels[..., None] == np.arange(_LEVEL_COUNT), dtype=np.float64)
 
 
-def _nearest_the_middle(bank: TaskBank, cells: Binning, places: list[int]) -> Indices:
+def _choose_central_tasks(bank: TaskBank, cells: Binning, task_cells: list[int]) -> Indices:
     columns = len(cells.difficulty) - 1
-    middles = [0.5 * (e[1:] + e[:-1]) for e in (cells.difficulty, cells.ratio)]
-    width = [max(e[1] - e[0], 1e-300) for e in (cells.difficulty, cells.ratio)]
+    centers = [0.5 * (edges[1:] + edges[:-1]) for edges in (cells.difficulty, cells.ratio)]
+    widths = [max(edges[1] - edges[0], 1e-300) for edges in (cells.difficulty, cells.ratio)]
     chosen: list[int] = []
-    for c in places:
-        rows = np.setdiff1d(np.flatnonzero(cells.cell == c), chosen)
-        across = (bank.difficulty[rows] - middles[0][c % columns]) / width[0]
-        upward = (bank.ratio[rows] - middles[1][c // columns]) / width[1]
-        away = np.hypot(across, upward)
-        chosen.append(int(rows[np.argmin(away)]))
+    for cell in task_cells:
+        candidates = np.setdiff1d(np.flatnonzero(cells.cell == cell), chosen)
+        difficulty_offset = (bank.difficulty[candidates] - centers[0][cell % columns]) / widths[0]
+        ratio_offset = (bank.ratio[candidates] - centers[1][cell // columns]) / widths[1]
+        distances = np.hypot(difficulty_offset, ratio_offset)
+        chosen.append(int(candidates[np.argmin(distances)]))
     return np.array(chosen)
 
 
-def most_disorienting(bank: TaskBank, besides: Indices) -> int:
-    """The task whose direction errors and retreat (M10 x M5 of scenario 3) are largest, among those not chosen yet.
+def find_most_disorienting(bank: TaskBank, excluded: Indices) -> int:
+    """Return the task with the largest direction errors and retreat (M10 x M5 of scenario 3) that is not yet chosen.
 
     Raises:
         InputError: No other task was completed in every scenario.
     """
-    values = bank.measures[bank.scenario("pseudoinverse", failed=True)]
-    score = np.where(bank.completed(), values[:, 9] * values[:, 4], -np.inf)
-    score[besides] = -np.inf
-    if not np.isfinite(score).any():
+    values = bank.measures[bank.scenario_index("pseudoinverse", failed=True)]
+    scores = np.where(bank.is_completed(), values[:, 9] * values[:, 4], -np.inf)
+    scores[excluded] = -np.inf
+    if not np.isfinite(scores).any():
         raise InputError("no task is left to be the most disorienting one; give more tasks")
-    return int(np.argmax(score))
+    return int(np.argmax(scores))
 
 
-def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", *, seed: int = 0) -> int | None:
-    """A task in which the failed arm under the pseudoinverse is drawn to a stationary point, but which can be done.
+def find_trapped_task(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", *, seed: int = 0) -> int | None:
+    """Return a task in which the failed arm under the pseudoinverse stops at a stationary point, although the task can be done.
 
     The computer, steering straight, must stop short of the target in scenario 3; and some other way of steering, by one of 64
     random points on the way, must bring the end effector into the circle.
@@ -169,17 +172,17 @@ def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar
     Returns:
         Index into the bank; None if it holds no such task.
     """
-    k = bank.scenario("pseudoinverse", failed=True)
-    rows = np.flatnonzero(bank.end[k] == End.STILL)
-    plant = Plant(bank.scenarios[k].make_law(arm, task))
-    for row in rows:
-        if can_be_steered(plant, bank.tasks.take(np.array([row])), seed):
-            return int(row)
+    scenario = bank.scenario_index("pseudoinverse", failed=True)
+    stuck_tasks = np.flatnonzero(bank.end[scenario] == End.STILL)
+    plant = JoystickPlant(bank.scenarios[scenario].make_law(arm, task))
+    for candidate in stuck_tasks:
+        if can_be_steered(plant, bank.tasks.take(np.array([candidate])), seed):
+            return int(candidate)
     return None
 
 
-def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, *, tries: int = 64) -> bool:
-    """Whether one failed task can be completed by way of some random point.
+def can_be_steered(plant: JoystickPlant, task: PointTasks, seed: int = 0, *, tries: int = 64) -> bool:
+    """Return whether one failed task can be completed via some random waypoint.
 
     Args:
         plant: The arm and law.
@@ -189,24 +192,24 @@ def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, *, tries: int 
     """
     generator = np.random.default_rng(seed)
     start = plant.position(task.q0)[0]
-    size = np.linalg.norm(task.target[0] - start)
-    via = 0.5 * (start + task.target[0]) + generator.uniform(-size, size, (tries, plant.m))
-    trials = drive(
+    distance = np.linalg.norm(task.target[0] - start)
+    waypoints = 0.5 * (start + task.target[0]) + generator.uniform(-distance, distance, (tries, plant.m))
+    trials = drive_trials(
         [plant],
         np.zeros(tries, dtype=np.int64),
         np.repeat(task.q0, tries, axis=0),
         target=np.repeat(task.target, tries, axis=0),
-        healthy=np.repeat(task.healthy(True), tries, axis=0),
-        operator=Detour(via),
-        stick=Stick(),
-        rules=Rules(cycle_limit=2000, patience=2000),
+        healthy=np.repeat(task.healthy_mask(True), tries, axis=0),
+        operator=WaypointOperator(waypoints),
+        stick=Joystick(),
+        rules=EndRules(cycle_limit=2000, patience=2000),
     )
-    return bool(trials.completed.any())
+    return bool(trials.is_completed.any())
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TaskChoice(Result):
-    """Tasks of a bank for an experiment: :func:`choose_tasks` makes it.
+    """Tasks of a bank chosen for an experiment, returned by :func:`choose_tasks`.
 
     Attributes:
         bank, arm, task: The tasks, of which arm, and the rows that the stick moves.
@@ -228,20 +231,20 @@ class TaskChoice(Result):
     seed: int
 
     @property
-    def apart(self) -> Indices:
-        """The special tasks."""
-        return np.array([k for k in (self.disorienting, self.trapped) if k is not None], dtype=np.int64)
+    def special_tasks(self) -> Indices:
+        """Indices of the special tasks."""
+        return np.array([task for task in (self.disorienting, self.trapped) if task is not None], dtype=np.int64)
 
     def describe(self) -> list[str]:
-        """A few sentences for people; tasks are numbered from 1."""
-        bank, good = self.bank, self.bank.completed()
-        cells = (len(self.cells.difficulty) - 1) * (len(self.cells.ratio) - 1)
+        """Describe the choice in a few sentences for people; tasks are numbered from 1."""
+        bank, completed = self.bank, self.bank.is_completed()
+        cell_count = (len(self.cells.difficulty) - 1) * (len(self.cells.ratio) - 1)
         lines = [
             f"Arm {self.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers",
             "failure-tolerant inverse better with the failed arm (CPM4/CPM3 below 1): "
-            f"{100 * float((bank.ratio[good] < 1).mean()):.0f} % of the tasks",
-            f"{len(self.cells.occupied)} of {cells} cells of CPM3 and CPM4/CPM3 hold a task; chosen, by CPM3: "
-            f"{' '.join(str(k + 1) for k in self.chosen)}",
+            f"{100 * float((bank.ratio[completed] < 1).mean()):.0f} % of the tasks",
+            f"{len(self.cells.occupied_cells)} of {cell_count} cells of CPM3 and CPM4/CPM3 hold a task; chosen, by CPM3: "
+            f"{' '.join(str(task + 1) for task in self.chosen)}",
         ]
         if self.disorienting is not None:
             lines += [
@@ -263,51 +266,51 @@ def choose_tasks(
     special: bool = True,
     seed: int = 0,
 ) -> TaskChoice:
-    """Tasks of a bank for an experiment: those of :func:`select`, and two special ones.
+    """Choose tasks of a bank for an experiment: those of :func:`select`, and two special ones.
 
     Args:
         bank: The tasks as the computer did them.
         arm: Whose they are.
         task: Rows that the stick moves.
         count: How many, without the special ones.
-        special: Also :func:`most_disorienting` and :func:`trapped`.
+        special: Also :func:`find_most_disorienting` and :func:`find_trapped_task`.
         seed: As of the bank.
 
     Raises:
         InputError: Too few tasks were completed in every scenario.
     """
-    cells = binning(bank)
-    chosen = select(bank, cells, count)
+    cells = bin_tasks(bank)
+    chosen = select_tasks(bank, cells, count)
     return TaskChoice(
         bank=bank,
         arm=arm,
         task=as_task(arm, task),
         cells=cells,
         chosen=chosen,
-        disorienting=most_disorienting(bank, chosen) if special else None,
-        trapped=trapped(bank, arm, task, seed=seed) if special else None,
+        disorienting=find_most_disorienting(bank, chosen) if special else None,
+        trapped=find_trapped_task(bank, arm, task, seed=seed) if special else None,
         seed=seed,
     )
 
 
-class Detour(Operator):
-    """First towards a point on the way, for as long as it comes nearer; then straight at the target.
+class WaypointOperator(Operator):
+    """Operator that steers towards a waypoint, until it arrives or 60 cycles have passed, and then straight at the target.
 
     Args:
         via: (N, m) the points, m.
     """
 
     def __init__(self, via: Array) -> None:
-        self._via = via
+        self._waypoints = via
 
     def begin(self, x: Array, target: Array) -> None:
         """See :meth:`Operator.begin`."""
-        self._left = np.full(len(x), 60)  # cycles: 3 m at full speed
+        self._cycles_left = np.full(len(x), 60)  # cycles: 3 m at full speed
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
-        self._left[rows] -= 1
-        near = np.linalg.norm(self._via[rows] - x, axis=1) < 0.05
-        self._left[rows[near]] = 0
-        goal = np.where((self._left[rows] > 0)[:, None], self._via[rows], target)
+        self._cycles_left[rows] -= 1
+        arrived = np.linalg.norm(self._waypoints[rows] - x, axis=1) < 0.05
+        self._cycles_left[rows[arrived]] = 0
+        goal = np.where((self._cycles_left[rows] > 0)[:, None], self._waypoints[rows], target)
         return np.asarray(goal - x)

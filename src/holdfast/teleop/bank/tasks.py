@@ -1,4 +1,4 @@
-"""The task bank: random point-to-point tasks, each run under computer control in every scenario."""
+"""Task bank: random point-to-point tasks, each run under computer control in every scenario."""
 
 from __future__ import annotations
 
@@ -12,34 +12,34 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.solvers.inverse_kinematics import InverseKinematics, solver
-from holdfast.teleop.trials.driving import Computer, Operator, Rules, drive
-from holdfast.teleop.trials.performance import RECORDED, cpm, measures
-from holdfast.teleop.trials.plant import Plant, check_rows
+from holdfast.teleop.trials.driving import ComputerOperator, EndRules, Operator, drive_trials
+from holdfast.teleop.trials.performance import RECORDED_MEASURES, compute_cpm, compute_measures
+from holdfast.teleop.trials.plant import JoystickPlant, check_joystick_task
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks, Scenario
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 Array = NDArray[np.float64]
 
-DISTANCE = 2.0  # m
-_DRAWS = 200  # targets tried from one start configuration
-_RESTARTS, _TOLERANCE = 24, 1e-6
-_STARTS = 20  # start configurations tried for one task
-_TOGETHER = 400
+TASK_DISTANCE_M = 2.0  # m
+_MAX_TARGETS_PER_START = 200  # targets tried from one start configuration
+_IK_RESTARTS, _IK_TOLERANCE = 24, 1e-6
+_MAX_STARTS_PER_TASK = 20  # start configurations tried for one task
+_BATCH_TARGETS = 400
 
 
-def random_tasks(
+def sample_tasks(
     arm: Arm,
     per_joint: int = 400,
     joints: Sequence[int | str] | None = None,
     *,
-    distance: float = DISTANCE,
+    distance: float = TASK_DISTANCE_M,
     task: str | Task | Sequence[str] = "planar",
     seed: int = 0,
 ) -> PointTasks:
-    """Random tasks: for each joint so many starts and targets that the arm can still reach once that joint is locked there.
+    """Sample tasks for each joint, with targets that the arm can still reach once the joint is locked at its start angle.
 
     The start configuration is uniform within the joint limits (a full turn where there are none), the direction to the
     target uniform; a target is kept if a configuration of the arm with the joint locked at its start angle reaches it.
@@ -61,66 +61,73 @@ def random_tasks(
 
     Source: Goel et al. 2003, section 5: 1200 tasks, 2 m from start to target. The distribution is reconstructed.
     """
-    rows = as_task(arm, task)
-    check_rows(rows)
-    chosen = list(range(arm.n)) if joints is None else [arm.joint_index(j) for j in joints]
-    if per_joint < 1 or not chosen:
-        raise InputError(f"per_joint is {per_joint} for {len(chosen)} joints; it must be 1 or more, for at least one joint")
+    task_rows = as_task(arm, task)
+    check_joystick_task(task_rows)
+    joint_indices = list(range(arm.n)) if joints is None else [arm.joint_index(name) for name in joints]
+    if per_joint < 1 or not joint_indices:
+        raise InputError(
+            f"per_joint is {per_joint} for {len(joint_indices)} joints; it must be 1 or more, for at least one joint"
+        )
     if not (np.isfinite(distance) and distance > 0):
         raise InputError(f"distance is {distance:g} m; it must be above 0")
-    engine = solver(arm, rows)
-    sequences = np.random.SeedSequence(seed).spawn(len(chosen))
-    parts = [_tasks_of(engine, k, per_joint, distance, s) for k, s in zip(chosen, sequences, strict=True)]
-    return PointTasks(*(np.concatenate(a) for a in zip(*parts, strict=True)))
+    inverse_kinematics = solver(arm, task_rows)
+    sequences = np.random.SeedSequence(seed).spawn(len(joint_indices))
+    tasks_by_joint = [
+        _sample_joint_tasks(inverse_kinematics, joint, per_joint, distance, sequence)
+        for joint, sequence in zip(joint_indices, sequences, strict=True)
+    ]
+    return PointTasks(*(np.concatenate(arrays) for arrays in zip(*tasks_by_joint, strict=True)))
 
 
-def _tasks_of(
-    engine: InverseKinematics, joint: int, count: int, distance: float, seed: np.random.SeedSequence
+def _sample_joint_tasks(
+    inverse_kinematics: InverseKinematics, joint: int, count: int, distance: float, seed: np.random.SeedSequence
 ) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Start configurations (count, n), targets (count, m) and the joint (count,) of tasks for one joint."""
-    arm, rows = engine.arm, engine.task
+    """Sample start configurations (count, n), targets (count, m) and the joint (count,) of tasks for one joint."""
+    arm, task = inverse_kinematics.arm, inverse_kinematics.task
     draw_seed, search_seed = seed.spawn(2)
     generator = np.random.default_rng(draw_seed)
-    low, high = finite_limits(arm)
-    q0, target = np.empty((count, arm.n)), np.empty((count, rows.m))
-    x0 = np.empty((count, rows.m))
-    open_, tried, starts = np.arange(count), np.full(count, _DRAWS), np.zeros(count, dtype=np.int64)
-    while open_.size:
-        fresh = open_[tried[open_] >= _DRAWS]
-        if (starts[fresh] >= _STARTS).any():
+    lower, upper = finite_limits(arm)
+    q0, target = np.empty((count, arm.n)), np.empty((count, task.m))
+    x0 = np.empty((count, task.m))
+    pending, tries, start_counts = np.arange(count), np.full(count, _MAX_TARGETS_PER_START), np.zeros(count, dtype=np.int64)
+    while pending.size:
+        restarted = pending[tries[pending] >= _MAX_TARGETS_PER_START]
+        if (start_counts[restarted] >= _MAX_STARTS_PER_TASK).any():
             raise InputError(
                 f"no target {distance:g} m away could be found that '{arm.name}' reaches with joint '{arm.joint_names[joint]}' "
                 "locked; give a smaller distance"
             )
-        if fresh.size:
-            q0[fresh] = generator.uniform(low, high, (fresh.size, arm.n))
-            x0[fresh] = arm.forward_kinematics(q0[fresh])[:, :3, 3] @ rows.rows[:, :3].T
-        tried[fresh], starts[fresh] = 0, starts[fresh] + 1
+        if restarted.size:
+            q0[restarted] = generator.uniform(lower, upper, (restarted.size, arm.n))
+            x0[restarted] = arm.forward_kinematics(q0[restarted])[:, :3, 3] @ task.rows[:, :3].T
+        tries[restarted], start_counts[restarted] = 0, start_counts[restarted] + 1
         # Of few open tasks many directions are tried side by side; the first that works counts.
-        beside = max(1, _TOGETHER // open_.size)
-        direction = generator.normal(size=(open_.size, beside, rows.m))
-        direction /= np.linalg.norm(direction, axis=2, keepdims=True)
-        there = (x0[open_, None] + distance * direction).reshape(-1, rows.m)
-        poses = np.tile(np.eye(4), (len(there), 1, 1))
-        poses[:, :3, 3] = there @ rows.rows[:, :3]
-        angles = np.repeat(q0[open_, joint], beside)
-        ok = engine.reaches_locked(poses, np.full(len(there), joint), angles, search_seed, _RESTARTS, _TOLERANCE)
-        ok = ok.reshape(-1, beside)
-        found = ok.any(axis=1)
-        target[open_[found]] = there.reshape(-1, beside, rows.m)[found, ok[found].argmax(axis=1)]
-        tried[open_] += beside
-        open_ = open_[~found]
+        direction_count = max(1, _BATCH_TARGETS // pending.size)
+        directions = generator.normal(size=(pending.size, direction_count, task.m))
+        directions /= np.linalg.norm(directions, axis=2, keepdims=True)
+        candidates = (x0[pending, None] + distance * directions).reshape(-1, task.m)
+        poses = np.tile(np.eye(4), (len(candidates), 1, 1))
+        poses[:, :3, 3] = candidates @ task.rows[:, :3]
+        angles = np.repeat(q0[pending, joint], direction_count)
+        reachable = inverse_kinematics.reaches_locked(
+            poses, np.full(len(candidates), joint), angles, search_seed, _IK_RESTARTS, _IK_TOLERANCE
+        )
+        reachable = reachable.reshape(-1, direction_count)
+        solved = reachable.any(axis=1)
+        target[pending[solved]] = candidates.reshape(-1, direction_count, task.m)[solved, reachable[solved].argmax(axis=1)]
+        tries[pending] += direction_count
+        pending = pending[~solved]
     return q0, target, np.full(count, joint, dtype=np.int64)
 
 
-def run(
+def run_tasks(
     arm: Arm,
     tasks: PointTasks,
     operator: Operator | None = None,
     *,
     scenarios: Sequence[Scenario] = SCENARIOS,
-    stick: Stick | None = None,
-    rules: Rules | None = None,
+    stick: Joystick | None = None,
+    rules: EndRules | None = None,
     task: str | Task | Sequence[str] = "planar",
 ) -> Trials:
     """Run every task in every scenario: S x N trials, scenario by scenario.
@@ -130,50 +137,52 @@ def run(
         tasks: N tasks.
         operator: Who holds the stick; the computer if not given.
         scenarios: The S conditions.
-        stick: As :class:`holdfast.teleop.Stick`; the paper's if not given.
+        stick: As :class:`holdfast.teleop.Joystick`; the paper's if not given.
         rules: When a trial is over.
         task: Rows that the stick moves.
 
     Raises:
-        InputError, TaskError: As the laws and :func:`holdfast.teleop.drive`.
+        InputError, TaskError: As the laws and :func:`holdfast.teleop.drive_trials`.
     """
-    plants = [Plant(s.make_law(arm, task)) for s in scenarios]
-    stick = Stick() if stick is None else stick
-    return in_every_scenario(plants, scenarios, tasks, Computer() if operator is None else operator, stick, rules)
+    plants = [JoystickPlant(scenario.make_law(arm, task)) for scenario in scenarios]
+    stick = Joystick() if stick is None else stick
+    return drive_in_every_scenario(plants, scenarios, tasks, ComputerOperator() if operator is None else operator, stick, rules)
 
 
-def in_every_scenario(
-    plants: Sequence[Plant],
+def drive_in_every_scenario(
+    plants: Sequence[JoystickPlant],
     scenarios: Sequence[Scenario],
     tasks: PointTasks,
     operator: Operator,
-    stick: Stick,
-    rules: Rules | None,
+    stick: Joystick,
+    rules: EndRules | None,
 ) -> Trials:
-    """Every task in every scenario, scenario by scenario; a plant for each scenario."""
+    """Drive every task in every scenario, scenario by scenario, with a plant for each scenario."""
     count = len(tasks)
     scenario = np.repeat(np.arange(len(scenarios)), count)
-    every = tasks.take(np.tile(np.arange(count), len(scenarios)))
-    return drive_tasks(plants, scenarios, scenario, every, operator, stick, rules)
+    repeated_tasks = tasks.take(np.tile(np.arange(count), len(scenarios)))
+    return drive_tasks(plants, scenarios, scenario, repeated_tasks, operator, stick, rules)
 
 
 def drive_tasks(
-    plants: Sequence[Plant],
+    plants: Sequence[JoystickPlant],
     scenarios: Sequence[Scenario],
     scenario: NDArray[np.int64],
     tasks: PointTasks,
     operator: Operator,
-    stick: Stick | None,
-    rules: Rules | None,
+    stick: Joystick | None,
+    rules: EndRules | None,
 ) -> Trials:
-    """As :func:`holdfast.teleop.drive`, for N tasks under scenarios (N,), indices from 0; a plant for each scenario."""
-    failed = np.array([s.failed for s in scenarios], dtype=bool)[scenario]
-    return drive(
+    """Drive N tasks, like :func:`holdfast.teleop.drive_trials`, under scenarios (N,) given by index from 0; a plant for
+    each scenario.
+    """
+    failed = np.array([condition.failed for condition in scenarios], dtype=bool)[scenario]
+    return drive_trials(
         plants,
         scenario,
         tasks.q0,
         target=tasks.target,
-        healthy=tasks.healthy(failed),
+        healthy=tasks.healthy_mask(failed),
         operator=operator,
         stick=stick,
         rules=rules,
@@ -182,7 +191,7 @@ def drive_tasks(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TaskBank:
-    """N tasks and how the computer did them in S scenarios.
+    """N tasks and the computer's trials of them in S scenarios.
 
     Attributes:
         tasks: The tasks.
@@ -201,11 +210,11 @@ class TaskBank:
     normalisers: Array
 
     @classmethod
-    def of(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIOS) -> TaskBank:
-        """From the trials of :func:`run`."""
+    def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIOS) -> TaskBank:
+        """Build the bank from the trials of :func:`run`."""
         shape = (len(scenarios), len(tasks))
-        values = measures(trials).reshape(*shape, RECORDED)
-        combined = cpm(values)
+        values = compute_measures(trials).reshape(*shape, RECORDED_MEASURES)
+        combined = compute_cpm(values)
         return cls(
             tasks=tasks,
             scenarios=tuple(scenarios),
@@ -218,48 +227,50 @@ class TaskBank:
     def __len__(self) -> int:
         return len(self.tasks)
 
-    def scenario(self, law: str, failed: bool) -> int:
-        """Index of the scenario with this law and failure.
+    def scenario_index(self, law: str, failed: bool) -> int:
+        """Return the index of the scenario with this law and failure.
 
         Raises:
             InputError: There is none.
         """
-        for k, s in enumerate(self.scenarios):
-            if s.law == law and s.failed == failed:
-                return k
+        for index, condition in enumerate(self.scenarios):
+            if condition.law == law and condition.failed == failed:
+                return index
         raise InputError(f"the bank has no scenario with {law} and {'a' if failed else 'no'} failure; run the tasks with one")
 
     @property
     def difficulty(self) -> Array:
-        """(N,) CPM3: of the failed arm under the pseudoinverse, the anticipated difficulty."""
-        return np.asarray(self.cpm[self.scenario("pseudoinverse", failed=True)])
+        """Anticipated difficulty (N,): CPM3, that of the failed arm under the pseudoinverse."""
+        return np.asarray(self.cpm[self.scenario_index("pseudoinverse", failed=True)])
 
     @property
     def ratio(self) -> Array:
-        """(N,) CPM4 / CPM3: below 1, the failure-tolerant inverse does better."""
-        return np.asarray(self.cpm[self.scenario("failure-tolerant", failed=True)] / self.difficulty)
+        """Ratio (N,) CPM4 / CPM3: below 1, the failure-tolerant inverse does better."""
+        return np.asarray(self.cpm[self.scenario_index("failure-tolerant", failed=True)] / self.difficulty)
 
-    def completed(self) -> NDArray[np.bool_]:
-        """(N,) True where the end effector reached the target in every scenario."""
+    def is_completed(self) -> NDArray[np.bool_]:
+        """Return (N,) True where the end effector reached the target in every scenario."""
         return np.asarray((self.end == End.ARRIVED).all(axis=0))
 
 
-@says("running the tasks")
-def task_bank(
+@reports_progress("running the tasks")
+def make_task_bank(
     arm: Arm,
     per_joint: int = 400,
     joints: Sequence[int | str] | None = None,
     *,
-    distance: float = DISTANCE,
+    distance: float = TASK_DISTANCE_M,
     task: str | Task | Sequence[str] = "planar",
     seed: int = 0,
     scenarios: Sequence[Scenario] = SCENARIOS,
-    stick: Stick | None = None,
-    rules: Rules | None = None,
+    stick: Joystick | None = None,
+    rules: EndRules | None = None,
 ) -> TaskBank:
-    """Random tasks, each run under computer control in every scenario; see :func:`random_tasks` and :func:`run`.
+    """Sample random tasks and run each under computer control in every scenario; see :func:`random_tasks` and :func:`run`.
 
     Source: Goel et al. 2003, section 5.
     """
-    tasks = random_tasks(arm, per_joint, joints, distance=distance, task=task, seed=seed)
-    return TaskBank.of(tasks, run(arm, tasks, scenarios=scenarios, stick=stick, rules=rules, task=task), scenarios)
+    tasks = sample_tasks(arm, per_joint, joints, distance=distance, task=task, seed=seed)
+    return TaskBank.from_trials(
+        tasks, run_tasks(arm, tasks, scenarios=scenarios, stick=stick, rules=rules, task=task), scenarios
+    )

@@ -1,4 +1,4 @@
-"""The plan of an experiment: conditions, order, texts, the arm on the page."""
+"""Plan of an experiment: conditions, order, texts, and the arm on the page."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Who does which task when: balanced Latin squares, and rows of them given to those who finish.
+"""Order of the tasks: balanced Latin squares, and the assignment of their rows to subjects.
 
 Source: Williams 1949; Goel et al. 2003, section 6, uses one of order 24.
 """
@@ -15,8 +15,8 @@ from holdfast.errors import InputError
 Indices = NDArray[np.int64]
 
 
-def williams(n: int) -> Indices:
-    """A Latin square balanced for what comes before: Williams' construction.
+def williams_square(n: int) -> Indices:
+    """Return a Latin square balanced for the preceding task, by Williams' construction.
 
     In each column every task comes equally often, and every ordered pair of neighbours occurs equally often in the rows:
     once for even n, in n rows; twice for odd n, which takes 2 n rows (the square and its mirror image).
@@ -32,15 +32,15 @@ def williams(n: int) -> Indices:
     """
     if n < 1:
         raise InputError(f"a square of {n} tasks is not possible; give 1 or more")
-    z = np.zeros(n, dtype=np.int64)
-    z[1::2] = np.arange(1, n // 2 + 1)
-    z[2::2] = n - np.arange(1, (n + 1) // 2)
-    square = (z + np.arange(n)[:, None]) % n
+    offsets = np.zeros(n, dtype=np.int64)
+    offsets[1::2] = np.arange(1, n // 2 + 1)
+    offsets[2::2] = n - np.arange(1, (n + 1) // 2)
+    square = (offsets + np.arange(n)[:, None]) % n
     return square if n % 2 == 0 or n == 1 else np.concatenate([square, square[:, ::-1]])
 
 
-def next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -> int:
-    """The row of the square for the next subject: one that the fewest have finished, then one that the fewest are busy with.
+def choose_next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -> int:
+    """Return the row of the square for the next subject: completed by the fewest subjects, then in progress with the fewest.
 
     Rows of subjects who dropped out come up again, so that an experiment ends balanced.
 
@@ -55,11 +55,15 @@ def next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -> int:
     for row in (*completed, *open_):
         if not 0 <= row < rows:
             raise InputError(f"row {row} is not one of 0 to {rows - 1}")
-    done, busy = (np.bincount(np.asarray(r, dtype=np.int64), minlength=rows) for r in (completed, open_))
-    return int(np.lexsort((np.arange(rows), busy, done + busy))[0])
+    completed_counts, open_counts = (
+        np.bincount(np.asarray(assigned, dtype=np.int64), minlength=rows) for assigned in (completed, open_)
+    )
+    return int(np.lexsort((np.arange(rows), open_counts, completed_counts + open_counts))[0])
 
 
-def scenario_orders(tasks: int, scenarios: int, seed: int, *, subject: int) -> Indices:
-    """(tasks, scenarios) random orders of the scenarios within each task, the same for the same seed and subject number."""
+def shuffle_scenarios(tasks: int, scenarios: int, seed: int, *, subject: int) -> Indices:
+    """Return (tasks, scenarios) random orders of the scenarios within each task, the same for the same seed and
+    subject number.
+    """
     generator = np.random.default_rng(np.random.SeedSequence([seed, subject]))
     return np.asarray(generator.permuted(np.tile(np.arange(scenarios), (tasks, 1)), axis=1), dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The arm of a protocol as JavaScript: what moves in the page is the computation that Python replays.
+"""Arm of a protocol as JavaScript, so that the page moves it by the same computation that Python replays.
 
 Measured with Node 20 on one core of a shared machine: the paper's protocol (three links, two laws) makes 25 kB in less than a
 second; a control cycle of ten sub-steps takes 2 us under the pseudoinverse and 12 us under the failure-tolerant inverse. The
@@ -16,28 +16,31 @@ import numpy as np
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
-from holdfast.kernels.javascript_backend import javascript
+from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.program import SX, Program
-from holdfast.kernels.recall import recalled_data
+from holdfast.kernels.recall import cached_json
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.trials.plant import check_rows, substep
+from holdfast.teleop.trials.plant import check_joystick_task, make_substep
 
-_WARM = 300  # cycles of each law before the module is ready: engines compile what has run a while
+_WARMUP_CYCLES = 300  # cycles of each law before the module is ready: engines compile what has run a while
 
 
-def law_of(protocol: Protocol) -> list[int]:
-    """For each scenario, the number of its law in the module: laws with their options, each once, shuffled.
+def number_laws(protocol: Protocol) -> list[int]:
+    """Return for each scenario the number of its law in the module: laws with their options, each once, shuffled.
 
     So the numbers say nothing to who reads what page and server say to each other; the protocol's seed shuffles them.
     """
-    known: dict[str, int] = {}
-    found = [known.setdefault(json.dumps([s.law, dict(s.options)], sort_keys=True), len(known)) for s in protocol.scenarios]
-    codes = np.random.default_rng([protocol.seed, 2]).permutation(len(known)).tolist()
-    return [codes[k] for k in found]
+    law_numbers: dict[str, int] = {}
+    scenario_laws = [
+        law_numbers.setdefault(json.dumps([scenario.law, dict(scenario.options)], sort_keys=True), len(law_numbers))
+        for scenario in protocol.scenarios
+    ]
+    codes = np.random.default_rng([protocol.seed, 2]).permutation(len(law_numbers)).tolist()
+    return [codes[number] for number in scenario_laws]
 
 
-def arm_module(protocol: Protocol) -> str:
-    """The arm under the protocol's laws as the text of an ES module, which needs nothing else and allocates nothing.
+def print_arm_module(protocol: Protocol) -> str:
+    """Print the arm under the protocol's laws as an ES module, which needs nothing else and allocates nothing.
 
     .. code-block:: javascript
 
@@ -46,8 +49,8 @@ def arm_module(protocol: Protocol) -> str:
         export function position(q, out);
         export function points(q, out);
 
-    All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`law_of`. ``cycle`` writes what
-    :meth:`holdfast.teleop.Plant.cycle` gives: the configuration after a whole control cycle, then the tool point's
+    All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`number_laws`. ``cycle`` writes what
+    :meth:`holdfast.teleop.JoystickPlant.step_one` gives: the configuration after a whole control cycle, then the tool point's
     velocity at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the wire
     frame, three world coordinates each, m: the base (left out where the first joint sits at it), every joint, the tool point;
     so joint k, from 0, is marker ``markers - 1 - joints + k``. NaN or infinity in an argument makes everything NaN.
@@ -58,47 +61,49 @@ def arm_module(protocol: Protocol) -> str:
     Raises:
         TaskError: Rows that a stick cannot command.
     """
-    numbers = law_of(protocol)
-    check_rows(protocol.rows)
-    scenarios = [protocol.scenarios[numbers.index(k)] for k in range(max(numbers) + 1)]
-    return _module([s.make_law(protocol.arm, protocol.rows) for s in scenarios], protocol.substeps)
+    numbers = number_laws(protocol)
+    check_joystick_task(protocol.rows)
+    scenarios = [protocol.scenarios[numbers.index(number)] for number in range(max(numbers) + 1)]
+    return _print_module([scenario.make_law(protocol.arm, protocol.rows) for scenario in scenarios], protocol.substeps)
 
 
-@recalled_data
-def _module(laws: list[Law], substeps: int) -> str:
+@cached_json
+def _print_module(laws: list[Law], substeps: int) -> str:
     arm, task = laws[0].arm, laws[0].task
     q = kinematics.joint_symbols(arm)
-    frame = _wire_frame(arm, q)
-    place = ca.DM(task.rows[:, :3]) @ frame[:, -1]
-    texts = []
-    for k, law in enumerate(laws):
-        once = substep(law, substeps)
-        symbols = once.sx_in()
-        texts.append(javascript(Program(f"sub-step, {law.slug}", symbols, once(*symbols)), f"law{k}"))
-    texts.append(javascript(Program("position", [q], [place]), "place"))
-    texts.append(javascript(Program("points", [q], [frame.T]), "wire"))
-    return _MODULE.format(
+    frame = _wire_frame_points(arm, q)
+    position = ca.DM(task.rows[:, :3]) @ frame[:, -1]
+    programs = []
+    for number, law in enumerate(laws):
+        step = make_substep(law, substeps)
+        symbols = step.sx_in()
+        programs.append(write_javascript(Program(f"sub-step, {law.slug}", symbols, step(*symbols)), f"law{number}"))
+    programs.append(write_javascript(Program("position", [q], [position]), "place"))
+    programs.append(write_javascript(Program("points", [q], [frame.T]), "wire"))
+    return _MODULE_TEMPLATE.format(
         joints=arm.n,
         axes=task.m,
         laws=len(laws),
         markers=frame.shape[1],
-        programs="".join(texts),
-        steps=",".join(f"law{k}" for k in range(len(laws))),
+        programs="".join(programs),
+        steps=",".join(f"law{number}" for number in range(len(laws))),
         substeps=substeps,
-        warm=_WARM,
+        warm=_WARMUP_CYCLES,
     )
 
 
-def _wire_frame(arm: Arm, q: SX) -> SX:
-    """(3, markers) the base, if the first joint sits elsewhere, every joint and the tool point, in the world."""
-    moving, still = kinematics.frames(arm, kinematics.joint_steps(arm, q))
-    tool = kinematics.compose(moving[-1], kinematics.split(arm.tool))
+def _wire_frame_points(arm: Arm, q: SX) -> SX:
+    """Return (3, markers) positions in the world: the base, if the first joint sits elsewhere, every joint and the
+    tool point.
+    """
+    moving, fixed = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, q))
+    tool = kinematics.compose_frames(moving[-1], kinematics.split_transform(arm.tool))
     at_base = not np.any(arm.joints[0].origin[:3, 3])
-    chosen = [*([] if at_base else moving[:1]), *still, tool]
-    return ca.densify(ca.horzcat(*[position for _, position in chosen]))
+    markers = [*([] if at_base else moving[:1]), *fixed, tool]
+    return ca.densify(ca.horzcat(*[position for _, position in markers]))
 
 
-_MODULE = """\
+_MODULE_TEMPLATE = """\
 // Printed by holdfast from the equations of its kernels: do not edit.
 export const joints={joints},axes={axes},laws={laws},markers={markers};
 {programs}\

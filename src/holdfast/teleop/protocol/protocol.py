@@ -1,4 +1,4 @@
-"""The protocol of an experiment: a YAML file, validated; the paper's ships with holdfast.
+"""Protocol of an experiment: a validated YAML file; the protocols of the paper ship with holdfast.
 
 .. code-block:: yaml
 
@@ -41,23 +41,23 @@ from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files import reading
-from holdfast.files.output import replaced
-from holdfast.files.yaml import Number, Strict, content, sentence
-from holdfast.teleop.protocol.order import Indices, scenario_orders, williams
-from holdfast.teleop.trials.driving import Rules
-from holdfast.teleop.trials.plant import SUBSTEPS, Plant
+from holdfast.files.output import replace_file
+from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.teleop.protocol.order import Indices, shuffle_scenarios, williams_square
+from holdfast.teleop.trials.driving import EndRules
+from holdfast.teleop.trials.plant import SUBSTEPS_PER_CYCLE, JoystickPlant
 from holdfast.teleop.trials.scenarios import PointTasks, Scenario
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
-PAPER, SMOOTH = "goel2003", "goel2003-smooth"
-BUILTIN = (PAPER, SMOOTH)
-RATING = ("easy", "moderate", "difficult", "very difficult")
-_NEVER = 10**9
+PAPER_PROTOCOL, SMOOTH_PROTOCOL = "goel2003", "goel2003-smooth"
+BUILTIN_PROTOCOLS = (PAPER_PROTOCOL, SMOOTH_PROTOCOL)
+RATING_STEPS = ("easy", "moderate", "difficult", "very difficult")
+_UNLIMITED_CYCLES = 10**9
 
 
 @dataclass(frozen=True)
 class Training:
-    """When a subject has practised enough: both ``at_least`` tasks, and the last ``in_a_row`` within ``limit`` cycles.
+    """Criterion of sufficient practice: both ``at_least`` tasks, and the last ``in_a_row`` within ``limit`` cycles.
 
     Attributes:
         at_least: Tasks completed in total.
@@ -77,15 +77,19 @@ class Training:
     most: int = 100
     distance: float = 2.0
 
-    def trained(self, cycles: Sequence[float]) -> bool:
-        """Whether completion times, in cycles and in order (NaN: not completed), meet the criterion."""
-        done = [c for c in cycles if np.isfinite(c)]
-        last = list(cycles)[-self.in_a_row :]
-        return len(done) >= self.at_least and len(last) == self.in_a_row and all(c <= self.limit for c in last)
+    def is_met_by(self, cycles: Sequence[float]) -> bool:
+        """Return whether completion times, in cycles and in order (NaN: not completed), meet the criterion."""
+        completed = [duration for duration in cycles if np.isfinite(duration)]
+        recent = list(cycles)[-self.in_a_row :]
+        return (
+            len(completed) >= self.at_least
+            and len(recent) == self.in_a_row
+            and all(duration <= self.limit for duration in recent)
+        )
 
 
 def training_limit(times: Any, factor: float = 1.2) -> float:
-    """The training limit from pilot runs: ``factor`` times the mean, over operators, of each one's best time.
+    """Compute the training limit from pilot runs: ``factor`` times the mean, over operators, of each operator's best time.
 
     Args:
         times: (K, R) completion times of K operators in R repetitions of one task; NaN where not completed.
@@ -96,15 +100,15 @@ def training_limit(times: Any, factor: float = 1.2) -> float:
 
     Source: Goel et al. 2003, section 6: three operators, 20 repetitions.
     """
-    t = np.atleast_2d(np.asarray(times, dtype=np.float64))
-    if t.size == 0 or np.isnan(t).all(axis=1).any():
+    durations = np.atleast_2d(np.asarray(times, dtype=np.float64))
+    if durations.size == 0 or np.isnan(durations).all(axis=1).any():
         raise InputError("an operator of the pilot runs never completed the task; a limit needs a time of each")
-    return float(factor * np.nanmin(t, axis=1).mean())
+    return float(factor * np.nanmin(durations, axis=1).mean())
 
 
 @dataclass(frozen=True, eq=False)
 class Protocol:
-    """An experiment: what is done, by how many, in which order.
+    """Plan of an experiment: its tasks and scenarios, the number of subjects, and the order.
 
     Attributes:
         name: For people.
@@ -134,7 +138,7 @@ class Protocol:
     rows: Task
     rate: float
     substeps: int
-    stick: Stick
+    stick: Joystick
     radius: float
     cycle_limit: int | None
     subjects: int
@@ -146,37 +150,37 @@ class Protocol:
     notes: tuple[str, ...]
 
     @property
-    def rules(self) -> Rules:
-        """When a person's trial is over: inside the circle with no command, or by abort. Being stuck ends nothing."""
-        limit = _NEVER if self.cycle_limit is None else self.cycle_limit
-        return Rules(radius=self.radius, at_rest=True, cycle_limit=limit, patience=_NEVER)
+    def rules(self) -> EndRules:
+        """Rules that end a person's trial: inside the circle with no command, or by abort; being stuck ends no trial."""
+        limit = _UNLIMITED_CYCLES if self.cycle_limit is None else self.cycle_limit
+        return EndRules(radius=self.radius, at_rest=True, cycle_limit=limit, patience=_UNLIMITED_CYCLES)
 
     @cached_property
-    def plants(self) -> tuple[Plant, ...]:
-        """The arm under each scenario's law."""
-        return tuple(Plant(s.make_law(self.arm, self.rows), self.substeps) for s in self.scenarios)
+    def plants(self) -> tuple[JoystickPlant, ...]:
+        """Plant of the arm under each scenario's law."""
+        return tuple(JoystickPlant(scenario.make_law(self.arm, self.rows), self.substeps) for scenario in self.scenarios)
 
-    def order(self) -> Indices:
-        """(R, T) task indices from 0: the rows of the balanced square."""
-        return williams(len(self.tasks))
+    def task_order(self) -> Indices:
+        """Return (R, T) task indices from 0: the rows of the balanced square."""
+        return williams_square(len(self.tasks))
 
-    def session(self, row: int, subject: int) -> Indices:
-        """(T S, 2) task and scenario indices, from 0, of a whole session in order.
+    def session_order(self, row: int, subject: int) -> Indices:
+        """Return (T S, 2) task and scenario indices, from 0, of a whole session in order.
 
         Args:
             row: Of the balanced square.
             subject: Running number, which with the seed makes the orders of the scenarios.
         """
-        tasks = self.order()[row]
-        inner = scenario_orders(len(tasks), len(self.scenarios), self.seed, subject=subject)
-        return np.column_stack([np.repeat(tasks, len(self.scenarios)), inner.ravel()])
+        tasks = self.task_order()[row]
+        orders = shuffle_scenarios(len(tasks), len(self.scenarios), self.seed, subject=subject)
+        return np.column_stack([np.repeat(tasks, len(self.scenarios)), orders.ravel()])
 
     def with_tasks(self, tasks: PointTasks, notes: Sequence[str] | None = None) -> Protocol:
-        """The same experiment with other tasks."""
+        """Return the same experiment with other tasks."""
         return replace(self, tasks=tasks, notes=tuple(notes) if notes is not None else ("",) * len(tasks))
 
-    def text(self) -> str:
-        """The protocol as the text of a YAML file that :func:`holdfast.teleop.read_protocol` takes."""
+    def to_yaml(self) -> str:
+        """Return the protocol as the text of a YAML file that :func:`holdfast.teleop.read_protocol` takes."""
         data: dict[str, Any] = {
             "name": self.name,
             "arm": self.arm_spec,
@@ -189,57 +193,63 @@ class Protocol:
             "subjects": self.subjects,
             "seed": self.seed,
             "scenarios": [
-                {"law": s.law, "failed": s.failed, **({"options": dict(s.options)} if s.options else {})}
-                for s in self.scenarios
+                {
+                    "law": scenario.law,
+                    "failed": scenario.failed,
+                    **({"options": dict(scenario.options)} if scenario.options else {}),
+                }
+                for scenario in self.scenarios
             ],
             "training": vars(self.training),
             "rating": list(self.rating),
-            "tasks": [_entry(self, k) for k in range(len(self.tasks))],
+            "tasks": [_format_task(self, index) for index in range(len(self.tasks))],
         }
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120, default_flow_style=None)
 
     def write(self, path: str | Path) -> Path:
-        """Write :meth:`text` to a file, and the arm's own file, if it has one, beside it.
+        """Write :meth:`text` to a file, with the arm's own file, if it has one, in the same folder.
 
         Raises:
             StoreError: It cannot be written.
         """
         file = Path(path)
-        replaced(file, self.text())
-        if self.arm_file is not None and not reading.exists(beside := file.parent / self.arm_spec):
-            with reading.guarded(f"'{self.arm_file}'", kind=StoreError):
-                replaced(beside, reading.raw(self.arm_file))
+        replace_file(file, self.to_yaml())
+        if self.arm_file is not None and not reading.path_exists(arm_copy := file.parent / self.arm_spec):
+            with reading.guard_reading(f"'{self.arm_file}'", kind=StoreError):
+                replace_file(arm_copy, reading.read_bytes(self.arm_file))
         return file
 
 
-def _entry(protocol: Protocol, k: int) -> dict[str, Any]:
-    tasks, joint = protocol.tasks, int(protocol.tasks.joint[k])
+def _format_task(protocol: Protocol, index: int) -> dict[str, Any]:
+    tasks, joint = protocol.tasks, int(protocol.tasks.joint[index])
     return {
-        "q0": tasks.q0[k].tolist(),
-        "target": tasks.target[k].tolist(),
+        "q0": tasks.q0[index].tolist(),
+        "target": tasks.target[index].tolist(),
         **({} if joint < 0 else {"joint": protocol.arm.joint_names[joint]}),
-        **({} if not protocol.notes[k] else {"note": protocol.notes[k]}),
+        **({} if not protocol.notes[index] else {"note": protocol.notes[index]}),
     }
 
 
-def read_protocol(spec: str | Path = PAPER) -> Protocol:
-    """A protocol by name (``goel2003``, or ``goel2003-smooth`` with the same speed at 60 cycles/s) or from a YAML file.
+def read_protocol(spec: str | Path = PAPER_PROTOCOL) -> Protocol:
+    """Read a protocol by name (``goel2003``, or ``goel2003-smooth`` with the same speed at 60 cycles/s) or from a YAML file.
 
     Raises:
         InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
     """
-    if str(spec) in BUILTIN:
+    if str(spec) in BUILTIN_PROTOCOLS:
         with resources.as_file(resources.files("holdfast.teleop.protocol") / f"{spec}.yaml") as path:
-            return _read(path)
-    return _read(Path(spec))
+            return _read_file(path)
+    return _read_file(Path(spec))
 
 
-def _read(path: Path) -> Protocol:
+def _read_file(path: Path) -> Protocol:
     try:
-        model = _File.model_validate(content(path, "holdfast.teleop.protocol.protocol", "name, arm, scenarios and tasks"))
-        return _protocol(model, path.parent)
+        document = _ProtocolFile.model_validate(
+            read_mapping(path, "holdfast.teleop.protocol.protocol", "name, arm, scenarios and tasks")
+        )
+        return _build_protocol(document, path.parent)
     except ValidationError as error:
-        raise InputError(f"protocol '{path}': {sentence(error, _File)}") from error
+        raise InputError(f"protocol '{path}': {describe_error(error, _ProtocolFile)}") from error
     except HoldfastError as error:
         raise InputError(f"protocol '{path}': {error}") from error
 
@@ -270,12 +280,12 @@ class _Task(Strict):
     note: str = ""
 
 
-class _File(Strict):
+class _ProtocolFile(Strict):
     name: str
     arm: str
     task: str = "planar"
     rate: Number = Field(6.0, gt=0, le=1000)
-    substeps: int = Field(SUBSTEPS, ge=1, le=1000)
+    substeps: int = Field(SUBSTEPS_PER_CYCLE, ge=1, le=1000)
     stick: _Stick = _Stick()
     target_radius: Number = Field(0.1, gt=0)
     cycle_limit: int | None = Field(None, ge=1)
@@ -283,46 +293,49 @@ class _File(Strict):
     seed: int = Field(0, ge=0)
     scenarios: list[_Scenario] = Field(min_length=1)
     training: _Training = _Training()
-    rating: list[str] = Field(default_factory=lambda: list(RATING), min_length=2)
+    rating: list[str] = Field(default_factory=lambda: list(RATING_STEPS), min_length=2)
     tasks: list[_Task] = Field(min_length=1)
 
 
-def _protocol(model: _File, folder: Path) -> Protocol:
-    arm_file = None if model.arm in arms.names() else folder / model.arm
-    arm = arms.resolve(model.arm if arm_file is None or not reading.exists(arm_file) else str(arm_file))
-    rows = as_task(arm, model.task)
-    for k, task in enumerate(model.tasks):
-        for what, values, wanted in (("q0", task.q0, arm.n), ("target", task.target, rows.m)):
-            if len(values) != wanted:
+def _build_protocol(document: _ProtocolFile, folder: Path) -> Protocol:
+    arm_file = None if document.arm in arms.names() else folder / document.arm
+    arm = arms.resolve(document.arm if arm_file is None or not reading.path_exists(arm_file) else str(arm_file))
+    rows = as_task(arm, document.task)
+    for index, task in enumerate(document.tasks):
+        for name, values, length in (("q0", task.q0, arm.n), ("target", task.target, rows.m)):
+            if len(values) != length:
                 raise InputError(
-                    f"tasks[{k}].{what}: it has {len(values)} numbers; '{arm.name}' and task '{rows.name}' need {wanted}"
+                    f"tasks[{index}].{name}: it has {len(values)} numbers; '{arm.name}' and task '{rows.name}' need {length}"
                 )
-    if len({(s.law, s.failed, str(s.options)) for s in model.scenarios}) < len(model.scenarios):
+    if len({(entry.law, entry.failed, str(entry.options)) for entry in document.scenarios}) < len(document.scenarios):
         raise InputError("scenarios: two of them are the same; give each once")
-    if len(set(model.rating)) < len(model.rating):
+    if len(set(document.rating)) < len(document.rating):
         raise InputError("rating: two of its steps have the same name; give each another")
     protocol = Protocol(
-        name=model.name,
+        name=document.name,
         arm=arm,
-        arm_spec=model.arm if arm_file is None else arm_file.name,
+        arm_spec=document.arm if arm_file is None else arm_file.name,
         arm_file=arm_file,
         rows=rows,
-        rate=model.rate,
-        substeps=model.substeps,
-        stick=Stick(model.stick.limit, model.stick.dead_zone),
-        radius=model.target_radius,
-        cycle_limit=model.cycle_limit,
-        subjects=model.subjects,
-        seed=model.seed,
-        scenarios=tuple(Scenario(k + 1, s.law, s.failed, options=s.options) for k, s in enumerate(model.scenarios)),
-        training=Training(**model.training.model_dump()),
-        rating=tuple(model.rating),
-        tasks=PointTasks(
-            np.array([t.q0 for t in model.tasks]),
-            np.array([t.target for t in model.tasks]),
-            np.array([-1 if t.joint is None else arm.joint_index(t.joint) for t in model.tasks]),
+        rate=document.rate,
+        substeps=document.substeps,
+        stick=Joystick(document.stick.limit, document.stick.dead_zone),
+        radius=document.target_radius,
+        cycle_limit=document.cycle_limit,
+        subjects=document.subjects,
+        seed=document.seed,
+        scenarios=tuple(
+            Scenario(index + 1, entry.law, entry.failed, options=entry.options)
+            for index, entry in enumerate(document.scenarios)
         ),
-        notes=tuple(t.note for t in model.tasks),
+        training=Training(**document.training.model_dump()),
+        rating=tuple(document.rating),
+        tasks=PointTasks(
+            np.array([planned.q0 for planned in document.tasks]),
+            np.array([planned.target for planned in document.tasks]),
+            np.array([-1 if planned.joint is None else arm.joint_index(planned.joint) for planned in document.tasks]),
+        ),
+        notes=tuple(planned.note for planned in document.tasks),
     )
     for scenario in protocol.scenarios:
         scenario.make_law(arm, rows)  # an unknown law or option is refused now, not in the middle of a session

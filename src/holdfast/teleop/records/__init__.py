@@ -1,4 +1,4 @@
-"""What an experiment leaves: trials with digests, tables, copies."""
+"""Records of an experiment: trials with digests, tables, and copies."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""A copy of an experiment that is consistent, also while it is served."""
+"""Consistent copy of an experiment, also while it is served."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from contextlib import closing
 from pathlib import Path
 
 from holdfast.errors import StoreError
-from holdfast.teleop.records.file import FILE, beside
+from holdfast.teleop.records.file import RECORDS_FILE, list_protocol_files
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.verification import Verified, verify
+from holdfast.teleop.records.verification import VerificationReport, verify_records
 
 
-def backup(folder: str | Path, out: str | Path) -> Verified:
+def copy_experiment(folder: str | Path, out: str | Path) -> VerificationReport:
     """Copy the records as they are at one moment, by SQLite's own means, with the files that belong to them.
 
     The copy appears under its name when it is whole and was verified.
@@ -32,20 +32,20 @@ def backup(folder: str | Path, out: str | Path) -> Verified:
     source, target = Path(folder), Path(out)
     if target.exists():
         raise StoreError(f"'{target}' exists already; give a new folder for the copy")
-    made = target.with_name(f".{target.name}-{secrets.token_hex(4)}.tmp")
+    temporary = target.with_name(f".{target.name}-{secrets.token_hex(4)}.tmp")
     with Records.open(source) as records:
         try:
-            made.mkdir(parents=True)
-            with closing(sqlite3.connect(made / FILE)) as db:
-                records.copy_to(db)
-            for name in beside(records.protocol):
-                shutil.copyfile(source / name, made / name)
-            found = verify(made)
-            if found.damaged:
-                raise StoreError(f"the copy of '{source}' is not sound: {found.damaged[0]}; verify '{source}'")
-            made.rename(target)
+            temporary.mkdir(parents=True)
+            with closing(sqlite3.connect(temporary / RECORDS_FILE)) as database:
+                records.copy_to(database)
+            for name in list_protocol_files(records.protocol):
+                shutil.copyfile(source / name, temporary / name)
+            report = verify_records(temporary)
+            if report.damages:
+                raise StoreError(f"the copy of '{source}' is not sound: {report.damages[0]}; verify '{source}'")
+            temporary.rename(target)
         except (OSError, sqlite3.Error) as error:
             raise StoreError(f"cannot copy '{source}' to '{target}': {error}; choose another folder") from error
         finally:
-            shutil.rmtree(made, ignore_errors=True)
-    return found
+            shutil.rmtree(temporary, ignore_errors=True)
+    return report

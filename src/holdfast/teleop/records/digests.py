@@ -1,4 +1,4 @@
-"""Digests of what is recorded: a chain of SHA-256 for each session, so that a changed bit does not go unseen.
+"""Digests of the records: a chain of SHA-256 for each session, so that any changed bit is detected.
 
 ``docs/files.md`` says how to check them without holdfast. They show damage, and a change by somebody who does not know of them;
 whoever rewrites the whole chain is found out only by a digest that was written down elsewhere.
@@ -14,13 +14,13 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-FORMAT = 2  # of records with digests
+RECORDS_FORMAT = 2  # of records with digests
 
-SESSIONS = """CREATE TABLE IF NOT EXISTS sessions (
+SESSIONS_TABLE = """CREATE TABLE IF NOT EXISTS sessions (
     subject TEXT PRIMARY KEY REFERENCES subjects(code) ON DELETE CASCADE, key BLOB NOT NULL UNIQUE, seq INTEGER NOT NULL,
     bytes INTEGER NOT NULL DEFAULT 0, digest BLOB
 ) WITHOUT ROWID"""
-_TABLES = (
+_DIGEST_TABLES = (
     """CREATE TABLE digests (
     id INTEGER PRIMARY KEY, subject TEXT REFERENCES subjects(code) ON DELETE CASCADE, kind TEXT NOT NULL, item INTEGER,
     content BLOB NOT NULL, digest BLOB NOT NULL
@@ -30,21 +30,21 @@ _TABLES = (
 )
 
 # What each digest is of, in this order of the columns.
-BEGUN = "SELECT id, subject, kind, position, task, scenario, joint, q0, target, began FROM trials WHERE id = ?"
-CYCLES = "SELECT k, time, velocity, q FROM cycles WHERE trial = ? ORDER BY k"
-ENDED = "SELECT ended, end FROM trials WHERE id = ?"
-SESSION = "SELECT subject, key, seq, bytes FROM sessions WHERE subject = ?"
-_ROWS = {
+TRIAL_START_QUERY = "SELECT id, subject, kind, position, task, scenario, joint, q0, target, began FROM trials WHERE id = ?"
+CYCLES_QUERY = "SELECT k, time, velocity, q FROM cycles WHERE trial = ? ORDER BY k"
+TRIAL_END_QUERY = "SELECT ended, end FROM trials WHERE id = ?"
+SESSION_QUERY = "SELECT subject, key, seq, bytes FROM sessions WHERE subject = ?"
+_ROW_QUERIES = {
     "rating": "SELECT id, rating, answers FROM trials WHERE id = ?",
     "event": "SELECT id, trial, subject, k, at, kind, data FROM events WHERE id = ?",
     "subject": "SELECT code, number, row, kind, state, since, answers, note FROM subjects WHERE code = ?",
 }
-_ABOUT = "SELECT key, value FROM about ORDER BY key"
-_SCHEMA = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY type, name"
+_ABOUT_QUERY = "SELECT key, value FROM about ORDER BY key"
+_SCHEMA_QUERY = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY type, name"
 
 
-def packed(values: Iterable[Any]) -> bytes:
-    """Values of SQLite as bytes that no other values have: ``n``, ``i12;``, ``r`` and 8 bytes, ``t3:abc``, ``b2:..``."""
+def pack_values(values: Iterable[Any]) -> bytes:
+    """Pack values of SQLite as bytes that no other values have: ``n``, ``i12;``, ``r`` and 8 bytes, ``t3:abc``, ``b2:..``."""
     parts = []
     for value in values:
         if value is None:
@@ -61,53 +61,61 @@ def packed(values: Iterable[Any]) -> bytes:
     return b"".join(parts)
 
 
-def sha(*parts: bytes) -> bytes:
-    """SHA-256 of bytes, one after another."""
+def digest_bytes(*parts: bytes) -> bytes:
+    """Return the SHA-256 of bytes, one after another."""
     return hashlib.sha256(b"".join(parts)).digest()
 
 
-def of_cycles(before: bytes, rows: Iterable[Sequence[Any]]) -> bytes:
-    """The running digest of a trial after some more cycles: ``k, time, velocity, q`` each."""
+def digest_cycles(before: bytes, rows: Iterable[Sequence[Any]]) -> bytes:
+    """Return the running digest of a trial after some more cycles: ``k, time, velocity, q`` each."""
     for row in rows:
-        before = sha(before, packed(row))
+        before = digest_bytes(before, pack_values(row))
     return before
 
 
-def of_trial(db: sqlite3.Connection, trial: int) -> bytes | None:
-    """The running digest of a trial, from what is stored of it; None if there is no such trial."""
-    begun = db.execute(BEGUN, (trial,)).fetchone()
-    return None if begun is None else of_cycles(sha(packed(begun)), db.execute(CYCLES, (trial,)))
+def digest_trial(database: sqlite3.Connection, trial: int) -> bytes | None:
+    """Return the running digest of a trial from its stored rows; None if there is no such trial."""
+    start_row = database.execute(TRIAL_START_QUERY, (trial,)).fetchone()
+    return (
+        None
+        if start_row is None
+        else digest_cycles(digest_bytes(pack_values(start_row)), database.execute(CYCLES_QUERY, (trial,)))
+    )
 
 
-def of_content(db: sqlite3.Connection, kind: str, subject: str | None, item: int | None) -> bytes | None:
-    """The digest of what a link of a chain covers, from what is stored; None if it is not there."""
+def digest_content(database: sqlite3.Connection, kind: str, subject: str | None, item: int | None) -> bytes | None:
+    """Return the digest of the stored content that a link of a chain covers; None if the content is missing."""
     if kind == "experiment":
-        rows = [*db.execute(_ABOUT).fetchall(), *db.execute(_SCHEMA).fetchall()]
-        return sha(*(packed(row) for row in rows))
+        rows = [*database.execute(_ABOUT_QUERY).fetchall(), *database.execute(_SCHEMA_QUERY).fetchall()]
+        return digest_bytes(*(pack_values(row) for row in rows))
     if kind == "trial":
-        running = of_trial(db, item or 0)
-        return None if running is None else sha(running, packed(db.execute(ENDED, (item,)).fetchone()))
-    row = db.execute(_ROWS[kind], (subject if kind == "subject" else item,)).fetchone()
-    return None if row is None else sha(packed(row))
+        running = digest_trial(database, item or 0)
+        return (
+            None
+            if running is None
+            else digest_bytes(running, pack_values(database.execute(TRIAL_END_QUERY, (item,)).fetchone()))
+        )
+    row = database.execute(_ROW_QUERIES[kind], (subject if kind == "subject" else item,)).fetchone()
+    return None if row is None else digest_bytes(pack_values(row))
 
 
-def of_link(before: bytes, number: int, subject: str | None, kind: str, item: int | None, content: bytes) -> bytes:
-    """The digest of a link of a chain; ``before`` is that of the link before it, empty for the first."""
-    return sha(before, packed((number, subject, kind, item, content)))
+def digest_link(before: bytes, number: int, subject: str | None, kind: str, item: int | None, content: bytes) -> bytes:
+    """Return the digest of a link of a chain; ``before`` is that of the preceding link, empty for the first."""
+    return digest_bytes(before, pack_values((number, subject, kind, item, content)))
 
 
-def of_session(row: Sequence[Any]) -> bytes:
-    """The digest of a page's session: ``subject, key, seq, bytes``."""
-    return sha(packed(row))
+def digest_session(row: Sequence[Any]) -> bytes:
+    """Return the digest of a page's session: ``subject, key, seq, bytes``."""
+    return digest_bytes(pack_values(row))
 
 
-def of_files(folder: Path, names: Iterable[str]) -> str:
-    """The digests of files beside the records, as JSON."""
+def digest_files(folder: Path, names: Iterable[str]) -> str:
+    """Return the digests of files in the folder of the records, as JSON."""
     return json.dumps({name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in names})
 
 
-class Chain:
-    """Writes the digests of records; each is of one transaction with what it is of.
+class DigestChain:
+    """Writer of the digests of records; each digest is in one transaction with its content.
 
     Records from before there were digests get the tables for them with the first change. What was there already has no
     digest, and ``about`` says up to where.
@@ -122,77 +130,82 @@ class Chain:
         self._db, self._folder, self._files = db, folder, files
         self._ready = False
 
-    def prepare(self) -> None:
-        """Make the tables where there are none; inside a transaction."""
+    def create_tables(self) -> None:
+        """Create the tables where there are none; to be called inside a transaction."""
         if self._ready:
             return
-        db = self._db
-        if db.execute("SELECT value FROM about WHERE key = 'format'").fetchone()[0] != str(FORMAT):
-            for statement in (SESSIONS, *_TABLES):
-                db.execute(statement)
-            columns = {row[1] for row in db.execute("PRAGMA table_info(sessions)")}
-            for name, of in (("bytes", "INTEGER NOT NULL DEFAULT 0"), ("digest", "BLOB")):
+        database = self._db
+        if database.execute("SELECT value FROM about WHERE key = 'format'").fetchone()[0] != str(RECORDS_FORMAT):
+            for statement in (SESSIONS_TABLE, *_DIGEST_TABLES):
+                database.execute(statement)
+            columns = {row[1] for row in database.execute("PRAGMA table_info(sessions)")}
+            for name, column_type in (("bytes", "INTEGER NOT NULL DEFAULT 0"), ("digest", "BLOB")):
                 if name not in columns:
-                    db.execute(f"ALTER TABLE sessions ADD COLUMN {name} {of}")
-            last = {t: db.execute(f"SELECT COALESCE(MAX(id), 0) FROM {t}").fetchone()[0] for t in ("trials", "events")}
-            about = {
-                "format": str(FORMAT),
-                "without digests": json.dumps(last),
-                "files": of_files(self._folder, self._files),
+                    database.execute(f"ALTER TABLE sessions ADD COLUMN {name} {column_type}")
+            last_ids = {
+                table: database.execute(f"SELECT COALESCE(MAX(id), 0) FROM {table}").fetchone()[0]
+                for table in ("trials", "events")
             }
-            db.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", about.items())
+            metadata = {
+                "format": str(RECORDS_FORMAT),
+                "without digests": json.dumps(last_ids),
+                "files": digest_files(self._folder, self._files),
+            }
+            database.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", metadata.items())
             self._ready = True
-            self.add("experiment")
-            for (code,) in db.execute("SELECT code FROM subjects ORDER BY number").fetchall():
-                self.add("subject", code)
-            for (code,) in db.execute("SELECT subject FROM sessions").fetchall():
-                self.session(code)
+            self.append_link("experiment")
+            for (code,) in database.execute("SELECT code FROM subjects ORDER BY number").fetchall():
+                self.append_link("subject", code)
+            for (code,) in database.execute("SELECT subject FROM sessions").fetchall():
+                self.update_session(code)
         self._ready = True
 
-    def undone(self) -> None:
-        """A transaction was rolled back, perhaps the one that made the tables."""
+    def reset_after_rollback(self) -> None:
+        """Forget that the tables exist, because the transaction that was rolled back may have created them."""
         self._ready = False
 
-    def add(self, kind: str, subject: str | None = None, item: int | None = None, content: bytes | None = None) -> None:
-        """A link at the end of the chain of a subject's session, or, without one, of the experiment."""
-        self.prepare()
-        db = self._db
+    def append_link(self, kind: str, subject: str | None = None, item: int | None = None, content: bytes | None = None) -> None:
+        """Append a link to the chain of a subject's session or, without a subject, of the experiment."""
+        self.create_tables()
+        database = self._db
         if content is None:
-            content = of_content(db, kind, subject, item)
+            content = digest_content(database, kind, subject, item)
             assert content is not None
-        last = db.execute("SELECT digest FROM digests WHERE subject IS ? ORDER BY id DESC LIMIT 1", (subject,)).fetchone()
-        number = db.execute("SELECT COALESCE(MAX(id), 0) + 1 FROM digests").fetchone()[0]
-        digest = of_link(b"" if last is None else last[0], number, subject, kind, item, content)
-        db.execute("INSERT INTO digests VALUES (?, ?, ?, ?, ?, ?)", (number, subject, kind, item, content, digest))
+        last_digest = database.execute(
+            "SELECT digest FROM digests WHERE subject IS ? ORDER BY id DESC LIMIT 1", (subject,)
+        ).fetchone()
+        number = database.execute("SELECT COALESCE(MAX(id), 0) + 1 FROM digests").fetchone()[0]
+        digest = digest_link(b"" if last_digest is None else last_digest[0], number, subject, kind, item, content)
+        database.execute("INSERT INTO digests VALUES (?, ?, ?, ?, ?, ?)", (number, subject, kind, item, content, digest))
 
-    def session(self, subject: str) -> None:
-        """A page's session was changed."""
-        self.prepare()
-        row = self._db.execute(SESSION, (subject,)).fetchone()
+    def update_session(self, subject: str) -> None:
+        """Update the digest of a page's session that has changed."""
+        self.create_tables()
+        row = self._db.execute(SESSION_QUERY, (subject,)).fetchone()
         if row is not None:
-            self._db.execute("UPDATE sessions SET digest = ? WHERE subject = ?", (of_session(row), subject))
+            self._db.execute("UPDATE sessions SET digest = ? WHERE subject = ?", (digest_session(row), subject))
 
-    def begin(self, trial: int, subject: str) -> None:
-        """A trial begins; that it has no rating is on record as well."""
-        self.add("rating", subject, trial)
-        self._db.execute("INSERT INTO under_way VALUES (?, ?)", (trial, of_trial(self._db, trial)))
+    def begin_trial(self, trial: int, subject: str) -> None:
+        """Record the beginning of a trial, and that it has no rating yet."""
+        self.append_link("rating", subject, trial)
+        self._db.execute("INSERT INTO under_way VALUES (?, ?)", (trial, digest_trial(self._db, trial)))
 
-    def go_on(self, trial: int, rows: Iterable[Sequence[Any]]) -> None:
-        """Cycles of a trial were written: ``k, time, velocity, q`` each."""
-        before = self._running(trial)
+    def append_cycles(self, trial: int, rows: Iterable[Sequence[Any]]) -> None:
+        """Update the running digest of a trial with its new cycles: ``k, time, velocity, q`` each."""
+        before = self._read_running_digest(trial)
         if before is not None:
-            self._db.execute("UPDATE under_way SET content = ? WHERE trial = ?", (of_cycles(before, rows), trial))
+            self._db.execute("UPDATE under_way SET content = ? WHERE trial = ?", (digest_cycles(before, rows), trial))
 
-    def end(self, trial: int, subject: str) -> None:
-        """A trial is over."""
-        running = self._running(trial)
+    def end_trial(self, trial: int, subject: str) -> None:
+        """Record the end of a trial."""
+        running = self._read_running_digest(trial)
         content = None  # it began before there were digests
         if running is not None:
-            content = sha(running, packed(self._db.execute(ENDED, (trial,)).fetchone()))
+            content = digest_bytes(running, pack_values(self._db.execute(TRIAL_END_QUERY, (trial,)).fetchone()))
             self._db.execute("DELETE FROM under_way WHERE trial = ?", (trial,))
-        self.add("trial", subject, trial, content)
+        self.append_link("trial", subject, trial, content)
 
-    def _running(self, trial: int) -> bytes | None:
-        self.prepare()
+    def _read_running_digest(self, trial: int) -> bytes | None:
+        self.create_tables()
         row = self._db.execute("SELECT content FROM under_way WHERE trial = ?", (trial,)).fetchone()
         return None if row is None else bytes(row[0])

@@ -1,4 +1,4 @@
-"""What the rows of the records hold: subjects and trials."""
+"""Rows of the records: subjects and trials."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ from holdfast.teleop.trials.recordings import End
 Array = NDArray[np.float64]
 
 # The columns that the readers below take, in their order.
-SUBJECT = "code, number, row, kind, state, since, answers, note"
-ENTRY = "id, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers"
+SUBJECT_COLUMNS = "code, number, row, kind, state, since, answers, note"
+ENTRY_COLUMNS = "id, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers"
 
 
-class Kind(StrEnum):
-    """What a trial is for."""
+class TrialKind(StrEnum):
+    """Purpose of a trial."""
 
     PILOT = "pilot"
     TRAINING = "training"
     TRIAL = "trial"
 
 
-class State(StrEnum):
-    """The state of a subject's session."""
+class SubjectState(StrEnum):
+    """State of a subject's session."""
 
     OPEN = "open"
     COMPLETED = "completed"
     DROPPED = "dropped"
 
 
-class Who(StrEnum):
-    """What kind of subject it is: simulated ones are told from people for ever."""
+class SubjectKind(StrEnum):
+    """Kind of a subject; simulated subjects stay distinguishable from people."""
 
     PERSON = "person"
     SIMULATED = "simulated"
@@ -46,7 +46,7 @@ class Who(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Subject:
-    """One subject.
+    """Subject of an experiment.
 
     Attributes:
         code: As the laboratory calls it; no name.
@@ -62,16 +62,16 @@ class Subject:
     code: str
     number: int
     row: int
-    kind: Who
-    state: State
+    kind: SubjectKind
+    state: SubjectState
     since: str
     answers: Mapping[str, Any]
     note: str
 
 
 @dataclass(frozen=True, kw_only=True)
-class Entry:
-    """One trial as recorded, without its cycles.
+class TrialRecord:
+    """Trial as recorded, without its cycles.
 
     Attributes:
         id: Its number in the records.
@@ -92,7 +92,7 @@ class Entry:
 
     id: int
     subject: str
-    kind: Kind
+    kind: TrialKind
     position: int
     task: int
     scenario: int
@@ -107,47 +107,47 @@ class Entry:
 
 
 def read_subject(row: tuple[Any, ...]) -> Subject:
-    """From the columns ``SUBJECT``."""
+    """Read a subject from the columns ``SUBJECT_COLUMNS``."""
     code, number, square_row, kind, state, since, answers, note = row
     return Subject(
         code=code,
         number=number,
         row=square_row,
-        kind=Who(kind),
-        state=State(state),
+        kind=SubjectKind(kind),
+        state=SubjectState(state),
         since=since,
         answers=json.loads(answers),
         note=note,
     )
 
 
-def read_entry(row: tuple[Any, ...]) -> Entry:
-    """From the columns ``ENTRY``."""
+def read_entry(row: tuple[Any, ...]) -> TrialRecord:
+    """Read a trial from the columns ``ENTRY_COLUMNS``."""
     number, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers = row
-    how = End.BROKEN_OFF if end is None else End(end)
-    said: dict[str, Any] = json.loads(answers)
-    return Entry(
+    trial_end = End.BROKEN_OFF if end is None else End(end)
+    parsed_answers: dict[str, Any] = json.loads(answers)
+    return TrialRecord(
         id=number,
         subject=subject,
-        kind=Kind(kind),
+        kind=TrialKind(kind),
         position=position,
         task=task,
         scenario=scenario,
         joint=joint,
-        q0=_array(q0),
-        target=_array(target),
+        q0=_unpack_array(q0),
+        target=_unpack_array(target),
         began=began,
         ended=ended,
-        end=how,
+        end=trial_end,
         rating=rating,
-        answers=said,
+        answers=parsed_answers,
     )
 
 
-def blob(values: Array) -> bytes:
-    """Numbers as they are stored."""
+def pack_array(values: Array) -> bytes:
+    """Pack numbers as they are stored."""
     return np.ascontiguousarray(values, dtype="<f8").tobytes()
 
 
-def _array(blob: bytes) -> Array:
+def _unpack_array(blob: bytes) -> Array:
     return np.frombuffer(blob, dtype="<f8").astype(np.float64)

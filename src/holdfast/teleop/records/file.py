@@ -1,4 +1,4 @@
-"""The file of the records: its tables, and how it is made and opened."""
+"""SQLite file of the records: its tables, and how to create and open it."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from holdfast.files import reading
 from holdfast.provenance import versions
 from holdfast.teleop.protocol import protocol as protocols
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.digests import FORMAT, Chain
+from holdfast.teleop.records.digests import RECORDS_FORMAT, DigestChain
 
-FILE, PROTOCOL = "records.sqlite", "protocol.yaml"
+RECORDS_FILE, PROTOCOL_FILE = "records.sqlite", "protocol.yaml"
 LOCK = "serve.lock"  # held by who writes the records of a whole folder
-_UNFINISHED = FILE + ".new"  # the file while an experiment is being created
+_UNFINISHED = RECORDS_FILE + ".new"  # the file while an experiment is being created
 _JOURNAL = _UNFINISHED + "-journal"  # written by SQLite
-_BEGUN = "1"  # format of a file without digests, which get their tables after the rest
-_FORMATS = (_BEGUN, str(FORMAT))
+_INITIAL_FORMAT = "1"  # format of a file without digests, which get their tables after the rest
+_KNOWN_FORMATS = (_INITIAL_FORMAT, str(RECORDS_FORMAT))
 
-_SCHEMA = """
+_CREATE_TABLES = """
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE subjects (
     code TEXT PRIMARY KEY, number INTEGER NOT NULL UNIQUE, row INTEGER NOT NULL, kind TEXT NOT NULL, state TEXT NOT NULL,
@@ -48,34 +48,40 @@ CREATE INDEX events_of ON events (trial);
 """
 
 
-def make(folder: Path, protocol: Protocol, about: Mapping[str, str]) -> None:
-    """Write the files of an experiment that begins, again where this was interrupted.
+def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, str]) -> None:
+    """Write the files of a new experiment.
 
     Args:
         folder: A new or empty folder.
         protocol: The protocol.
-        about: Further entries of the table ``about``.
+        metadata: Further entries of the table ``metadata``.
 
     Raises:
         StoreError: The folder is not empty, or cannot be written.
     """
     unfinished = folder / _UNFINISHED
     try:
-        if reading.exists(folder) and (not folder.is_dir() or _is_occupied(folder, protocol)):
+        if reading.path_exists(folder) and (not folder.is_dir() or _is_occupied(folder, protocol)):
             raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
         folder.mkdir(parents=True, exist_ok=True)
         (folder / _JOURNAL).unlink(missing_ok=True)
         unfinished.write_bytes(b"")
-        kept = protocols.read_protocol(protocol.write(folder / PROTOCOL))
-        with closing(sqlite3.connect(unfinished, isolation_level=None)) as db:
-            db.executescript(_SCHEMA)
-            made_by = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
-            entries = {**about, "format": _BEGUN, "protocol": kept.text(), "versions": made_by, "began": now()}
-            db.execute("BEGIN")
-            db.executemany("INSERT INTO about VALUES (?, ?)", entries.items())
-            Chain(db, folder, beside(kept)).prepare()
-            db.execute("COMMIT")
-        unfinished.rename(folder / FILE)  # a folder with this file is whole
+        stored_protocol = protocols.read_protocol(protocol.write(folder / PROTOCOL_FILE))
+        with closing(sqlite3.connect(unfinished, isolation_level=None)) as database:
+            database.executescript(_CREATE_TABLES)
+            package_versions = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
+            entries = {
+                **metadata,
+                "format": _INITIAL_FORMAT,
+                "protocol": stored_protocol.to_yaml(),
+                "versions": package_versions,
+                "began": format_utc_now(),
+            }
+            database.execute("BEGIN")
+            database.executemany("INSERT INTO about VALUES (?, ?)", entries.items())
+            DigestChain(database, folder, list_protocol_files(stored_protocol)).create_tables()
+            database.execute("COMMIT")
+        unfinished.rename(folder / RECORDS_FILE)  # a folder with this file is whole
     except (OSError, sqlite3.Error) as error:
         raise StoreError(f"cannot write to '{folder}': {error}; choose another folder") from error
 
@@ -83,117 +89,120 @@ def make(folder: Path, protocol: Protocol, about: Mapping[str, str]) -> None:
 def _is_occupied(folder: Path, protocol: Protocol) -> bool:
     """Return whether a folder holds anything but the files of an experiment whose creation was interrupted."""
     names = {file.name for file in folder.iterdir()}
-    return bool(names - {_UNFINISHED, _JOURNAL, PROTOCOL, protocol.arm_spec}) or bool(names) > (_UNFINISHED in names)
+    return bool(names - {_UNFINISHED, _JOURNAL, PROTOCOL_FILE, protocol.arm_spec}) or bool(names) > (_UNFINISHED in names)
 
 
-def beside(protocol: Protocol) -> list[str]:
-    """Names of the files beside the records that belong to the experiment."""
-    return [PROTOCOL] if protocol.arm_file is None else [PROTOCOL, protocol.arm_spec]
+def list_protocol_files(protocol: Protocol) -> list[str]:
+    """Return the names of the files in the folder that belong to the experiment besides the records."""
+    return [PROTOCOL_FILE] if protocol.arm_file is None else [PROTOCOL_FILE, protocol.arm_spec]
 
 
-def opened(file: Path) -> tuple[sqlite3.Connection, bool]:
-    """The file, and whether it can only be read.
+def open_database(file: Path) -> tuple[sqlite3.Connection, bool]:
+    """Open the file, and return the connection and whether it is read-only.
 
     Raises:
         StoreError: It can only be read, and not all of it is in it: it was copied, or made unwritable, while it was in use.
         sqlite3.Error: It is not a file of SQLite.
     """
-    db = sqlite3.connect(file, isolation_level=None, timeout=30.0)
+    database = sqlite3.connect(file, isolation_level=None, timeout=30.0)
     try:
-        db.execute("PRAGMA journal_mode = WAL")
-        db.execute("PRAGMA synchronous = FULL")
-        db.execute("PRAGMA foreign_keys = ON")
-        db.execute("SELECT * FROM sqlite_master").fetchone()
+        database.execute("PRAGMA journal_mode = WAL")
+        database.execute("PRAGMA synchronous = FULL")
+        database.execute("PRAGMA foreign_keys = ON")
+        database.execute("SELECT * FROM sqlite_master").fetchone()
     except sqlite3.Error as error:
-        db.close()
+        database.close()
         if error.sqlite_errorcode & 0xFF not in (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN):
             raise
-        return _read_only(file), True
+        return _open_read_only(file), True
     except BaseException:
-        db.close()
+        database.close()
         raise
-    return db, False
+    return database, False
 
 
-def _read_only(file: Path) -> sqlite3.Connection:
-    """A file in a place that cannot be written, where SQLite cannot have the files that it keeps beside it."""
-    log = file.with_name(file.name + "-wal")
-    if log.is_file() and log.stat().st_size:
+def _open_read_only(file: Path) -> sqlite3.Connection:
+    """Open a file in a folder that cannot be written, where SQLite cannot have its auxiliary files."""
+    wal_file = file.with_name(file.name + "-wal")
+    if wal_file.is_file() and wal_file.stat().st_size:
         raise StoreError(
-            f"'{file.parent}' cannot be written, and the last changes are still in '{log.name}'; copy the whole folder to "
+            f"'{file.parent}' cannot be written, and the last changes are still in '{wal_file.name}'; copy the whole folder to "
             "where you may write, and open the copy"
         )
     return sqlite3.connect(f"{file.resolve().as_uri()}?mode=ro&immutable=1", uri=True, isolation_level=None)
 
 
-def connect(folder: Path) -> tuple[sqlite3.Connection, Protocol, bool]:
-    """The opened file, the protocol, and whether it can only be read.
+def open_experiment(folder: Path) -> tuple[sqlite3.Connection, Protocol, bool]:
+    """Open the experiment in a folder, and return the connection, the protocol, and whether the file is read-only.
 
     Raises:
         StoreError: There is none, it is damaged, or of another format.
     """
-    file = folder / FILE
+    file = folder / RECORDS_FILE
     if not file.is_file():
-        raise StoreError(f"'{folder}' holds no experiment: there is no {FILE} in it; begin one in a new folder")
+        raise StoreError(f"'{folder}' holds no experiment: there is no {RECORDS_FILE} in it; begin one in a new folder")
     try:
-        db, read_only = opened(file)
+        database, read_only = open_database(file)
     except (sqlite3.Error, ValueError) as error:  # names in a damaged file need not be UTF-8
-        raise _damaged(file, error) from error
+        raise _make_damage_error(file, error) from error
     try:
-        return db, _checked(folder, db), read_only
+        return database, _check_database(folder, database), read_only
     except BaseException:
-        db.close()
+        database.close()
         raise
 
 
-def _checked(folder: Path, db: sqlite3.Connection) -> Protocol:
-    """The protocol, after a look at the file."""
-    file = folder / FILE
+def _check_database(folder: Path, database: sqlite3.Connection) -> Protocol:
+    """Check the file, and return its protocol."""
+    file = folder / RECORDS_FILE
     try:
-        about = dict(db.execute("SELECT key, value FROM about"))
-        sound = db.execute("PRAGMA quick_check(1)").fetchone()[0]
+        metadata = dict(database.execute("SELECT key, value FROM about"))
+        check_result = database.execute("PRAGMA quick_check(1)").fetchone()[0]
     except (sqlite3.Error, ValueError) as error:
-        raise _damaged(file, error) from error
-    if sound != "ok" or not about.keys() >= {"format", "protocol", "versions"}:
-        raise _damaged(file, sound)
-    if about["format"] not in _FORMATS:
+        raise _make_damage_error(file, error) from error
+    if check_result != "ok" or not metadata.keys() >= {"format", "protocol", "versions"}:
+        raise _make_damage_error(file, check_result)
+    if metadata["format"] not in _KNOWN_FORMATS:
         raise StoreError(
-            f"'{file}' has format {about['format']}; this holdfast reads {' and '.join(_FORMATS)}: use the one that wrote it"
+            f"'{file}' has format {metadata['format']}; this holdfast reads {' and '.join(_KNOWN_FORMATS)}: use the one "
+            f"that wrote it"
         )
-    protocol = protocols.read_protocol(folder / PROTOCOL)
-    if protocol.text() != about["protocol"]:
+    protocol = protocols.read_protocol(folder / PROTOCOL_FILE)
+    if protocol.to_yaml() != metadata["protocol"]:
         raise StoreError(
-            f"'{folder / PROTOCOL}' is not the protocol that the experiment began with; undo the change, "
+            f"'{folder / PROTOCOL_FILE}' is not the protocol that the experiment began with; undo the change, "
             "or begin a new experiment with it"
         )
     return protocol
 
 
-def _damaged(file: Path, why: object) -> StoreError:
-    return StoreError(f"'{file}' is damaged or not a file of records ({why}); restore it from a copy")
+def _make_damage_error(file: Path, cause: object) -> StoreError:
+    return StoreError(f"'{file}' is damaged or not a file of records ({cause}); restore it from a copy")
 
 
-def place(folder: Path) -> tuple[int, int] | None:
-    """Which file the records in a folder are, by device and number; None for none: a deleted one can be written to for ever."""
+def identify_file(folder: Path) -> tuple[int, int] | None:
+    """Return the device and number of the records' file in a folder, None without one; a deleted file stays writable but is
+    another.
+    """
     try:
-        found = (folder / FILE).stat()
+        status = (folder / RECORDS_FILE).stat()
     except OSError:
         return None
-    return found.st_dev, found.st_ino
+    return status.st_dev, status.st_ino
 
 
 @contextmanager
-def alone(folder: Path) -> Iterator[None]:
-    """No server has the folder meanwhile, or no other: each knows nothing of what is done behind its back.
+def lock_records_folder(folder: Path) -> Iterator[None]:
+    """Lock the folder against a server, or against a second one, because neither sees the other's changes.
 
     Raises:
         StoreError: A server has it, or it cannot be written.
     """
-    from holdfast.engine.folder import held
+    from holdfast.engine.folder import lock_folder
 
-    with ExitStack() as held_:
+    with ExitStack() as locks:
         try:
-            held_.enter_context(held(folder, LOCK))
+            locks.enter_context(lock_folder(folder, LOCK))
         except StoreError as error:
             if not isinstance(error.__cause__, BlockingIOError):
                 raise
@@ -201,6 +210,6 @@ def alone(folder: Path) -> Iterator[None]:
         yield
 
 
-def now() -> str:
-    """UTC, ISO 8601."""
+def format_utc_now() -> str:
+    """Return the current time in UTC, ISO 8601."""
     return datetime.now(UTC).isoformat(timespec="milliseconds")

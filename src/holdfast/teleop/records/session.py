@@ -1,4 +1,4 @@
-"""What a subject does next: training until the criterion is met, then every task in every scenario, from where it stopped."""
+"""Next trial of a subject: training until the criterion is met, then every task in every scenario, continued after a break."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from functools import lru_cache
 
 import numpy as np
 
-from holdfast.teleop.bank.tasks import random_tasks
+from holdfast.teleop.bank.tasks import sample_tasks
 from holdfast.teleop.protocol.order import Indices
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.entries import Entry, Kind, State
+from holdfast.teleop.records.entries import SubjectState, TrialKind, TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Next:
-    """The next trial of a session.
+class NextTrial:
+    """Next trial of a session.
 
     Attributes:
         kind: Training, or a trial that counts.
@@ -28,7 +28,7 @@ class Next:
         tasks: The one task.
     """
 
-    kind: Kind
+    kind: TrialKind
     position: int
     task: int
     scenario: int
@@ -37,7 +37,7 @@ class Next:
 
 @lru_cache(maxsize=256)  # a fifth of a second, and asked for at every trial of a training
 def training_tasks(protocol: Protocol, subject: int) -> PointTasks:
-    """The training tasks of a subject, in order: random over the workspace, so far apart as the protocol says.
+    """Return the training tasks of a subject, in order: random over the workspace, at the distance of the protocol.
 
     Args:
         protocol: The protocol.
@@ -45,21 +45,21 @@ def training_tasks(protocol: Protocol, subject: int) -> PointTasks:
 
     Source: Goel et al. 2003, section 6: pseudoinverse, no failure.
     """
-    most, joints = protocol.training.most, protocol.arm.n
+    task_count, joints = protocol.training.most, protocol.arm.n
     seed = int(np.random.SeedSequence([protocol.seed, subject, 1]).generate_state(1)[0])
-    each = -(-most // joints)
-    tasks = random_tasks(protocol.arm, each, distance=protocol.training.distance, task=protocol.rows, seed=seed)
-    mixed = np.arange(len(tasks)).reshape(joints, each).T.ravel()[:most]
-    return tasks.take(mixed)
+    tasks_per_joint = -(-task_count // joints)
+    tasks = sample_tasks(protocol.arm, tasks_per_joint, distance=protocol.training.distance, task=protocol.rows, seed=seed)
+    interleaved = np.arange(len(tasks)).reshape(joints, tasks_per_joint).T.ravel()[:task_count]
+    return tasks.take(interleaved)
 
 
-def training_scenario(protocol: Protocol) -> int:
-    """Index of the scenario of the training: the first without a failure."""
-    return next((k for k, s in enumerate(protocol.scenarios) if not s.failed), 0)
+def find_training_scenario(protocol: Protocol) -> int:
+    """Return the index of the scenario of the training: the first without a failure."""
+    return next((index for index, scenario in enumerate(protocol.scenarios) if not scenario.failed), 0)
 
 
 class Session:
-    """One subject's session as the records have it.
+    """Session of one subject, from the records.
 
     Args:
         records: The records.
@@ -72,49 +72,58 @@ class Session:
     def __init__(self, records: Records, code: str) -> None:
         self.records, self.subject = records, records.subject(code)
         protocol = records.protocol
-        self._order: Indices = protocol.session(self.subject.row, self.subject.number)
+        self._order: Indices = protocol.session_order(self.subject.row, self.subject.number)
 
-    def next(self) -> Next | None:
-        """The next trial; None when the session is over, or the subject failed the training.
+    def next_trial(self) -> NextTrial | None:
+        """Return the next trial; None when the session is over, or the subject failed the training.
 
         A trial that was broken off is done again; one that was aborted is not. The state of a subject whose last trial is
         done becomes *completed*.
         """
         protocol, code = self.records.protocol, self.subject.code
-        if self.subject.state == State.DROPPED:
+        if self.subject.state == SubjectState.DROPPED:
             return None
-        training = done(self.records.entries(code, Kind.TRAINING))
+        training = select_valid_trials(self.records.entries(code, TrialKind.TRAINING))
         criterion = protocol.training
-        trials = done(self.records.entries(code, Kind.TRIAL))
-        if not trials and not criterion.trained(completion_times(self.records, training)):
+        trials = select_valid_trials(self.records.entries(code, TrialKind.TRIAL))
+        if not trials and not criterion.is_met_by(completion_times(self.records, training)):
             if len(training) >= criterion.most:
                 return None
-            k = len(training)
-            task = training_tasks(protocol, self.subject.number).take(np.array([k]))
-            return Next(kind=Kind.TRAINING, position=k, task=-1, scenario=training_scenario(protocol), tasks=task)
+            index = len(training)
+            training_task = training_tasks(protocol, self.subject.number).take(np.array([index]))
+            return NextTrial(
+                kind=TrialKind.TRAINING, position=index, task=-1, scenario=find_training_scenario(protocol), tasks=training_task
+            )
         position = len(trials)
         if position >= len(self._order):
-            if self.subject.state != State.COMPLETED:
-                self.records.set_state(code, State.COMPLETED)
+            if self.subject.state != SubjectState.COMPLETED:
+                self.records.set_state(code, SubjectState.COMPLETED)
                 self.subject = self.records.subject(code)
             return None
-        number, scenario = (int(v) for v in self._order[position])
-        return Next(
-            kind=Kind.TRIAL, position=position, task=number, scenario=scenario, tasks=protocol.tasks.take(np.array([number]))
+        number, scenario = (int(value) for value in self._order[position])
+        return NextTrial(
+            kind=TrialKind.TRIAL,
+            position=position,
+            task=number,
+            scenario=scenario,
+            tasks=protocol.tasks.take(np.array([number])),
         )
 
     def progress(self) -> str:
-        """One phrase for people."""
-        trained, trials = (len(done(self.records.entries(self.subject.code, kind))) for kind in (Kind.TRAINING, Kind.TRIAL))
+        """Describe the progress in one phrase for people."""
+        trained, trials = (
+            len(select_valid_trials(self.records.entries(self.subject.code, kind)))
+            for kind in (TrialKind.TRAINING, TrialKind.TRIAL)
+        )
         return f"{trained} training tasks, {trials} of {len(self._order)} trials"
 
 
-def completion_times(records: Records, entries: list[Entry]) -> list[float]:
+def completion_times(records: Records, entries: list[TrialRecord]) -> list[float]:
     """Return the completion time of each trial in cycles; NaN for trials that were not completed."""
-    return [float(records.count(e)) if e.end == End.ARRIVED else np.nan for e in entries]
+    return [float(records.count_cycles(e)) if e.end == End.ARRIVED else np.nan for e in entries]
 
 
-def done(entries: list[Entry]) -> list[Entry]:
-    """The trials that were not broken off, the last of each position."""
-    found = {e.position: e for e in entries if e.end != End.BROKEN_OFF}
-    return [found[k] for k in sorted(found)]
+def select_valid_trials(entries: list[TrialRecord]) -> list[TrialRecord]:
+    """Return the trials that were not broken off, the last of each position."""
+    latest = {entry.position: entry for entry in entries if entry.end != End.BROKEN_OFF}
+    return [latest[position] for position in sorted(latest)]

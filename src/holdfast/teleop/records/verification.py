@@ -1,4 +1,4 @@
-"""Are records as they were written? Every digest again, from what is stored; nothing is taken for granted."""
+"""Verification of the records: every digest is recomputed from the stored data, and none is trusted."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from holdfast.errors import HoldfastError, StoreError
-from holdfast.notice import says
+from holdfast.notice import reports_progress
 from holdfast.teleop.records import digests
-from holdfast.teleop.records.file import FILE, opened
+from holdfast.teleop.records.file import RECORDS_FILE, open_database
 from holdfast.teleop.records.records import Records
 
-_STATES = ("experiment", "subject", "rating")  # change: only the last digest of each is of what is there now
+_STATE_KINDS = ("experiment", "subject", "rating")  # change: only the last digest of each is of what is there now
 # What damaged data make SQLite and the code that reads them raise.
 _OF_DAMAGE = (sqlite3.Error, ValueError, TypeError, AttributeError, LookupError, OverflowError, MemoryError)
-_ITEMS = {  # what must have a digest: number, subject, and what a person calls it
+_ITEM_QUERIES = {  # what must have a digest: number, subject, and what a person calls it
     "trial": "SELECT id, subject, 'trial ' || id FROM trials WHERE end IS NOT NULL AND id > ? ORDER BY id",
     "rating": "SELECT id, subject, 'the rating of trial ' || id FROM trials WHERE id > ? ORDER BY id",
     "event": "SELECT id, subject, 'event ' || id FROM events WHERE id > ? ORDER BY id",
@@ -27,43 +27,43 @@ _ITEMS = {  # what must have a digest: number, subject, and what a person calls 
 
 
 @dataclass
-class Verified:
-    """What verifying showed.
+class VerificationReport:
+    """Report of a verification.
 
     Attributes:
         trials: How many trials there are that are over.
         links: How many digests.
-        damaged: What is not as it was written, trials first, in the order in which they ended: a sentence for each.
-        without: Trials that have no digest: they are from before there were any.
-        whole: SHA-256 of the last digest of every session, hexadecimal: written down elsewhere, it shows a chain that was
-            made anew.
+        damages: What is not as it was written, trials first, in the order in which they ended: a sentence for each.
+        trials_without_digest: Trials that have no digest: they are from before there were any.
+        overall_digest: SHA-256 of the last digest of every session, hexadecimal: written down elsewhere, it shows a chain that
+            was made anew.
     """
 
     trials: int = 0
     links: int = 0
-    damaged: list[str] = field(default_factory=list)
-    without: list[int] = field(default_factory=list)
-    whole: str = ""
+    damages: list[str] = field(default_factory=list)
+    trials_without_digest: list[int] = field(default_factory=list)
+    overall_digest: str = ""
 
     def describe(self) -> list[str]:
-        """A line for what has no digest, a line for each of the first 20 that are damaged, or that all is sound."""
+        """Describe the missing digests in a line and the first 20 damages in a line each, or state that all is sound."""
         lines = []
-        if self.without:
+        if self.trials_without_digest:
             lines.append(
-                f"{len(self.without)} trials have no digest, as they were recorded before there were any: "
-                f"{', '.join(map(str, self.without))}"
+                f"{len(self.trials_without_digest)} trials have no digest, as they were recorded before there were any: "
+                f"{', '.join(map(str, self.trials_without_digest))}"
             )
-        lines += [f"damaged: {sentence}" for sentence in self.damaged[:20]]
-        if len(self.damaged) > 20:
-            lines.append(f"damaged: {len(self.damaged) - 20} more")
-        if not self.damaged:
-            lines.append(f"sound: {self.trials} trials, {self.links} digests; all together {self.whole or 'none'}")
+        lines += [f"damaged: {sentence}" for sentence in self.damages[:20]]
+        if len(self.damages) > 20:
+            lines.append(f"damaged: {len(self.damages) - 20} more")
+        if not self.damages:
+            lines.append(f"sound: {self.trials} trials, {self.links} digests; all together {self.overall_digest or 'none'}")
         return lines
 
 
-@says("comparing the records with their digests")
-def verify(folder: str | Path) -> Verified:
-    """Compare everything that is stored with its digests. Nothing is changed.
+@reports_progress("comparing the records with their digests")
+def verify_records(folder: str | Path) -> VerificationReport:
+    """Compare all stored data with their digests; nothing is changed.
 
     Args:
         folder: Of the experiment; it may be served at the same time.
@@ -72,28 +72,30 @@ def verify(folder: str | Path) -> Verified:
         StoreError: There is no experiment, or it cannot be read in this place.
     """
     path = Path(folder)
-    file = path / FILE
+    file = path / RECORDS_FILE
     if not file.is_file():
-        raise StoreError(f"'{path}' holds no experiment: there is no {FILE} in it; give the folder of one")
-    found = Verified()
+        raise StoreError(f"'{path}' holds no experiment: there is no {RECORDS_FILE} in it; give the folder of one")
+    report = VerificationReport()
     try:
-        db, _ = opened(file)
-        with closing(db):
+        database, _ = open_database(file)
+        with closing(database):
             # A damaged name or answer need not be text.
-            db.text_factory = lambda data: data.decode("utf-8", "surrogateescape")
-            db.execute("BEGIN")
-            _Check(path, db, found).run()
+            database.text_factory = lambda data: data.decode("utf-8", "surrogateescape")
+            database.execute("BEGIN")
+            _DigestCheck(path, database, report).run()
     # What a damaged file may make SQLite say, and what does not fit together any more.
     except _OF_DAMAGE as error:
-        found.damaged.append(f"'{file}' is damaged: {error}")
+        report.damages.append(f"'{file}' is damaged: {error}")
     # A damaged name may hold what no terminal takes.
-    found.damaged = ["".join(c if c.isprintable() else "?" for c in sentence) for sentence in found.damaged]
-    return found
+    report.damages = [
+        "".join(character if character.isprintable() else "?" for character in sentence) for sentence in report.damages
+    ]
+    return report
 
 
 @contextmanager
-def readable(folder: Path) -> Iterator[Records]:
-    """The records, open; where damage makes them impossible to read, a sentence says what is damaged.
+def open_or_name_damage(folder: Path) -> Iterator[Records]:
+    """Open the records; where damage makes them unreadable, the error message names the damage.
 
     Raises:
         StoreError: There is no experiment, or it is damaged.
@@ -116,134 +118,138 @@ def refuse_damage(folder: Path) -> None:
     Raises:
         StoreError: Something is not as it was written.
     """
-    if damaged := verify(folder).damaged:
+    if damaged := verify_records(folder).damages:
         raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup")
 
 
-class _Check:
-    """One look at everything.
+class _DigestCheck:
+    """One check of everything in the records.
 
     Args:
         folder: Of the experiment.
-        db: The records, at one moment.
-        found: Is filled.
+        database: The records, at one moment.
+        report: Is filled.
     """
 
-    def __init__(self, folder: Path, db: sqlite3.Connection, found: Verified) -> None:
-        self._folder, self._db, self._found = folder, db, found
-        self._others: list[str] = []
+    def __init__(self, folder: Path, database: sqlite3.Connection, report: VerificationReport) -> None:
+        self._folder, self._db, self._report = folder, database, report
+        self._other_damage: list[str] = []
 
     def run(self) -> None:
-        """Fill in what was found, trials first."""
-        trouble: Exception | None = None
-        for check in (self._with_digests, self._file):
+        """Fill in the report, trials first."""
+        first_error: Exception | None = None
+        for check in (self._check_digests, self._check_file):
             try:
                 check()
             except _OF_DAMAGE as error:
-                trouble = trouble or error
-        self._found.damaged += self._others
-        if trouble is not None:
-            raise trouble
+                first_error = first_error or error
+        self._report.damages += self._other_damage
+        if first_error is not None:
+            raise first_error
 
-    def _file(self) -> None:
+    def _check_file(self) -> None:
         for (line,) in self._db.execute("PRAGMA integrity_check(5)"):
             if line != "ok":
-                self._others.append(f"the file {FILE}: {line}")
+                self._other_damage.append(f"the file {RECORDS_FILE}: {line}")
         for table, row, parent, _ in self._db.execute("PRAGMA foreign_key_check"):
-            self._others.append(f"a row ({row}) of the table {table} belongs to nothing in {parent}")
+            self._other_damage.append(f"a row ({row}) of the table {table} belongs to nothing in {parent}")
 
-    def _with_digests(self) -> None:
-        db, found = self._db, self._found
-        names = {row[0] for row in db.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
-        ended = [row[0] for row in db.execute("SELECT id FROM trials WHERE end IS NOT NULL ORDER BY id")]
-        found.trials = len(ended)
-        about = dict(db.execute("SELECT key, value FROM about"))
-        if about["format"] == "1" and "digests" not in names:
-            found.without = ended
+    def _check_digests(self) -> None:
+        database, report = self._db, self._report
+        table_names = {row[0] for row in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+        ended_trials = [row[0] for row in database.execute("SELECT id FROM trials WHERE end IS NOT NULL ORDER BY id")]
+        report.trials = len(ended_trials)
+        metadata = dict(database.execute("SELECT key, value FROM about"))
+        if metadata["format"] == "1" and "digests" not in table_names:
+            report.trials_without_digest = ended_trials
             return
-        since: dict[str, int] = json.loads(about["without digests"])
-        for name, wanted in json.loads(about["files"]).items():
-            self._beside(name, wanted)
-        there = self._chains()
-        self._all_there(there, since)
-        self._under_way()
-        self._sessions()
-        found.without = [k for k in ended if k <= since["trials"] and ("trial", k) not in there]
+        last_without_digest: dict[str, int] = json.loads(metadata["without digests"])
+        for name, expected in json.loads(metadata["files"]).items():
+            self._check_protocol_file(name, expected)
+        covered = self._check_chains()
+        self._check_completeness(covered, last_without_digest)
+        self._check_running_trials()
+        self._check_sessions()
+        report.trials_without_digest = [
+            trial for trial in ended_trials if trial <= last_without_digest["trials"] and ("trial", trial) not in covered
+        ]
 
-    def _beside(self, name: str, wanted: str) -> None:
+    def _check_protocol_file(self, name: str, expected: str) -> None:
         try:
             content = (self._folder / name).read_bytes()
         except OSError as error:
-            self._others.append(f"the file {name}: {error.strerror or error}")
+            self._other_damage.append(f"the file {name}: {error.strerror or error}")
         else:
-            if hashlib.sha256(content).hexdigest() != wanted:
-                self._others.append(f"the file {name} is not as it was when the experiment began")
+            if hashlib.sha256(content).hexdigest() != expected:
+                self._other_damage.append(f"the file {name} is not as it was when the experiment began")
 
-    def _chains(self) -> set[tuple[str, int | str | None]]:
-        """Go along the chains; what has a digest."""
+    def _check_chains(self) -> set[tuple[str, int | str | None]]:
+        """Check the chains link by link, and return the items that have a digest."""
         rows = self._db.execute("SELECT id, subject, kind, item, content, digest FROM digests ORDER BY id").fetchall()
-        self._found.links = len(rows)
-        last = {(kind, subject if kind == "subject" else item): number for number, subject, kind, item, _, _ in rows}
-        before: dict[str | None, bytes] = {}
+        self._report.links = len(rows)
+        last_numbers = {(kind, subject if kind == "subject" else item): number for number, subject, kind, item, _, _ in rows}
+        previous: dict[str | None, bytes] = {}
         for number, subject, kind, item, content, digest in rows:
-            name = _name(kind, subject, item)
-            if digests.of_link(before.get(subject, b""), number, subject, kind, item, content) != digest:
-                self._damaged(kind, f"{name}: digest {number} does not follow from the one before it")
-            before[subject] = digest
-            state = kind in _STATES
-            if state and last[kind, subject if kind == "subject" else item] != number:
+            name = _name_item(kind, subject, item)
+            if digests.digest_link(previous.get(subject, b""), number, subject, kind, item, content) != digest:
+                self._add_damage(kind, f"{name}: digest {number} does not follow from the one before it")
+            previous[subject] = digest
+            is_state = kind in _STATE_KINDS
+            if is_state and last_numbers[kind, subject if kind == "subject" else item] != number:
                 continue
-            now = digests.of_content(self._db, kind, subject, item)
-            if now != content:
-                self._damaged(kind, f"{name} {'is missing' if now is None else 'is not as it was written'}")
-        self._found.whole = digests.sha(*(before[s] for s in sorted(before, key=lambda s: s or ""))).hex()
-        return set(last)
+            current = digests.digest_content(self._db, kind, subject, item)
+            if current != content:
+                self._add_damage(kind, f"{name} {'is missing' if current is None else 'is not as it was written'}")
+        self._report.overall_digest = digests.digest_bytes(
+            *(previous[code] for code in sorted(previous, key=lambda code: code or ""))
+        ).hex()
+        return set(last_numbers)
 
-    def _all_there(self, there: set[tuple[str, int | str | None]], since: dict[str, int]) -> None:
-        for kind, query in _ITEMS.items():
-            after = since["events" if kind == "event" else "trials"]
-            for number, subject, name in self._db.execute(query, (after,)):
-                if (kind, number) not in there:
-                    self._damaged(kind, f"{name} of {subject} has no digest, and should have one")
+    def _check_completeness(self, covered: set[tuple[str, int | str | None]], last_without_digest: dict[str, int]) -> None:
+        for kind, query in _ITEM_QUERIES.items():
+            last_id = last_without_digest["events" if kind == "event" else "trials"]
+            for number, subject, name in self._db.execute(query, (last_id,)):
+                if (kind, number) not in covered:
+                    self._add_damage(kind, f"{name} of {subject} has no digest, and should have one")
         for (code,) in self._db.execute("SELECT code FROM subjects"):
-            if ("subject", code) not in there:
-                self._others.append(f"subject {code} has no digest, and should have one")
-        if ("experiment", None) not in there:
-            self._others.append("what is said about the experiment has no digest, and should have one")
+            if ("subject", code) not in covered:
+                self._other_damage.append(f"subject {code} has no digest, and should have one")
+        if ("experiment", None) not in covered:
+            self._other_damage.append("what is said about the experiment has no digest, and should have one")
         for (trial,) in self._db.execute("SELECT DISTINCT trial FROM cycles WHERE trial NOT IN (SELECT id FROM trials)"):
-            self._damaged("trial", f"trial {trial} is missing, and its cycles are there")
+            self._add_damage("trial", f"trial {trial} is missing, and its cycles are there")
 
-    def _under_way(self) -> None:
+    def _check_running_trials(self) -> None:
         query = (
             "SELECT id, content, under_way.trial FROM trials LEFT JOIN under_way ON trial = id WHERE end IS NULL ORDER BY id"
         )
-        last = json.loads(self._db.execute("SELECT value FROM about WHERE key = 'without digests'").fetchone()[0])["trials"]
-        for trial, content, known in self._db.execute(query).fetchall():
-            if known is None and trial <= last:
+        last_id = json.loads(self._db.execute("SELECT value FROM about WHERE key = 'without digests'").fetchone()[0])["trials"]
+        for trial, content, stored_trial in self._db.execute(query).fetchall():
+            if stored_trial is None and trial <= last_id:
                 continue
-            if content != digests.of_trial(self._db, trial):
-                self._damaged("trial", f"trial {trial}, which is not over, is not as it was written")
+            if content != digests.digest_trial(self._db, trial):
+                self._add_damage("trial", f"trial {trial}, which is not over, is not as it was written")
         query = "SELECT trial FROM under_way WHERE trial NOT IN (SELECT id FROM trials WHERE end IS NULL)"
         for (trial,) in self._db.execute(query):
-            self._damaged("trial", f"trial {trial} was not over, and is")
+            self._add_damage("trial", f"trial {trial} was not over, and is")
 
-    def _sessions(self) -> None:
+    def _check_sessions(self) -> None:
         for *row, digest in self._db.execute("SELECT subject, key, seq, bytes, digest FROM sessions").fetchall():
-            if digests.of_session(row) != digest:
-                self._others.append(f"the session of the page of {row[0]} is not as it was written")
+            if digests.digest_session(row) != digest:
+                self._other_damage.append(f"the session of the page of {row[0]} is not as it was written")
 
-    def _damaged(self, kind: str, sentence: str) -> None:
-        (self._found.damaged if kind == "trial" else self._others).append(sentence)
+    def _add_damage(self, kind: str, sentence: str) -> None:
+        (self._report.damages if kind == "trial" else self._other_damage).append(sentence)
 
 
-def _name(kind: str, subject: str | None, item: int | None) -> str:
-    of = "" if subject is None else f" of {subject}"
+def _name_item(kind: str, subject: str | None, item: int | None) -> str:
+    suffix = "" if subject is None else f" of {subject}"
     match kind:
         case "experiment":
             return "what is said about the experiment"
         case "subject":
             return f"subject {subject}"
         case "rating":
-            return f"the rating of trial {item}{of}"
+            return f"the rating of trial {item}{suffix}"
         case _:
-            return f"{kind} {item}{of}"
+            return f"{kind} {item}{suffix}"

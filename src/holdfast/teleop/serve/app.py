@@ -1,4 +1,4 @@
-"""The application: pages, the experiment as JSON, the arm as JavaScript, and the WebSocket of the stations."""
+"""Application: pages, the experiment as JSON, the arm as JavaScript, and the WebSocket of the stations."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from starlette.types import ASGIApp
 
 from holdfast.errors import InputError, StoreError
 from holdfast.teleop.protocol.protocol import Protocol, read_protocol
-from holdfast.teleop.records.file import FILE, alone
+from holdfast.teleop.records.file import RECORDS_FILE, lock_records_folder
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import bounded, experimenter
-from holdfast.teleop.serve.briefing import experiment
-from holdfast.teleop.serve.connection import session
+from holdfast.teleop.serve.briefing import describe_experiment
+from holdfast.teleop.serve.connection import serve_session
 from holdfast.teleop.serve.control import Control
-from holdfast.teleop.serve.guard import Guard, Guarded
+from holdfast.teleop.serve.guard import Guard, GuardedApp
 from holdfast.teleop.serve.messages import MOST_BYTES
-from holdfast.teleop.serve.texts import ENGLISH
-from holdfast.teleop.serve.texts import read as read_texts
+from holdfast.teleop.serve.texts import ENGLISH_FILE
+from holdfast.teleop.serve.texts import load_texts as read_texts
 
-STATIC = Path(__file__).with_name("static")
-_BACKLOG = 1024  # connections that the system keeps until they are taken ...
-_AT_ONCE = 8  # ... so many at a time, so that stations are answered meanwhile
-_PAGE = "index.html"
-_TYPES = {
+STATIC_FOLDER = Path(__file__).with_name("static")
+_BACKLOG_CONNECTIONS = 1024  # connections that the system keeps until they are taken ...
+_ACCEPT_BATCH_SIZE = 8  # ... so many at a time, so that stations are answered meanwhile
+_INDEX_PAGE = "index.html"
+_CONTENT_TYPES = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -45,8 +45,8 @@ _TYPES = {
 
 
 @dataclass(frozen=True)
-class Options:
-    """How an experiment is served.
+class ServerOptions:
+    """Options of the server of an experiment.
 
     Attributes:
         folder: Of the experiment.
@@ -63,14 +63,14 @@ class Options:
     guard: Guard = field(default_factory=Guard)
     texts: Path | None = None
     tlx: bool = False
-    static: Path = STATIC
-    english: Path = ENGLISH
+    static: Path = STATIC_FOLDER
+    english: Path = ENGLISH_FILE
     protocol: str | None = None
     behind_proxy: bool = False
 
 
-def prepare(folder: Path, protocol: str | None) -> Protocol:
-    """Open the experiment in a folder, or begin one in a new folder.
+def open_or_create(folder: Path, protocol: str | None) -> Protocol:
+    """Open the experiment in a folder, or begin one in a new folder, and return its protocol.
 
     Args:
         folder: Of the experiment.
@@ -80,11 +80,11 @@ def prepare(folder: Path, protocol: str | None) -> Protocol:
         StoreError: The folder is neither empty nor an experiment.
         InputError: The experiment in it has another protocol.
     """
-    if not (folder / FILE).is_file():
+    if not (folder / RECORDS_FILE).is_file():
         with Records.create(folder, read_protocol() if protocol is None else read_protocol(protocol)) as records:
             return records.protocol
     with Records.open(folder) as records:
-        if protocol is not None and read_protocol(protocol).text() != records.protocol.text():
+        if protocol is not None and read_protocol(protocol).to_yaml() != records.protocol.to_yaml():
             raise InputError(
                 f"'{folder}' holds an experiment with another protocol than '{protocol}'; leave --protocol out, "
                 "or give a new folder"
@@ -92,7 +92,7 @@ def prepare(folder: Path, protocol: str | None) -> Protocol:
         return records.protocol
 
 
-def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIApp:
+def make_app(options: ServerOptions, ready: Callable[[], None] | None = None) -> ASGIApp:
     """Open or begin the experiment, and return the application that serves it.
 
     Args:
@@ -103,19 +103,21 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
         StoreError: The built page is missing, or the folder is neither empty nor an experiment.
         InputError: The texts cannot be used, or the experiment has another protocol.
     """
-    from holdfast.teleop.protocol.printed_arm import arm_module
+    from holdfast.teleop.protocol.printed_arm import print_arm_module
 
-    words = read_texts(options.texts, options.english)
-    files = _files(options.static)
+    texts = read_texts(options.texts, options.english)
+    answers = _load_page_files(options.static)
     # It has its route, which asks for the key.
-    experimenters = files.pop("/experimenter.html", None)
-    protocol = prepare(options.folder, options.protocol)  # after all that may fail: a server that cannot run begins nothing
-    files["/experiment.json"] = _file(json.dumps(experiment(protocol, words, options.tlx)).encode(), ".json")
-    files["/arm.js"] = _file(arm_module(protocol).encode(), ".js")
+    experimenter_page = answers.pop("/experimenter.html", None)
+    protocol = open_or_create(
+        options.folder, options.protocol
+    )  # after all that may fail: a server that cannot run begins nothing
+    answers["/experiment.json"] = _answer_with(json.dumps(describe_experiment(protocol, texts, options.tlx)).encode(), ".json")
+    answers["/arm.js"] = _answer_with(print_arm_module(protocol).encode(), ".js")
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        bounded.sparing_loop(asyncio.get_running_loop())
+        bounded.limit_loop_log(asyncio.get_running_loop())
         control = Control(options.folder, asyncio.get_running_loop())
         app.state.control = control
         await control.begin()
@@ -127,17 +129,19 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
             await asyncio.to_thread(control.close)
 
     routes = [
-        *(Route(path, answer, methods=["GET"]) for path, answer in files.items()),
-        *experimenter.routes(options.guard, experimenters),
-        WebSocketRoute("/session", session),
+        *(Route(path, answer, methods=["GET"]) for path, answer in answers.items()),
+        *experimenter.make_routes(options.guard, experimenter_page),
+        WebSocketRoute("/session", serve_session),
     ]
     app = Starlette(routes=routes, lifespan=lifespan)
     app.router.redirect_slashes = False
-    return Guarded(app, options.guard)
+    return GuardedApp(app, options.guard)
 
 
-def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Callable[[int], None] | None = None) -> None:
-    """Serve until interrupted.
+def serve_experiment(
+    options: ServerOptions, host: str = "127.0.0.1", port: int = 8000, ready: Callable[[int], None] | None = None
+) -> None:
+    """Serve the experiment until interrupted.
 
     Args:
         options: What.
@@ -150,15 +154,15 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
             neither empty nor an experiment.
         InputError: The texts cannot be used, or the experiment has another protocol.
     """
-    with _listening(host, port) as listener:
-        at = listener.getsockname()[1]
-        app = make_app(options, None if ready is None else lambda: ready(at))
-        http, websocket = bounded.protocols(bounded.files() // 2)
+    with _open_listener(host, port) as listener:
+        bound_port = listener.getsockname()[1]
+        app = make_app(options, None if ready is None else lambda: ready(bound_port))
+        http, websocket = bounded.make_protocols(bounded.raise_file_limit() // 2)
         config = uvicorn.Config(
             app,
             loop="asyncio",
             http=http,
-            backlog=_AT_ONCE,
+            backlog=_ACCEPT_BATCH_SIZE,
             ws=websocket,
             ws_max_size=MOST_BYTES,
             ws_ping_timeout=60.0,
@@ -169,8 +173,8 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
             proxy_headers=options.behind_proxy,
             timeout_graceful_shutdown=5,
         )
-        logging.getLogger("uvicorn.error").addFilter(bounded.Sparing())
-        with alone(options.folder), suppress(KeyboardInterrupt):
+        logging.getLogger("uvicorn.error").addFilter(bounded.RateLimitedLogFilter())
+        with lock_records_folder(options.folder), suppress(KeyboardInterrupt):
             _Server(config).run(sockets=[listener])
 
 
@@ -178,36 +182,42 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         for listener in sockets or ():
-            listener.listen(_BACKLOG)  # asyncio has set it to what is taken at once
+            listener.listen(_BACKLOG_CONNECTIONS)  # asyncio has set it to what is taken at once
 
 
-def _listening(host: str, port: int) -> socket.socket:
-    with ExitStack() as opened:
+def _open_listener(host: str, port: int) -> socket.socket:
+    with ExitStack() as cleanup:
         try:
-            family, kind, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
-            listener = opened.enter_context(socket.socket(family, kind))
+            family, socket_type, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[
+                0
+            ]
+            listener = cleanup.enter_context(socket.socket(family, socket_type))
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             listener.bind(address)
-            listener.listen(_BACKLOG)
+            listener.listen(_BACKLOG_CONNECTIONS)
         except OSError as error:
             raise StoreError(
                 f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host"
             ) from error
-        opened.pop_all()
+        cleanup.pop_all()
     return listener
 
 
-def _files(folder: Path) -> dict[str, Callable[[Request], Response]]:
-    """Every built file by its exact path: no path of a URL reaches the file system."""
-    if not (folder / _PAGE).is_file():
+def _load_page_files(folder: Path) -> dict[str, Callable[[Request], Response]]:
+    """Return an answer for every built file by its exact path, so that no path of a URL reaches the file system."""
+    if not (folder / _INDEX_PAGE).is_file():
         raise StoreError(
-            f"the built page is not in this installation ('{folder / _PAGE}' is missing); install holdfast again, "
+            f"the built page is not in this installation ('{folder / _INDEX_PAGE}' is missing); install holdfast again, "
             "or build it from the sources"
         )
-    found = {f"/{f.name}": _file(f.read_bytes(), f.suffix) for f in sorted(folder.iterdir()) if f.suffix in _TYPES}
-    found["/"] = found.pop(f"/{_PAGE}")
-    return found
+    answers = {
+        f"/{file.name}": _answer_with(file.read_bytes(), file.suffix)
+        for file in sorted(folder.iterdir())
+        if file.suffix in _CONTENT_TYPES
+    }
+    answers["/"] = answers.pop(f"/{_INDEX_PAGE}")
+    return answers
 
 
-def _file(content: bytes, suffix: str) -> Callable[[Request], Response]:
-    return lambda _: Response(content, headers={"content-type": _TYPES[suffix]})
+def _answer_with(content: bytes, suffix: str) -> Callable[[Request], Response]:
+    return lambda _: Response(content, headers={"content-type": _CONTENT_TYPES[suffix]})

@@ -15,43 +15,43 @@ from typing import Any
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
-_PATIENCE = 10.0, 20.0  # s for the head of a request: drawn, so that who comes again does not come all at once
+_PATIENCE_RANGE_S = 10.0, 20.0  # s for the head of a request: drawn, so that who comes again does not come all at once
 _MAX_UNREAD_PEERS = 512  # connections at once whose peer has not read all that was sent; a page of a station is 0.1 MB
-_LEAST_READ = 8192  # bytes that a slow peer must read within the patience
-_FILES = 8192  # that the server may have open, where the system lets it
-_LINES = 20  # of the log, a minute
+_MIN_READ_BYTES = 8192  # bytes that a slow peer must read within the patience
+_MAX_OPEN_FILES = 8192  # that the server may have open, where the system lets it
+_LOG_LINES_PER_MINUTE = 20  # of the log, a minute
 
 _log = logging.getLogger(__name__)
 
 
-def files() -> int:
-    """How many files this process may have open, after asking for enough."""
+def raise_file_limit() -> int:
+    """Raise the limit of open files of this process where it is too low, and return the limit."""
     try:
         import resource
     except ImportError:  # Windows, where sockets are no files
-        return _FILES
+        return _MAX_OPEN_FILES
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    wanted = _FILES if hard == resource.RLIM_INFINITY else min(_FILES, hard)
-    if soft != resource.RLIM_INFINITY and soft < wanted:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
-        soft = wanted
-    return _FILES if soft == resource.RLIM_INFINITY else soft
+    target = _MAX_OPEN_FILES if hard == resource.RLIM_INFINITY else min(_MAX_OPEN_FILES, hard)
+    if soft != resource.RLIM_INFINITY and soft < target:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (target, hard))
+        soft = target
+    return _MAX_OPEN_FILES if soft == resource.RLIM_INFINITY else soft
 
 
-def protocols(
-    most: int, patience: tuple[float, float] = _PATIENCE, most_unread: int = _MAX_UNREAD_PEERS
+def make_protocols(
+    max_silent: int, patience: tuple[float, float] = _PATIENCE_RANGE_S, max_unread: int = _MAX_UNREAD_PEERS
 ) -> tuple[type[asyncio.Protocol], type[asyncio.Protocol]]:
     """Return the HTTP and the WebSocket protocol of one server, in which no connection can hold memory or a file for ever.
 
     Args:
-        most: Maximum number of connections that have sent no whole request; the oldest is closed when there are more.
+        max_silent: Maximum number of connections that have sent no whole request; the oldest is closed when there are more.
         patience: Least and greatest time in seconds for the head of a request, and for a peer to read what was sent.
-        most_unread: Maximum number of connections whose peer has not read all that was sent; the oldest is closed likewise.
+        max_unread: Maximum number of connections whose peer has not read all that was sent; the oldest is closed likewise.
     """
-    silent, unread = (_Deadlines(limit, patience) for limit in (most, most_unread))
+    silent, unread = (_Deadlines(limit, patience) for limit in (max_silent, max_unread))
 
     class _ReadByPeer(asyncio.Protocol):
-        """Closes a connection whose peer does not read."""
+        """Connection that is closed if its peer does not read."""
 
         transport: asyncio.Transport
 
@@ -101,25 +101,25 @@ def protocols(
 
 
 class _Deadlines:
-    """Closes connections that make no progress in time, and the oldest of them when there are too many.
+    """Deadlines that close connections without progress, and the oldest of them when there are too many.
 
     Args:
-        most: Maximum number of connections.
+        max_connections: Maximum number of connections.
         patience: Least and greatest time in seconds.
     """
 
-    def __init__(self, most: int, patience: tuple[float, float]) -> None:
-        self._most, self._patience = most, patience
+    def __init__(self, max_connections: int, patience: tuple[float, float]) -> None:
+        self._max_connections, self._patience = max_connections, patience
         self._timers: dict[asyncio.Transport, asyncio.TimerHandle] = {}  # oldest first
 
     def start(self, transport: asyncio.Transport) -> None:
         """Give a connection a new deadline."""
         self.stop(transport)
-        late = random.uniform(*self._patience)
+        delay = random.uniform(*self._patience)
         pending = transport.get_write_buffer_size()
-        self._timers[transport] = asyncio.get_running_loop().call_later(late, self._check, transport, pending)
-        if len(self._timers) > self._most:
-            self._close(next(iter(self._timers)))
+        self._timers[transport] = asyncio.get_running_loop().call_later(delay, self._check_progress, transport, pending)
+        if len(self._timers) > self._max_connections:
+            self._abort_connection(next(iter(self._timers)))
 
     def stop(self, transport: asyncio.Transport) -> None:
         """Take the deadline from a connection that has made progress, or is closed."""
@@ -127,14 +127,14 @@ class _Deadlines:
         if timer is not None:
             timer.cancel()
 
-    def _check(self, transport: asyncio.Transport, pending: int) -> None:
-        """Close a connection, unless its peer reads, however slowly, at a useful rate."""
-        if pending - transport.get_write_buffer_size() >= _LEAST_READ:
+    def _check_progress(self, transport: asyncio.Transport, pending: int) -> None:
+        """Close a connection, unless its peer reads at a useful rate, however slow."""
+        if pending - transport.get_write_buffer_size() >= _MIN_READ_BYTES:
             self.start(transport)
         else:
-            self._close(transport)
+            self._abort_connection(transport)
 
-    def _close(self, transport: asyncio.Transport) -> None:
+    def _abort_connection(self, transport: asyncio.Transport) -> None:
         self.stop(transport)
         if transport.get_write_buffer_size():  # then the system too would keep what it has not sent: it must drop it
             linger = struct.pack("hh" if os.name == "nt" else "ii", 1, 0)
@@ -142,38 +142,38 @@ class _Deadlines:
         transport.abort()
 
 
-class Sparing(logging.Filter):
-    """Lets few lines of a log pass: what anybody can provoke must not fill a disk.
+class RateLimitedLogFilter(logging.Filter):
+    """Filter that passes few lines of a log per minute, because requests from anywhere must not fill a disk.
 
     Args:
         lines: A minute.
         clock: Seconds.
     """
 
-    def __init__(self, lines: int = _LINES, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, lines: int = _LOG_LINES_PER_MINUTE, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__()
         self._lines, self._clock = lines, clock
-        self._until, self._passed = clock() + 60, 0
+        self._minute_end, self._line_count = clock() + 60, 0
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether a line passes."""
+        """Return whether a line passes."""
         now = self._clock()
-        if now >= self._until:
-            self._until, self._passed = now + 60, 0
-        self._passed += 1
-        if self._passed == self._lines:
+        if now >= self._minute_end:
+            self._minute_end, self._line_count = now + 60, 0
+        self._line_count += 1
+        if self._line_count == self._lines:
             record.msg = f"{record.getMessage()} (no more lines in this minute)"
             record.args = None
-        return self._passed <= self._lines
+        return self._line_count <= self._lines
 
 
-def sparing_loop(loop: asyncio.AbstractEventLoop) -> None:
-    """Let what asyncio says of failures, such as no more files for a connection, be few lines too."""
-    spare = Sparing()
+def limit_loop_log(loop: asyncio.AbstractEventLoop) -> None:
+    """Limit the log lines of failures in asyncio too, such as no more files for a connection."""
+    log_filter = RateLimitedLogFilter()
 
-    def handle(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    def log_failure(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
         record = logging.LogRecord(__name__, logging.ERROR, __file__, 0, str(context.get("message")), None, None)
-        if spare.filter(record):
+        if log_filter.filter(record):
             loop.default_exception_handler({**context, "message": record.msg})
 
-    loop.set_exception_handler(handle)
+    loop.set_exception_handler(log_failure)

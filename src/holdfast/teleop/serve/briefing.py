@@ -1,4 +1,4 @@
-"""What the page must know of the experiment: ``/experiment.json``."""
+"""Description of the experiment for the page: ``/experiment.json``."""
 
 from __future__ import annotations
 
@@ -10,29 +10,29 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.session import training_scenario
+from holdfast.teleop.records.session import find_training_scenario
 from holdfast.teleop.serve.texts import Texts
 
 Array = NDArray[np.float64]
 
-FORMAT = 1
-_PARALLEL = 1e-9
+EXPERIMENT_FORMAT = 1
+_PARALLEL_TOLERANCE = 1e-9
 
 
-def experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
-    """The experiment as JSON takes it; nothing in it tells the subject what is compared, not even the protocol's name.
+def describe_experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
+    """Describe the experiment for JSON, without revealing the compared laws to the subject, not even by the protocol's name.
 
     Args:
         protocol: Of the experiment.
         texts: That the page shows.
         tlx: Ask for the NASA task load index.
     """
-    from holdfast.teleop.protocol.printed_arm import law_of  # it knows how /arm.js counts them
+    from holdfast.teleop.protocol.printed_arm import number_laws  # it knows how /arm.js counts them
 
-    centre, reach = workspace(protocol.arm, protocol.rows)
+    center, workspace_radius = compute_planar_workspace(protocol.arm, protocol.rows)
     training = protocol.training
     return {
-        "format": FORMAT,
+        "format": EXPERIMENT_FORMAT,
         "joints": protocol.arm.n,
         "axes": protocol.rows.m,
         "rate": protocol.rate,
@@ -46,49 +46,50 @@ def experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str,
             "limit": training.limit,
             "most": training.most,
         },
-        "training_law": law_of(protocol)[training_scenario(protocol)],
-        "reach": reach,
-        "centre": centre,
-        "views": views(protocol),
+        "training_law": number_laws(protocol)[find_training_scenario(protocol)],
+        "reach": workspace_radius,
+        "centre": center,
+        "views": describe_views(protocol),
         "texts": dict(texts.strings),
         "forms": list(texts.forms),
         "tlx": tlx,
     }
 
 
-def views(protocol: Protocol) -> list[dict[str, Any]]:
-    """The windows on the arm: each shows points of the base frame on two axes.
+def describe_views(protocol: Protocol) -> list[dict[str, Any]]:
+    """Describe the windows on the arm: each shows points of the base frame on two axes.
 
     One for the two rows of a planar task; from above and from the side for a task of three rows.
     """
     rows = protocol.rows.rows[:, :3]
     if len(rows) == 1:
-        other = np.eye(3)[int(np.argmin(np.abs(rows[0])))]
-        across = other - (other @ rows[0]) * rows[0] / (rows[0] @ rows[0])
-        pairs = [np.stack([rows[0], across])]
+        unit_vector = np.eye(3)[int(np.argmin(np.abs(rows[0])))]
+        second_axis = unit_vector - (unit_vector @ rows[0]) * rows[0] / (rows[0] @ rows[0])
+        pairs = [np.stack([rows[0], second_axis])]
     elif len(rows) == 2:
         pairs = [rows]
     else:
         pairs = [rows[[0, 1]], rows[[0, 2]]]
-    return [{"label": ", ".join(_axis(row) for row in pair), "rows": pair.tolist()} for pair in pairs]
+    return [{"label": ", ".join(_axis_name(row) for row in pair), "rows": pair.tolist()} for pair in pairs]
 
 
-def workspace(arm: Arm, task: Task) -> tuple[list[float], float | None]:
-    """Centre, m, and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first joint.
+def compute_planar_workspace(arm: Arm, task: Task) -> tuple[list[float], float | None]:
+    """Compute center, m, and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first
+    joint.
 
     The radius is None for an arm that is not planar, or that has prismatic joints. Joint limits play no part.
     """
-    centre = arm.frames_at_zero[0, :3, 3].tolist()
+    center = arm.frames_at_zero[0, :3, 3].tolist()
     rows = task.rows[:, :3]
     if arm.prismatic.any() or len(rows) != 2:
-        return centre, None
+        return center, None
     normal = np.cross(*rows)
-    if np.abs(np.cross(arm.axes_at_zero, normal)).max() > _PARALLEL:
-        return centre, None
-    flat = arm.frames_at_zero[:, :3, 3] @ rows.T
-    return centre, float(np.linalg.norm(np.diff(flat, axis=0), axis=1).sum())
+    if np.abs(np.cross(arm.axes_at_zero, normal)).max() > _PARALLEL_TOLERANCE:
+        return center, None
+    projected = arm.frames_at_zero[:, :3, 3] @ rows.T
+    return center, float(np.linalg.norm(np.diff(projected, axis=0), axis=1).sum())
 
 
-def _axis(row: Array) -> str:
-    k = int(np.argmax(np.abs(row)))
-    return ("" if row[k] > 0 else "-") + "xyz"[k]
+def _axis_name(row: Array) -> str:
+    index = int(np.argmax(np.abs(row)))
+    return ("" if row[index] > 0 else "-") + "xyz"[index]

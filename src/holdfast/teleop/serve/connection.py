@@ -1,4 +1,4 @@
-"""One WebSocket of a station's page."""
+"""WebSocket connection of a station's page."""
 
 from __future__ import annotations
 
@@ -12,16 +12,19 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.control import Control
-from holdfast.teleop.serve.guard import Bucket
+from holdfast.teleop.serve.guard import RateLimiter
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Message, Pause, Refused, Unstored
 
-_UNANSWERED = 512  # messages of one page that wait for the disk
-_GREETING = 10.0  # s for the first message
-_BYTES, _AT_ONCE = 256 * 1024.0, 4 * 2.0**20  # that a page may send in a second for ever, and at once after a pause
+_MAX_UNANSWERED_MESSAGES = 512  # messages of one page that wait for the disk
+_GREETING_TIMEOUT_S = 10.0  # s for the first message
+_BYTES_PER_SECOND, _BURST_BYTES = (
+    256 * 1024.0,
+    4 * 2.0**20,
+)  # that a page may send in a second for ever, and at once after a pause
 
 
 class Connection:
-    """A page that is connected: reads no faster than it may, and answers in order.
+    """Connection of a page: reads no faster than allowed, and answers in order.
 
     Args:
         socket: The WebSocket, not yet accepted.
@@ -33,145 +36,145 @@ class Connection:
 
     def __init__(self, socket: WebSocket, control: Control) -> None:
         self._socket, self._control = socket, control
-        self._bucket, self._bytes = Bucket(), Bucket(_BYTES, _AT_ONCE)
-        self._room = asyncio.Semaphore(_UNANSWERED)
-        self._out: deque[tuple[Message | None, bool]] = deque()
-        self._news = asyncio.Event()
-        self._barred = False
+        self._message_limiter, self._byte_limiter = RateLimiter(), RateLimiter(_BYTES_PER_SECOND, _BURST_BYTES)
+        self._free_slots = asyncio.Semaphore(_MAX_UNANSWERED_MESSAGES)
+        self._outbox: deque[tuple[Message | None, bool]] = deque()
+        self._outbox_filled = asyncio.Event()
+        self._is_closing = False
         self.code: str | None = None
 
     async def run(self) -> None:
-        """Until the page goes away, or is told to."""
+        """Serve the page until it disconnects or is disconnected."""
         await self._socket.accept()
-        reading, sending = asyncio.ensure_future(self._read()), asyncio.ensure_future(self._send())
+        reading, sending = asyncio.ensure_future(self._read_messages()), asyncio.ensure_future(self._send_messages())
         try:
             await asyncio.wait((reading, sending), return_when=asyncio.FIRST_COMPLETED)
         finally:
-            self._barred = True
+            self._is_closing = True
             for task in (reading, sending):
                 task.cancel()
             results = await asyncio.gather(reading, sending, return_exceptions=True)
-            self._control.leave(self)
+            self._control.leave_session(self)
         for result in results:
             if isinstance(result, Exception):
                 raise result
 
     # ---- told by the server ----------------------------------------------------------------------------------------
 
-    def answered(self, reply: Message | Exception) -> None:
-        """The reply to a message, in the order of the messages; an exception: it could not be written."""
+    def send_reply(self, reply: Message | Exception) -> None:
+        """Send the reply to a message, in the order of the messages; an exception means that it could not be written."""
         if isinstance(reply, Exception):
-            self.unstored(counts=True)
+            self.report_write_failure(counts=True)
         else:
-            self._put(reply, counts=True)
-            self._barred = self._barred or isinstance(reply, Bye)
+            self._queue_message(reply, counts=True)
+            self._is_closing = self._is_closing or isinstance(reply, Bye)
 
     def pause(self, paused: bool) -> None:
-        """Tell the page to wait, or to go on."""
-        self._put(Pause(paused=paused))
+        """Send the page the message to wait, or to continue."""
+        self._queue_message(Pause(paused=paused))
 
-    def unstored(self, counts: bool = False) -> None:
-        """Say that the records cannot be written, and close; the page comes back by itself."""
-        if not self._barred:
-            self._barred = True
-            self._put(Unstored(), counts)
-        self._put(None, counts)
+    def report_write_failure(self, counts: bool = False) -> None:
+        """Report that the records cannot be written, and close; the page reconnects by itself."""
+        if not self._is_closing:
+            self._is_closing = True
+            self._queue_message(Unstored(), counts)
+        self._queue_message(None, counts)
 
     def turn_away(self) -> None:
-        """Close, without a word: there are too many that say nothing."""
-        self._barred = True
-        self._put(None)
+        """Close without a message, because too many connections have not sent hello."""
+        self._is_closing = True
+        self._queue_message(None)
 
     def bye(self, reason: str) -> None:
-        """Say why, and close; nothing that comes after this is taken."""
-        self._barred = True
-        self._put(Bye(reason=reason))
+        """Send the reason and close; later messages of the page are ignored."""
+        self._is_closing = True
+        self._queue_message(Bye(reason=reason))
 
     # ---- inside ----------------------------------------------------------------------------------------------------
 
-    def _put(self, message: Message | None, counts: bool = False) -> None:
-        self._out.append((message, counts))
-        self._news.set()
+    def _queue_message(self, message: Message | None, counts: bool = False) -> None:
+        self._outbox.append((message, counts))
+        self._outbox_filled.set()
 
-    async def _read(self) -> None:
-        with self._control.greeted(self):
-            await asyncio.wait_for(self._greet(), _GREETING)
+    async def _read_messages(self) -> None:
+        with self._control.await_greeting(self):
+            await asyncio.wait_for(self._await_hello(), _GREETING_TIMEOUT_S)
         while True:
-            text = await self._text()
-            await self._room.acquire()
-            if self._barred:
+            text = await self._receive_text()
+            await self._free_slots.acquire()
+            if self._is_closing:
                 break
             try:
-                message = messages.read(text)
+                message = messages.parse_message(text)
                 if isinstance(message, Hello):
                     raise InputError("this page has said hello already")
             except InputError as error:
-                self._refuse(str(error))
+                self._queue_refusal(str(error))
             else:
-                self._control.take(self, message, len(text))
+                self._control.apply_message(self, message, len(text))
         await asyncio.Event().wait()  # the sender ends the connection
 
-    async def _greet(self) -> None:
-        while self.code is None and not self._barred:
-            text = await self._text()
+    async def _await_hello(self) -> None:
+        while self.code is None and not self._is_closing:
+            text = await self._receive_text()
             try:
-                hello = messages.read(text)
+                hello = messages.parse_message(text)
                 if not isinstance(hello, Hello):
                     raise InputError("the first message must be hello")
-                reply: Message = await self._control.enter(self, hello)
+                reply: Message = await self._control.enter_session(self, hello)
             except InputError as error:
                 reply = Refused(seq=None, reason=str(error), last=0)
             except StoreError:
-                self.unstored()
+                self.report_write_failure()
                 break
-            self._put(reply)
-            self._barred = self._barred or isinstance(reply, Bye)
+            self._queue_message(reply)
+            self._is_closing = self._is_closing or isinstance(reply, Bye)
 
-    def _refuse(self, reason: str) -> None:
-        """Through the writer, so that the answer has its place among the others."""
+    def _queue_refusal(self, reason: str) -> None:
+        """Queue a refusal through the writer, so that the answer has its place among the others."""
         code = self.code
         assert code is not None
 
-        def last(result: Any) -> None:
-            self.answered(result if isinstance(result, Exception) else Refused(seq=None, reason=reason, last=result))
+        def send_refusal(result: Any) -> None:
+            self.send_reply(result if isinstance(result, Exception) else Refused(seq=None, reason=reason, last=result))
 
-        self._control.writer.put(lambda records: records.last_seq(code), last)
+        self._control.writer.submit_job(lambda records: records.last_seq(code), send_refusal)
 
-    async def _text(self) -> str | bytes:
-        await asyncio.sleep(self._bucket.wait())
+    async def _receive_text(self) -> str | bytes:
+        await asyncio.sleep(self._message_limiter.take_allowance())
         message = await self._socket.receive()
         if message["type"] == "websocket.disconnect":
             raise WebSocketDisconnect(message.get("code", 1006))
         text: str | bytes | None = message.get("text")
         text = message["bytes"] if text is None else text
-        await asyncio.sleep(self._bytes.wait(len(text)))
+        await asyncio.sleep(self._byte_limiter.take_allowance(len(text)))
         return text
 
-    async def _send(self) -> None:
+    async def _send_messages(self) -> None:
         while True:
-            await self._news.wait()
-            self._news.clear()
-            while self._out:
-                message, counts = self._out.popleft()
-                answered = int(counts)
+            await self._outbox_filled.wait()
+            self._outbox_filled.clear()
+            while self._outbox:
+                message, counts = self._outbox.popleft()
+                answer_count = int(counts)
                 # One acknowledgement for all that are on the disk.
-                while isinstance(message, Ack) and self._out and isinstance(self._out[0][0], Ack):
-                    message, _ = self._out.popleft()
-                    answered += 1
+                while isinstance(message, Ack) and self._outbox and isinstance(self._outbox[0][0], Ack):
+                    message, _ = self._outbox.popleft()
+                    answer_count += 1
                 if message is None:
                     await self._socket.close(1011)
                     return
                 await self._socket.send_text(message.model_dump_json())
-                for _ in range(answered):
-                    self._room.release()
+                for _ in range(answer_count):
+                    self._free_slots.release()
                 if isinstance(message, Bye):
                     with suppress(RuntimeError):
                         await self._socket.close(1000)
                     return
 
 
-async def session(socket: WebSocket) -> None:
-    """The route ``/session``."""
+async def serve_session(socket: WebSocket) -> None:
+    """Serve the route ``/session``."""
     # A page that is gone, or was silent; and records that cannot be written, which the log tells of.
     with suppress(WebSocketDisconnect, TimeoutError, HoldfastError):
         await Connection(socket, socket.app.state.control).run()

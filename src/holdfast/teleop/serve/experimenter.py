@@ -1,4 +1,4 @@
-"""The experimenter's routes; the guard has seen the key before any of them is asked."""
+"""Routes of the experimenter; the guard has checked the key before any of them runs."""
 
 from __future__ import annotations
 
@@ -20,35 +20,35 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from holdfast.errors import HoldfastError, InputError
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.entries import Who
+from holdfast.teleop.records.entries import SubjectKind
 from holdfast.teleop.records.session import training_tasks
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import Guard
-from holdfast.teleop.serve.messages import Code, Message, sentence
-from holdfast.teleop.serve.process import apart
+from holdfast.teleop.serve.messages import Code, Message, describe_error
+from holdfast.teleop.serve.process import run_job
 
-_MISSING = ("refuse", "complete", "mixed")  # see holdfast.teleop.analysis.analyse
-_MOST_BYTES = 64 * 1024  # of what is posted: the longest note fits
+_MISSING_POLICIES = ("refuse", "complete", "mixed")  # see holdfast.teleop.analysis.analyse
+_MAX_REQUEST_BYTES = 64 * 1024  # of what is posted: the longest note fits
 # A report needs nothing but itself. It holds what subjects wrote, in an address that has the key: no script runs in it.
 _REPORT_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'; sandbox"
 
 
-class Pausing(Message):
-    """Let one subject's session wait or go on; None for all."""
+class PauseRequest(Message):
+    """Request to pause or resume one subject's session; None for all."""
 
     subject: Code | None
     paused: bool
 
 
-class Note(Message):
-    """A note about a subject."""
+class NoteRequest(Message):
+    """Request to write a note about a subject."""
 
     subject: Code
     note: Annotated[str, Field(max_length=10_000)]
 
 
-class Chosen(Message):
-    """A subject."""
+class SubjectRequest(Message):
+    """Request about a subject."""
 
     subject: Code
 
@@ -57,37 +57,37 @@ M = TypeVar("M", bound=Message)
 Endpoint = Callable[[Request], Awaitable[Response]]
 
 
-class _Refusal(Exception):
-    """A request that cannot be read."""
+class _RequestRefusal(Exception):
+    """Refusal of a request that cannot be read."""
 
     def __init__(self, status: int, reason: str) -> None:
         super().__init__(reason)
         self.status = status
 
 
-def routes(guard: Guard, page: Callable[[Request], Response] | None) -> list[BaseRoute]:
-    """All of them; ``request.app.state.control`` is the :class:`holdfast.teleop.serve.control.Control`.
+def make_routes(guard: Guard, page: Callable[[Request], Response] | None) -> list[BaseRoute]:
+    """Return all routes; ``request.app.state.control`` is the :class:`holdfast.teleop.serve.control.Control`.
 
     Args:
         guard: Whose token a station's address needs.
         page: Answers with the experimenter's page; None where it was not built.
     """
-    served = _Served(guard.token)
-    found: list[BaseRoute] = [
-        Route("/experimenter/subjects.json", _answering(served.subjects), methods=["GET"]),
-        Route("/experimenter/pause", _answering(served.pause), methods=["POST"]),
-        Route("/experimenter/note", _answering(served.note), methods=["POST"]),
-        Route("/experimenter/drop", _answering(served.drop), methods=["POST"]),
-        Route("/experimenter/resume", _answering(served.resume), methods=["POST"]),
-        Route("/experimenter/export.zip", _answering(served.export), methods=["GET"]),
-        Route("/experimenter/report", _answering(served.report), methods=["GET"]),
-        WebSocketRoute("/live", live),
+    handlers = _ExperimenterHandlers(guard.token)
+    api_routes: list[BaseRoute] = [
+        Route("/experimenter/subjects.json", _with_error_responses(handlers.get_subjects), methods=["GET"]),
+        Route("/experimenter/pause", _with_error_responses(handlers.post_pause), methods=["POST"]),
+        Route("/experimenter/note", _with_error_responses(handlers.post_note), methods=["POST"]),
+        Route("/experimenter/drop", _with_error_responses(handlers.post_drop), methods=["POST"]),
+        Route("/experimenter/resume", _with_error_responses(handlers.post_resume), methods=["POST"]),
+        Route("/experimenter/export.zip", _with_error_responses(handlers.get_export), methods=["GET"]),
+        Route("/experimenter/report", _with_error_responses(handlers.get_report), methods=["GET"]),
+        WebSocketRoute("/live", stream_live),
     ]
-    return found if page is None else [Route("/experimenter", page, methods=["GET"]), *found]
+    return api_routes if page is None else [Route("/experimenter", page, methods=["GET"]), *api_routes]
 
 
-class _Served:
-    """What the routes answer.
+class _ExperimenterHandlers:
+    """Handlers of the routes.
 
     Args:
         token: Of the stations; None for none.
@@ -95,153 +95,162 @@ class _Served:
 
     def __init__(self, token: str | None) -> None:
         self._token = token
-        self._one = asyncio.Lock()  # tables and reports one at a time: each is a process
+        self._job_lock = asyncio.Lock()  # tables and reports one at a time: each is a process
 
-    async def subjects(self, request: Request) -> Response:
-        """Everything that the page shows but the moving arm."""
-        control = _control(request)
+    async def get_subjects(self, request: Request) -> Response:
+        """Answer with everything that the page shows, except the moving arm."""
+        control = _get_control(request)
         constant = {
             "name": control.protocol.name,
             "folder": str(control.folder.resolve()),
-            "station": self._station(request),
-            "scenarios": [s.label for s in control.protocol.scenarios],
+            "station": self._station_url(request),
+            "scenarios": [scenario.label for scenario in control.protocol.scenarios],
             "joints": list(control.protocol.arm.joint_names),
-            "plan": await asyncio.to_thread(_plan, control.protocol),
+            "plan": await asyncio.to_thread(_describe_plan, control.protocol),
         }
-        return JSONResponse(constant | await control.state())
+        return JSONResponse(constant | await control.describe_state())
 
-    async def pause(self, request: Request) -> Response:
-        """Let one session, or all of them, wait or go on."""
-        asked = await _posted(request, Pausing)
-        await _control(request).pause(asked.subject, asked.paused)
+    async def post_pause(self, request: Request) -> Response:
+        """Pause or resume one session, or all of them."""
+        posted = await _read_posted(request, PauseRequest)
+        await _get_control(request).pause(posted.subject, posted.paused)
         return JSONResponse({})
 
-    async def note(self, request: Request) -> Response:
-        """Write a note about a subject."""
-        asked = await _posted(request, Note)
-        await _control(request).note(asked.subject, asked.note)
+    async def post_note(self, request: Request) -> Response:
+        """Set the note about a subject."""
+        posted = await _read_posted(request, NoteRequest)
+        await _get_control(request).set_note(posted.subject, posted.note)
         return JSONResponse({})
 
-    async def drop(self, request: Request) -> Response:
+    async def post_drop(self, request: Request) -> Response:
         """End a subject's session for good."""
-        asked = await _posted(request, Chosen)
-        await _control(request).drop(asked.subject)
+        posted = await _read_posted(request, SubjectRequest)
+        await _get_control(request).drop_subject(posted.subject)
         return JSONResponse({})
 
-    async def resume(self, request: Request) -> Response:
-        """An address that resumes a session in another page."""
-        asked = await _posted(request, Chosen)
-        control = _control(request)
-        key = await control.new_key(asked.subject)
-        subject = await control.reader.do(lambda records: records.subject(asked.subject))
+    async def post_resume(self, request: Request) -> Response:
+        """Answer with an address that resumes a session in another page."""
+        posted = await _read_posted(request, SubjectRequest)
+        control = _get_control(request)
+        key = await control.renew_key(posted.subject)
+        subject = await control.reader.run_job(lambda records: records.subject(posted.subject))
         # A dry run stays one.
-        robot = {"robot": str(subject.number)} if subject.kind == Who.SIMULATED else {}
-        return JSONResponse({"url": self._station(request, session=key, **robot)})
+        robot_query = {"robot": str(subject.number)} if subject.kind == SubjectKind.SIMULATED else {}
+        return JSONResponse({"url": self._station_url(request, session=key, **robot_query)})
 
-    async def export(self, request: Request) -> Response:
-        """All tables, zipped."""
-        control = _control(request)
-        out = await self._made("export", control)
-        name = f"{control.folder.resolve().name or 'experiment'}.zip"
-        file = Path(out.name) / "export.zip"
-        return FileResponse(file, media_type="application/zip", filename=name, background=BackgroundTask(out.cleanup))
+    async def get_export(self, request: Request) -> Response:
+        """Answer with all tables, zipped."""
+        control = _get_control(request)
+        output = await self._run_job("export", control)
+        file_name = f"{control.folder.resolve().name or 'experiment'}.zip"
+        file = Path(output.name) / "export.zip"
+        return FileResponse(file, media_type="application/zip", filename=file_name, background=BackgroundTask(output.cleanup))
 
-    async def report(self, request: Request) -> Response:
-        """The analysis, as ``holdfast teleop analyse`` writes it."""
+    async def get_report(self, request: Request) -> Response:
+        """Answer with the analysis, as ``holdfast teleop analyse`` writes it."""
         missing = request.query_params.get("missing", "refuse")
-        if missing not in _MISSING:
-            raise InputError(f"missing must be one of {', '.join(_MISSING)}")
-        out = await self._made("report", _control(request), missing)
-        with out:
-            page = await asyncio.to_thread((Path(out.name) / "report.html").read_bytes)
+        if missing not in _MISSING_POLICIES:
+            raise InputError(f"missing must be one of {', '.join(_MISSING_POLICIES)}")
+        output = await self._run_job("report", _get_control(request), missing)
+        with output:
+            page = await asyncio.to_thread((Path(output.name) / "report.html").read_bytes)
         return HTMLResponse(page, headers={"content-security-policy": _REPORT_POLICY})
 
-    async def _made(self, job: str, control: Control, *more: str) -> TemporaryDirectory[str]:
-        """A folder with what a job made; the caller's to clean up."""
-        async with self._one:
-            out = TemporaryDirectory(prefix=f"holdfast-{job}-")
+    async def _run_job(self, job: str, control: Control, *arguments: str) -> TemporaryDirectory[str]:
+        """Run a job, and return the folder with its output; the caller cleans it up."""
+        async with self._job_lock:
+            output = TemporaryDirectory(prefix=f"holdfast-{job}-")
             try:
-                await apart(job, str(control.folder), out.name, *more)
+                await run_job(job, str(control.folder), output.name, *arguments)
             except BaseException:
-                out.cleanup()
+                output.cleanup()
                 raise
-        return out
+        return output
 
-    def _station(self, request: Request, **query: str) -> str:
-        """A station's address, as the experimenter's browser sees this server."""
-        asked = ({} if self._token is None else {"token": self._token}) | query
-        return str(request.base_url) + (f"?{urlencode(asked)}" if asked else "")
+    def _station_url(self, request: Request, **query: str) -> str:
+        """Return a station's address, as the experimenter's browser sees this server."""
+        parameters = ({} if self._token is None else {"token": self._token}) | query
+        return str(request.base_url) + (f"?{urlencode(parameters)}" if parameters else "")
 
 
-def _plan(protocol: Protocol) -> dict[str, Any]:
-    """Where the arm and the target may be, as a station's plan has it: with the first subject's training."""
+def _describe_plan(protocol: Protocol) -> dict[str, Any]:
+    """Describe the possible positions of arm and target as a station's plan, with the first subject's training."""
     tasks = {"training": training_tasks(protocol, 0), "trials": protocol.tasks}
     return {
-        key: [{"q0": q0, "target": target} for q0, target in zip(of.q0.tolist(), of.target.tolist(), strict=True)]
-        for key, of in tasks.items()
+        key: [
+            {"q0": q0, "target": target}
+            for q0, target in zip(point_tasks.q0.tolist(), point_tasks.target.tolist(), strict=True)
+        ]
+        for key, point_tasks in tasks.items()
     }
 
 
-async def live(socket: WebSocket) -> None:
-    """The route ``/live``: the list of subjects now and when it changes, and the arms that move; nothing is listened to."""
+async def stream_live(socket: WebSocket) -> None:
+    """Serve the route ``/live``: the list of subjects now and when it changes, and the moving arms; incoming messages are
+    refused.
+    """
     await socket.accept()
-    telling, gone = asyncio.ensure_future(_tell(socket)), asyncio.ensure_future(socket.receive())
+    sending, disconnected = asyncio.ensure_future(_send_updates(socket)), asyncio.ensure_future(socket.receive())
     try:
-        await asyncio.wait((telling, gone), return_when=asyncio.FIRST_COMPLETED)
+        await asyncio.wait((sending, disconnected), return_when=asyncio.FIRST_COMPLETED)
     finally:
-        for task in (telling, gone):
+        for task in (sending, disconnected):
             task.cancel()
-        await asyncio.gather(telling, gone, return_exceptions=True)
-    if not gone.cancelled() and gone.exception() is None and gone.result()["type"] == "websocket.receive":
+        await asyncio.gather(sending, disconnected, return_exceptions=True)
+    if (
+        not disconnected.cancelled()
+        and disconnected.exception() is None
+        and disconnected.result()["type"] == "websocket.receive"
+    ):
         with suppress(RuntimeError, WebSocketDisconnect):
             await socket.close(1003, "nothing is listened to here")
 
 
-async def _tell(socket: WebSocket) -> None:
-    control = _control(socket)
-    control.changed()  # a list comes as soon as there is somebody who watches, that is, in the next line
-    async for message in control.live.watch():
+async def _send_updates(socket: WebSocket) -> None:
+    control = _get_control(socket)
+    control.notify_change()  # a list comes as soon as there is somebody who watches, that is, in the next line
+    async for message in control.live.stream_messages():
         await socket.send_text(json.dumps(message))
 
 
-def _control(asked: HTTPConnection) -> Control:
-    control: Control = asked.app.state.control
+def _get_control(connection: HTTPConnection) -> Control:
+    control: Control = connection.app.state.control
     return control
 
 
-def _answering(endpoint: Endpoint) -> Endpoint:
-    """With a sentence where it cannot be done: as JSON to what the page posts, as text to what a person opens."""
+def _with_error_responses(endpoint: Endpoint) -> Endpoint:
+    """Wrap an endpoint so that errors become responses: JSON for the page's posts, text for a person's browser."""
 
-    def refused(request: Request, status: int, reason: str) -> Response:
+    def make_refusal(request: Request, status: int, reason: str) -> Response:
         if request.method == "POST":
             return JSONResponse({"error": reason}, status)
         return PlainTextResponse(f"{reason[:1].upper()}{reason[1:]}.\n", status)
 
-    async def answer(request: Request) -> Response:
+    async def answer_request(request: Request) -> Response:
         try:
             return await endpoint(request)
-        except _Refusal as refusal:
-            return refused(request, refusal.status, str(refusal))
+        except _RequestRefusal as refusal:
+            return make_refusal(request, refusal.status, str(refusal))
         except InputError as error:
-            return refused(request, 400, str(error))
+            return make_refusal(request, 400, str(error))
         except HoldfastError as error:
-            return refused(request, 500, str(error))
+            return make_refusal(request, 500, str(error))
         except ClientDisconnect:
             return Response(status_code=400)  # nobody receives it: the connection ended within the request
 
-    return answer
+    return answer_request
 
 
-async def _posted(request: Request, model: type[M]) -> M:
-    """What was posted."""
+async def _read_posted(request: Request, model: type[M]) -> M:
+    """Read and validate the posted JSON."""
     if request.headers.get("content-type", "").split(";")[0].strip().lower() != "application/json":
-        raise _Refusal(415, "the request must be JSON, and say so")
+        raise _RequestRefusal(415, "the request must be JSON, and say so")
     body = bytearray()
     async for chunk in request.stream():
         body += chunk
-        if len(body) > _MOST_BYTES:
-            raise _Refusal(413, f"the request has more than {_MOST_BYTES} bytes")
+        if len(body) > _MAX_REQUEST_BYTES:
+            raise _RequestRefusal(413, f"the request has more than {_MAX_REQUEST_BYTES} bytes")
     try:
         return model.model_validate_json(bytes(body))
     except ValidationError as error:
-        raise InputError(sentence(error)) from None
+        raise InputError(describe_error(error)) from None

@@ -1,4 +1,4 @@
-"""What the experimenter's page watches: a hub that never waits for a slow watcher."""
+"""Broadcast of the server's state to the experimenter's pages, without waiting for a slow page."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any
 
-_KEPT = 64  # messages for a watcher who does not keep up; older ones are dropped
-_INTERVAL = 1 / 15  # s between two of the same topic
-_SUBJECTS = 0.5  # s between two lists of subjects
+_QUEUE_LENGTH = 64  # messages for a watcher who does not keep up; older ones are dropped
+_MIN_INTERVAL_S = 1 / 15  # s between two of the same topic
+_SUBJECTS_INTERVAL_S = 0.5  # s between two lists of subjects
 
 
-class Live:
-    """A hub, for use inside the event loop only.
+class StatusBroadcaster:
+    """Broadcaster of messages to the experimenter's pages, for use inside the event loop only.
 
     Args:
         clock: Seconds.
@@ -23,16 +23,16 @@ class Live:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._queues: list[tuple[deque[dict[str, Any]], asyncio.Event]] = []
-        self._last: dict[str, float] = {}
+        self._last_times: dict[str, float] = {}
         self._stale = asyncio.Event()
 
     @property
-    def watched(self) -> bool:
-        """Whether anybody watches."""
+    def is_watched(self) -> bool:
+        """True while at least one page is connected."""
         return bool(self._queues)
 
     def publish(self, message: dict[str, Any], topic: str | None = None) -> None:
-        """Tell all watchers.
+        """Send a message to all connected pages.
 
         Args:
             message: As JSON takes it.
@@ -41,42 +41,42 @@ class Live:
         if not self._queues:
             return
         if topic is not None:
-            at = self._clock()
-            if at - self._last.get(topic, -1e9) < _INTERVAL:
+            now = self._clock()
+            if now - self._last_times.get(topic, -1e9) < _MIN_INTERVAL_S:
                 return
-            self._last[topic] = at
-        for kept, news in self._queues:
-            kept.append(message)
-            news.set()
+            self._last_times[topic] = now
+        for pending, arrived in self._queues:
+            pending.append(message)
+            arrived.set()
 
-    async def watch(self) -> AsyncIterator[dict[str, Any]]:
-        """The messages from now on, without end."""
-        kept: deque[dict[str, Any]] = deque(maxlen=_KEPT)
-        news = asyncio.Event()
-        mine = (kept, news)
-        self._queues.append(mine)
+    async def stream_messages(self) -> AsyncIterator[dict[str, Any]]:
+        """Yield the messages from now on, without end."""
+        pending: deque[dict[str, Any]] = deque(maxlen=_QUEUE_LENGTH)
+        arrived = asyncio.Event()
+        watcher = (pending, arrived)
+        self._queues.append(watcher)
         try:
             while True:
-                while kept:
-                    yield kept.popleft()
-                news.clear()
-                await news.wait()
+                while pending:
+                    yield pending.popleft()
+                arrived.clear()
+                await arrived.wait()
         finally:
-            self._queues.remove(mine)
+            self._queues.remove(watcher)
 
-    def forget(self, topic: str) -> None:
-        """A topic that does not come back."""
-        self._last.pop(topic, None)
+    def forget_topic(self, topic: str) -> None:
+        """Forget a topic that does not return."""
+        self._last_times.pop(topic, None)
 
-    def stale(self) -> None:
-        """The list of subjects is not what it was."""
+    def mark_stale(self) -> None:
+        """Mark the list of subjects as changed."""
         self._stale.set()
 
-    async def keep_fresh(self, state: Callable[[], Awaitable[dict[str, Any]]]) -> None:
-        """Publish the list of subjects, and what goes with it, when it changed, at most twice a second, without end."""
+    async def publish_subjects(self, state: Callable[[], Awaitable[dict[str, Any]]]) -> None:
+        """Publish the list of subjects with its state whenever it has changed, at most twice a second, without end."""
         while True:
             await self._stale.wait()
             self._stale.clear()
             if self._queues:
                 self.publish({"type": "subjects", **await state()})
-            await asyncio.sleep(_SUBJECTS)
+            await asyncio.sleep(_SUBJECTS_INTERVAL_S)

@@ -1,4 +1,4 @@
-"""What page and server say to each other: one definition for both sides.
+"""Messages between page and server, defined once for both sides.
 
 Every message is a JSON object with a ``type``. Unknown keys, NaN, and sizes beyond the bounds here are refused.
 ``page/src/messages.ts`` is printed from these models by :mod:`holdfast.teleop.serve.typescript_messages`.
@@ -31,7 +31,7 @@ Vector = Annotated[list[Number], Field(min_length=1, max_length=32)]
 
 
 class Message(BaseModel):
-    """A message: its keys, no others; numbers are finite."""
+    """Message with its own keys, no others, and finite numbers."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
 
@@ -40,7 +40,7 @@ class Message(BaseModel):
 
 
 class Hello(Message):
-    """The first message of a connection: a new session, or one that is resumed.
+    """First message of a connection: a new session, or one that is resumed.
 
     A new session may bring its key, ``fresh``: said again where the answer was lost, it resumes what was begun then.
     """
@@ -54,7 +54,7 @@ class Hello(Message):
 
 
 class AnswersMessage(Message):
-    """A form was filled in."""
+    """Answers of a form."""
 
     type: Literal["answers"]
     seq: Seq
@@ -63,7 +63,7 @@ class AnswersMessage(Message):
 
 
 class Begin(Message):
-    """A trial begins: the next of the plan."""
+    """Beginning of the next trial of the plan."""
 
     type: Literal["begin"]
     seq: Seq
@@ -72,7 +72,7 @@ class Begin(Message):
 
 
 class Cycles(Message):
-    """Control cycles of the trial under way: when (s since it began), commands, m/cycle, and joints when each began."""
+    """Control cycles of the current trial: time (s since it began), commands, m/cycle, and joints when each cycle began."""
 
     type: Literal["cycles"]
     seq: Seq
@@ -82,14 +82,14 @@ class Cycles(Message):
     q: Annotated[list[Vector], Field(min_length=1, max_length=MOST_CYCLES)]
 
     @model_validator(mode="after")
-    def _as_many(self) -> Self:
+    def _check_equal_lengths(self) -> Self:
         if not len(self.time) == len(self.velocity) == len(self.q):
             raise ValueError("time, velocity and q must have as many entries")
         return self
 
 
 class EndMessage(Message):
-    """The trial under way is over; ``q`` is where the arm is."""
+    """End of the current trial; ``q`` is the final configuration of the arm."""
 
     type: Literal["end"]
     seq: Seq
@@ -98,7 +98,7 @@ class EndMessage(Message):
 
 
 class Rate(Message):
-    """The rating of the last trial, a step from 0."""
+    """Rating of the last trial, a step from 0."""
 
     type: Literal["rate"]
     seq: Seq
@@ -107,7 +107,7 @@ class Rate(Message):
 
 
 class EventMessage(Message):
-    """Something happened in the page: dropped frames, a hidden tab, a lost pad."""
+    """Event in the page: dropped frames, a hidden tab, a lost gamepad."""
 
     type: Literal["event"]
     seq: Seq
@@ -119,7 +119,7 @@ class EventMessage(Message):
 
 
 class TrainingTask(Message):
-    """A task of the training; ``joint`` as in a trial: -1 unless every scenario of the protocol has a failure."""
+    """Task of the training; ``joint`` as in a trial: -1 unless every scenario of the protocol has a failure."""
 
     q0: list[float]
     target: list[float]
@@ -127,7 +127,7 @@ class TrainingTask(Message):
 
 
 class PlannedTrial(Message):
-    """A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``law`` is a code of the arm's, see /arm.js."""
+    """Trial of the plan; ``joint`` is the locked joint, from 0, or -1 for none; ``law`` is a code of the arm's, see /arm.js."""
 
     task: int
     law: int
@@ -137,21 +137,21 @@ class PlannedTrial(Message):
 
 
 class Plan(Message):
-    """The whole session, so that the page can continue without the network."""
+    """Plan of the whole session, so that the page can continue without the network."""
 
     training: list[TrainingTask]
     trials: list[PlannedTrial]
 
 
 class Done(Message):
-    """What is on record: cycles of each training task, null where it was not completed, and how many trials."""
+    """Progress on record: cycles of each training task, null where it was not completed, and the number of trials."""
 
     training: list[int | None]
     trials: int
 
 
 class Welcome(Message):
-    """The answer to hello; ``seq`` is the last message on record, ``unrated`` says that the last trial has no rating yet."""
+    """Answer to hello; ``seq`` is the last message on record, ``unrated`` is true if the last trial has no rating yet."""
 
     type: Literal["welcome"] = "welcome"
     session: str
@@ -166,14 +166,16 @@ class Welcome(Message):
 
 
 class Ack(Message):
-    """All messages up to ``seq`` are on the disk."""
+    """Acknowledgement that all messages up to ``seq`` are on the disk."""
 
     type: Literal["ack"] = "ack"
     seq: int
 
 
 class Refused(Message):
-    """A message changed nothing, and why; ``last`` is the last on record. A ``seq`` up to ``last`` is on record already."""
+    """Refusal of a message that changed nothing, with the reason; ``last`` is the last on record. A ``seq`` up to ``last`` is
+    on record already.
+    """
 
     type: Literal["refused"] = "refused"
     seq: int | None
@@ -182,20 +184,22 @@ class Refused(Message):
 
 
 class Pause(Message):
-    """The experimenter stops the session after the trial under way, or resumes it."""
+    """Message that the experimenter pauses the session after the current trial, or resumes it."""
 
     type: Literal["pause"] = "pause"
     paused: bool
 
 
 class Unstored(Message):
-    """The records cannot be written: the disk is full, or the folder was deleted. Nothing more is acknowledged till welcome."""
+    """Message that the records cannot be written: the disk is full, or the folder was deleted. Acknowledgements resume after
+    welcome.
+    """
 
     type: Literal["unstored"] = "unstored"
 
 
 class Bye(Message):
-    """The server closes the connection for good, and why; the page does not come back by itself."""
+    """Last message before the server closes the connection for good, with the reason; the page does not reconnect by itself."""
 
     type: Literal["bye"] = "bye"
     reason: str
@@ -207,8 +211,8 @@ FromPage = Annotated[Hello | Sequenced, Field(discriminator="type")]
 _FROM_PAGE: TypeAdapter[Hello | Sequenced] = TypeAdapter(FromPage)
 
 
-def read(text: str | bytes) -> Hello | Sequenced:
-    """A message of a page.
+def parse_message(text: str | bytes) -> Hello | Sequenced:
+    """Parse a message of a page.
 
     Raises:
         InputError: It is malformed; the sentence says where.
@@ -216,13 +220,13 @@ def read(text: str | bytes) -> Hello | Sequenced:
     try:
         return _FROM_PAGE.validate_json(text)
     except ValidationError as error:
-        raise InputError(sentence(error)) from None
+        raise InputError(describe_error(error)) from None
     except ValueError as error:  # not Unicode
         raise InputError(f"the message is malformed: {error}") from None
 
 
-def sentence(error: ValidationError) -> str:
-    """The first complaint about a message. What was sent is not repeated: it may be long, or not text."""
-    first = error.errors(include_url=False, include_context=False, include_input=False)[0]
-    place = ".".join(str(step) for step in first["loc"])[:100]
-    return f"the message is malformed{f' at {place}' if place else ''}: {first['msg'][:200]}"
+def describe_error(error: ValidationError) -> str:
+    """Describe the first error in a message; its content is not repeated, because it may be long, or not text."""
+    first_error = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    location = ".".join(str(step) for step in first_error["loc"])[:100]
+    return f"the message is malformed{f' at {location}' if location else ''}: {first_error['msg'][:200]}"

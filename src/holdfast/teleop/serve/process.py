@@ -1,4 +1,4 @@
-"""Work in a process of its own, so that no station waits for it: ``python -m holdfast.teleop.serve.process JOB DIR OUT ...``.
+"""Jobs in a separate process, so that no station waits: ``python -m holdfast.teleop.serve.process JOB DIR OUT ...``.
 
 The tables of an experiment, and its statistics, take seconds of a processor and hundreds of megabytes: in the server they would
 hold up the event loop, which shares the interpreter's lock, and the memory would stay with it.
@@ -18,61 +18,61 @@ from pathlib import Path
 from holdfast.errors import HoldfastError, InputError
 from holdfast.teleop.records.records import Records
 
-_REFUSED = 3  # exit code: what was printed is a sentence for people
+_REFUSED_EXIT_CODE = 3  # exit code: what was printed is a sentence for people
 
 _log = logging.getLogger(__name__)
 
 
-async def apart(job: str, *arguments: str) -> None:
-    """Do one of the jobs here in another process.
+async def run_job(job: str, *arguments: str) -> None:
+    """Run one of the jobs of this module in another process.
 
     Raises:
         InputError: What the job was refused with.
         HoldfastError: It failed; the log has the reason.
     """
     command = [sys.executable, "-m", __name__, job, *arguments]
-    done = await asyncio.to_thread(subprocess.run, command, stdin=subprocess.DEVNULL, capture_output=True, check=False)
-    if done.returncode == _REFUSED:
-        raise InputError(done.stdout.decode().strip())
-    if done.returncode:
-        _log.error("%s failed:\n%s", job, done.stderr.decode(errors="replace"))
+    finished = await asyncio.to_thread(subprocess.run, command, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    if finished.returncode == _REFUSED_EXIT_CODE:
+        raise InputError(finished.stdout.decode().strip())
+    if finished.returncode:
+        _log.error("%s failed:\n%s", job, finished.stderr.decode(errors="replace"))
         raise HoldfastError(f"the {job} failed; the terminal in which the server was started shows why")
 
 
-def _export(folder: Path, out: Path) -> None:
-    """``OUT/export.zip``, with what :func:`holdfast.teleop.records.tables.export` writes."""
-    from holdfast.teleop.records.tables import export
+def _export_archive(folder: Path, out: Path) -> None:
+    """Write ``OUT/export.zip`` with the output of :func:`holdfast.teleop.records.tables.export_tables`."""
+    from holdfast.teleop.records.tables import export_tables
 
-    with Records.open(folder) as records, records.reading():
-        files = export(records, out / "tables")
+    with Records.open(folder) as records, records.read_snapshot():
+        files = export_tables(records, out / "tables")
     with zipfile.ZipFile(out / "export.zip", "w", zipfile.ZIP_DEFLATED) as archive:
         for file in files:
             archive.write(file, f"{folder.resolve().name or 'experiment'}/{file.name}")
 
 
-def _report(folder: Path, out: Path, missing: str) -> None:
-    """``OUT/report.html``, with its tables."""
+def _write_report(folder: Path, out: Path, missing: str) -> None:
+    """Write ``OUT/report.html``, with its tables."""
     from holdfast.teleop.analysis.eligibility import analyse_records
     from holdfast.teleop.records.tables import tool_paths
 
-    with Records.open(folder) as records, records.reading():
+    with Records.open(folder) as records, records.read_snapshot():
         result = analyse_records(records, missing)  # type: ignore[arg-type]
         result.save(out, records.protocol, tool_paths(records))
 
 
-_JOBS: dict[str, Callable[..., None]] = {"export": _export, "report": _report}
+_JOB_FUNCTIONS: dict[str, Callable[..., None]] = {"export": _export_archive, "report": _write_report}
 
 
-def _main(job: str, folder: str, out: str, *more: str) -> int:
+def _run_command_line(job: str, folder: str, out: str, *arguments: str) -> int:
     if hasattr(os, "nice"):
         os.nice(10)  # after the stations
     try:
-        _JOBS[job](Path(folder), Path(out), *more)
+        _JOB_FUNCTIONS[job](Path(folder), Path(out), *arguments)
     except HoldfastError as error:
         sys.stdout.buffer.write(str(error).encode())
-        return _REFUSED
+        return _REFUSED_EXIT_CODE
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(_main(*sys.argv[1:]))
+    sys.exit(_run_command_line(*sys.argv[1:]))

@@ -1,4 +1,4 @@
-"""One session over its messages: what each changes in the records, and what is refused.
+"""Session of a subject over its messages: the changes of the records by each message, and the refusals.
 
 A station keeps nothing between messages but the subject's code: everything else is in the records, so that a rolled back
 transaction, or a killed server, leaves nothing behind that is not true.
@@ -13,24 +13,24 @@ import numpy as np
 
 from holdfast.errors import InputError
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.entries import Entry, Kind, State, Who
-from holdfast.teleop.records.file import now
+from holdfast.teleop.records.entries import SubjectKind, SubjectState, TrialKind, TrialRecord
+from holdfast.teleop.records.file import format_utc_now
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.session import Session, done, training_scenario, training_tasks
+from holdfast.teleop.records.session import Session, find_training_scenario, select_valid_trials, training_tasks
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused, Sequenced, Welcome
 from holdfast.teleop.trials.recordings import End
 
-_ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
-_ROUNDING = 1e-9  # of the stick's limit
-_MOST_ANSWERS = 1000
-_LONGEST = 8 * 3600  # s
-_FRAME, _DIGITS = 80, 25  # bytes of a message about one cycle, and of each of its numbers
+_TRIAL_ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
+_LIMIT_TOLERANCE = 1e-9  # of the stick's limit
+_MAX_ANSWERS = 1000
+_MAX_SESSION_S = 8 * 3600  # s
+_BYTES_PER_CYCLE, _BYTES_PER_NUMBER = 80, 25  # bytes of a message about one cycle, and of each of its numbers
 
 
 @dataclass(frozen=True)
-class Taken:
-    """What became of a message.
+class MessageOutcome:
+    """Outcome of a message.
 
     Attributes:
         reply: To the page.
@@ -39,13 +39,13 @@ class Taken:
     """
 
     reply: Ack | Refused | Bye
-    entry: Entry | None = None
+    entry: TrialRecord | None = None
     finished: int | None = None
 
 
 @dataclass(frozen=True)
-class Entered:
-    """Who came in with a hello.
+class Admission:
+    """Subject and key of an admitted page.
 
     Attributes:
         code: The subject.
@@ -56,8 +56,8 @@ class Entered:
     key: str
 
 
-def enter(records: Records, hello: Hello) -> Entered | Refused | Bye:
-    """A page says hello: a new subject, or a session that is resumed.
+def admit_page(records: Records, hello: Hello) -> Admission | Refused | Bye:
+    """Admit a page that sends hello: as a new subject, or to a session that is resumed.
 
     A code that is taken may be given again as long as nothing is on record of it: the page never saw the answer to its hello.
     """
@@ -72,31 +72,32 @@ def enter(records: Records, hello: Hello) -> Entered | Refused | Bye:
         if code is None:
             return Bye(reason="this session is not known here: it was deleted, or given to another page")
         subject = records.subject(code)
-        if subject.state == State.DROPPED:
+        if subject.state == SubjectState.DROPPED:
             return Bye(reason=f"the session of {code} was ended by the experimenter")
         if subject.kind != hello.kind:
             return Bye(reason=f"the session of {code} is that of a {subject.kind} subject, and this page's is {hello.kind}")
-        return Entered(code, key)
+        return Admission(code, key)
     try:
-        with records.together():
-            return _new(records, hello)
+        with records.transaction():
+            return _admit_new_subject(records, hello)
     except InputError as error:
         return Refused(seq=None, reason=str(error), last=0)
 
 
-def _new(records: Records, hello: Hello) -> Entered:
-    known = {s.code: s for s in records.subjects()}.get(hello.code or "")
-    if known is None:
-        known = records.add_subject(hello.code, Who(hello.kind))
-    elif known.state != State.OPEN or known.kind != hello.kind or known.answers or records.last_seq(known.code):
+def _admit_new_subject(records: Records, hello: Hello) -> Admission:
+    subject = {listed.code: listed for listed in records.subjects()}.get(hello.code or "")
+    if subject is None:
+        subject = records.add_subject(hello.code, SubjectKind(hello.kind))
+    elif subject.state != SubjectState.OPEN or subject.kind != hello.kind or subject.answers or records.last_seq(subject.code):
         raise InputError(
-            f"the session of {known.code} has begun already; give another code, or ask the experimenter to move it to this page"
+            f"the session of {subject.code} has begun already; give another code, or ask the experimenter to move it "
+            f"to this page"
         )
-    return Entered(known.code, records.give_key(known.code, hello.fresh))
+    return Admission(subject.code, records.give_key(subject.code, hello.fresh))
 
 
 class Station:
-    """One subject's session.
+    """Session of one subject.
 
     Args:
         records: The records.
@@ -106,164 +107,180 @@ class Station:
     def __init__(self, records: Records, code: str) -> None:
         self.records, self.code = records, code
 
-    def welcome(self, key: str, paused: bool) -> Welcome:
-        """The answer to a hello."""
+    def make_welcome(self, key: str, paused: bool) -> Welcome:
+        """Return the answer to a hello."""
         records = self.records
-        with records.together():
+        with records.transaction():
             subject = records.subject(self.code)
-            training, trials = (done(records.entries(self.code, kind)) for kind in (Kind.TRAINING, Kind.TRIAL))
-            over = Session(records, self.code).next() is None
-            latest = records.latest(self.code)
+            training, trials = (
+                select_valid_trials(records.entries(self.code, kind)) for kind in (TrialKind.TRAINING, TrialKind.TRIAL)
+            )
+            is_over = Session(records, self.code).next_trial() is None
+            latest_trial = records.latest_trial(self.code)
         return Welcome(
             session=key,
             subject=self.code,
             seq=records.last_seq(self.code),
-            plan=_plan(records, subject.row, subject.number),
+            plan=_build_plan(records, subject.row, subject.number),
             done=messages.Done(
-                training=[records.count(e) if e.end == End.ARRIVED else None for e in training], trials=len(trials)
+                training=[records.count_cycles(entry) if entry.end == End.ARRIVED else None for entry in training],
+                trials=len(trials),
             ),
-            unrated=latest is not None and latest.kind == Kind.TRIAL and _finished(latest) and latest.rating is None,
+            unrated=latest_trial is not None
+            and latest_trial.kind == TrialKind.TRIAL
+            and _is_finished(latest_trial)
+            and latest_trial.rating is None,
             answered=[key for key in subject.answers if "." not in key],
             paused=paused,
-            over=over,
+            over=is_over,
         )
 
-    def take(self, message: Sequenced, size: int = 0) -> Taken:
-        """Apply a message of so many bytes; all of it is in the records, with its number, or nothing."""
+    def apply_message(self, message: Sequenced, size: int = 0) -> MessageOutcome:
+        """Apply a message of ``size`` bytes: all of it is recorded, with its number, or nothing."""
         records = self.records
         try:
             subject = records.subject(self.code)
         except InputError:
-            return Taken(Bye(reason="this session was deleted"))
-        if subject.state == State.DROPPED:
-            return Taken(Bye(reason=f"the session of {self.code} was ended by the experimenter"))
-        last, seq = records.last_seq(self.code), message.seq
-        most = quota(records.protocol)
-        if records.received(self.code) + size > most:
-            reason = f"the session has sent {most // 2**20} MiB, the most that one may; tell the experimenter"
-            return Taken(Refused(seq=seq, reason=reason, last=last))
-        if seq <= last:
-            return Taken(Refused(seq=seq, reason=f"message {seq} is on record already", last=last))
-        if seq > last + 1:
-            return Taken(Refused(seq=seq, reason=f"message {seq} came, and {last + 1} is the next", last=last))
-        entry = records.latest(self.code)
+            return MessageOutcome(Bye(reason="this session was deleted"))
+        if subject.state == SubjectState.DROPPED:
+            return MessageOutcome(Bye(reason=f"the session of {self.code} was ended by the experimenter"))
+        last_seq, seq = records.last_seq(self.code), message.seq
+        max_bytes = message_quota_bytes(records.protocol)
+        if records.received_bytes(self.code) + size > max_bytes:
+            reason = f"the session has sent {max_bytes // 2**20} MiB, the most that one may; tell the experimenter"
+            return MessageOutcome(Refused(seq=seq, reason=reason, last=last_seq))
+        if seq <= last_seq:
+            return MessageOutcome(Refused(seq=seq, reason=f"message {seq} is on record already", last=last_seq))
+        if seq > last_seq + 1:
+            return MessageOutcome(Refused(seq=seq, reason=f"message {seq} came, and {last_seq + 1} is the next", last=last_seq))
+        entry = records.latest_trial(self.code)
         try:
-            with records.together():
+            with records.transaction():
                 finished = self._apply(message, entry)
                 records.set_last_seq(self.code, seq, size)
         except InputError as error:
-            return Taken(Refused(seq=seq, reason=str(error), last=last))
-        return Taken(Ack(seq=seq), entry, finished)
+            return MessageOutcome(Refused(seq=seq, reason=str(error), last=last_seq))
+        return MessageOutcome(Ack(seq=seq), entry, finished)
 
     # ---- each message ----------------------------------------------------------------------------------------------
 
     @singledispatchmethod
-    def _apply(self, message: Sequenced, entry: Entry | None) -> int | None:
-        """Change the records; the number of a trial that is over now."""
+    def _apply(self, message: Sequenced, entry: TrialRecord | None) -> int | None:
+        """Change the records, and return the number of a trial that is over now."""
         raise AssertionError(message)
 
     @_apply.register
-    def _(self, message: messages.AnswersMessage, entry: Entry | None) -> int | None:
+    def _(self, message: messages.AnswersMessage, entry: TrialRecord | None) -> int | None:
         # The newest answers are the subject's; the events keep all of them, also where a form is filled in twice.
         subject = self.records.subject(self.code)
-        said = {f"{message.form}.{key}": value for key, value in message.answers.items()}
+        new_answers = {f"{message.form}.{key}": value for key, value in message.answers.items()}
         earlier = {key: value for key, value in subject.answers.items() if key.split(".")[0] != message.form}
-        if len(earlier) + len(said) > _MOST_ANSWERS:
-            raise InputError(f"a subject has at most {_MOST_ANSWERS} answers")
-        self.records.set_answers(self.code, {**earlier, message.form: now(), **said})
-        self.records.event("answers", self.code, None, k=None, data={"form": message.form, **said})
+        if len(earlier) + len(new_answers) > _MAX_ANSWERS:
+            raise InputError(f"a subject has at most {_MAX_ANSWERS} answers")
+        self.records.set_answers(self.code, {**earlier, message.form: format_utc_now(), **new_answers})
+        self.records.add_event("answers", self.code, None, k=None, data={"form": message.form, **new_answers})
         return None
 
     @_apply.register
-    def _(self, message: messages.Begin, entry: Entry | None) -> int | None:
-        todo = Session(self.records, self.code).next()
-        if todo is None:
+    def _(self, message: messages.Begin, entry: TrialRecord | None) -> int | None:
+        next_trial = Session(self.records, self.code).next_trial()
+        if next_trial is None:
             raise InputError("the session is over; there is no trial to begin")
-        if (todo.kind, todo.position) != (message.kind, message.position):
+        if (next_trial.kind, next_trial.position) != (message.kind, message.position):
             raise InputError(
-                f"{message.kind} {message.position + 1} was begun, and {todo.kind.value} {todo.position + 1} is the next"
+                f"{message.kind} {message.position + 1} was begun, and {next_trial.kind.value} {next_trial.position + 1} "
+                f"is the next"
             )
-        self.records.begin_trial(self.code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task)
+        self.records.begin_trial(
+            self.code,
+            next_trial.kind,
+            next_trial.position,
+            scenario=next_trial.scenario,
+            tasks=next_trial.tasks,
+            task=next_trial.task,
+        )
         return None
 
     @_apply.register
-    def _(self, message: messages.Cycles, entry: Entry | None) -> int | None:
-        trial = _under_way(entry)
+    def _(self, message: messages.Cycles, entry: TrialRecord | None) -> int | None:
+        trial = _require_running_trial(entry)
         protocol = self.records.protocol
         n, m = protocol.arm.n, protocol.rows.m
         if {len(v) for v in message.velocity} != {m} or {len(q) for q in message.q} != {n}:
             raise InputError(f"each cycle needs a command of {m} numbers and a configuration of {n}")
         velocity = np.array(message.velocity)
-        fastest = float(np.linalg.norm(velocity, axis=1).max())
-        if fastest > protocol.stick.limit * (1 + _ROUNDING):
-            raise InputError(f"a command of {fastest:g} m/cycle is beyond the stick's limit of {protocol.stick.limit:g}")
+        top_speed = float(np.linalg.norm(velocity, axis=1).max())
+        if top_speed > protocol.stick.limit * (1 + _LIMIT_TOLERANCE):
+            raise InputError(f"a command of {top_speed:g} m/cycle is beyond the stick's limit of {protocol.stick.limit:g}")
         if protocol.cycle_limit is not None and message.first + len(velocity) > protocol.cycle_limit:
             raise InputError(f"a trial has at most {protocol.cycle_limit} cycles")
-        self.records.append(trial.id, message.first, np.array(message.time), velocity=velocity, q=np.array(message.q))
+        self.records.append_cycles(trial.id, message.first, np.array(message.time), velocity=velocity, q=np.array(message.q))
         return None
 
     @_apply.register
-    def _(self, message: messages.EndMessage, entry: Entry | None) -> int | None:
-        trial = _under_way(entry)
+    def _(self, message: messages.EndMessage, entry: TrialRecord | None) -> int | None:
+        trial = _require_running_trial(entry)
         protocol = self.records.protocol
         if len(message.q) != protocol.arm.n:
             raise InputError(f"the end of a trial needs a configuration of {protocol.arm.n} numbers")
-        if message.end == "time" and self.records.count(trial) != protocol.cycle_limit:
+        if message.end == "time" and self.records.count_cycles(trial) != protocol.cycle_limit:
             raise InputError("the time of this trial is not over")
-        self.records.finish(trial.id, _ENDS[message.end], np.array(message.q))
-        Session(self.records, self.code).next()  # after the last one the session is completed
+        self.records.finish_trial(trial.id, _TRIAL_ENDS[message.end], np.array(message.q))
+        Session(self.records, self.code).next_trial()  # after the last one the session is completed
         return trial.id
 
     @_apply.register
-    def _(self, message: messages.Rate, entry: Entry | None) -> int | None:
-        if entry is None or not _finished(entry):
+    def _(self, message: messages.Rate, entry: TrialRecord | None) -> int | None:
+        if entry is None or not _is_finished(entry):
             raise InputError("there is no finished trial to rate")
-        if entry.kind == Kind.TRAINING:
+        if entry.kind == TrialKind.TRAINING:
             raise InputError("the last trial is one of the training, which has no rating")
         if entry.rating is not None:
             raise InputError("the trial has its rating already")
-        self.records.rate(entry.id, message.rating, message.answers)
+        self.records.rate_trial(entry.id, message.rating, message.answers)
         return None
 
     @_apply.register
-    def _(self, message: messages.EventMessage, entry: Entry | None) -> int | None:
+    def _(self, message: messages.EventMessage, entry: TrialRecord | None) -> int | None:
         trial = None if entry is None or entry.ended is not None else entry.id
-        self.records.event(message.kind, self.code, trial, k=None, data=message.data)
+        self.records.add_event(message.kind, self.code, trial, k=None, data=message.data)
         return None
 
 
-def _finished(entry: Entry) -> bool:
-    """Whether a trial is over and counts: one that was broken off is done again."""
+def _is_finished(entry: TrialRecord) -> bool:
+    """Return whether a trial is over and counts; a trial that was broken off is repeated."""
     return entry.ended is not None and entry.end != End.BROKEN_OFF
 
 
-def _under_way(entry: Entry | None) -> Entry:
+def _require_running_trial(entry: TrialRecord | None) -> TrialRecord:
     if entry is None or entry.ended is not None:
         raise InputError("no trial is under way")
     return entry
 
 
-def quota(protocol: Protocol) -> int:
-    """How many bytes of messages a session may send: those of eight hours of steering, and 16 MiB at least."""
-    numbers = protocol.arm.n + protocol.rows.m + 1
-    return max(16 * 2**20, int(_LONGEST * protocol.rate * (_FRAME + _DIGITS * numbers)))
+def message_quota_bytes(protocol: Protocol) -> int:
+    """Return the number of message bytes that a session may send: those of eight hours of steering, and 16 MiB at least."""
+    numbers_per_cycle = protocol.arm.n + protocol.rows.m + 1
+    return max(16 * 2**20, int(_MAX_SESSION_S * protocol.rate * (_BYTES_PER_CYCLE + _BYTES_PER_NUMBER * numbers_per_cycle)))
 
 
-def _plan(records: Records, row: int, number: int) -> messages.Plan:
-    from holdfast.teleop.protocol.printed_arm import law_of  # it knows how /arm.js counts them
+def _build_plan(records: Records, row: int, number: int) -> messages.Plan:
+    from holdfast.teleop.protocol.printed_arm import number_laws  # it knows how /arm.js counts them
 
     protocol = records.protocol
     training = training_tasks(protocol, number)
-    laws = law_of(protocol)
-    failed = protocol.scenarios[training_scenario(protocol)].failed
-    order = protocol.session(row, number)
+    laws = number_laws(protocol)
+    failed = protocol.scenarios[find_training_scenario(protocol)].failed
+    order = protocol.session_order(row, number)
     tasks = protocol.tasks
     return messages.Plan(
         training=[
             messages.TrainingTask(
-                q0=training.q0[k].tolist(), target=training.target[k].tolist(), joint=int(training.joint[k]) if failed else -1
+                q0=training.q0[index].tolist(),
+                target=training.target[index].tolist(),
+                joint=int(training.joint[index]) if failed else -1,
             )
-            for k in range(len(training))
+            for index in range(len(training))
         ],
         trials=[
             messages.PlannedTrial(

@@ -1,4 +1,4 @@
-"""What the page says, in any language: one YAML file of short texts, and the forms with their questions.
+"""Texts of the page, in any language: one YAML file of short texts, and the forms with their questions.
 
 .. code-block:: yaml
 
@@ -27,18 +27,18 @@ from pydantic import Field, ValidationError, model_validator
 
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
-from holdfast.files.output import replaced
-from holdfast.files.yaml import Number, Strict, content, sentence
+from holdfast.files.output import replace_file
+from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
 from holdfast.teleop.serve.messages import Name
 
-ENGLISH = Path(__file__).with_name("texts") / "en.yaml"
-_EXAMPLE = "'holdfast teleop texts --write FILE'"
-_PLACE = re.compile(r"\{\w+\}")
+ENGLISH_FILE = Path(__file__).with_name("texts") / "en.yaml"
+_EXAMPLE_COMMAND = "'holdfast teleop texts --write FILE'"
+_PLACEHOLDER_PATTERN = re.compile(r"\{\w+\}")
 
 
 @dataclass(frozen=True)
 class Texts:
-    """The texts of a page.
+    """Texts of a page.
 
     Attributes:
         strings: By key.
@@ -68,17 +68,17 @@ class _Question(Strict):
     high: str | None = None
 
     @model_validator(mode="after")
-    def _fits(self) -> Self:
+    def _check_consistency(self) -> Self:
         if (self.kind == "choice") != bool(self.options):
             raise ValueError("options belong to a choice, and a choice needs them")
-        if self.options and len({o.value for o in self.options}) < len(self.options):
+        if self.options and len({option.value for option in self.options}) < len(self.options):
             raise ValueError("two options have the same value; give each another")
         if self.from_ is not None and self.to is not None and not self.from_ < self.to:
             raise ValueError("from must be below to")
         return self
 
 
-class _Form(Strict):
+class _QuestionForm(Strict):
     name: Name
     title: str
     text: str
@@ -87,18 +87,18 @@ class _Form(Strict):
     decline: str | None = None
 
     @model_validator(mode="after")
-    def _each_once(self) -> Self:
-        if len({q.name for q in self.questions}) < len(self.questions):
+    def _check_unique_names(self) -> Self:
+        if len({question.name for question in self.questions}) < len(self.questions):
             raise ValueError("two questions have the same name; give each another")
         return self
 
 
-class _File(Strict):
-    forms: list[_Form]
+class _TextsFile(Strict):
+    forms: list[_QuestionForm]
 
 
-def read(path: Path | None = None, english: Path = ENGLISH) -> Texts:
-    """The texts in a file, or the English ones.
+def load_texts(path: Path | None = None, english: Path = ENGLISH_FILE) -> Texts:
+    """Load the texts of a file, or the English ones.
 
     Args:
         path: A translation; None for English.
@@ -108,55 +108,57 @@ def read(path: Path | None = None, english: Path = ENGLISH) -> Texts:
         InputError: A file that cannot be read, has not the same keys and forms as the English one, or not the same words in
             braces.
     """
-    own = _read(english)
+    english_texts = _load_file(english)
     if path is None:
-        return own
-    given = _read(path)
-    _same(path, "key", own.strings, given.strings)
-    _same(path, "form", [f["name"] for f in own.forms], [f["name"] for f in given.forms])
-    for key, text in given.strings.items():
-        wanted, found = (sorted(set(_PLACE.findall(t))) for t in (own.strings[key], text))
-        if wanted != found:
+        return english_texts
+    translated = _load_file(path)
+    _check_same_names(path, "key", english_texts.strings, translated.strings)
+    _check_same_names(path, "form", [form["name"] for form in english_texts.forms], [form["name"] for form in translated.forms])
+    for key, text in translated.strings.items():
+        expected, actual = (
+            sorted(set(_PLACEHOLDER_PATTERN.findall(version))) for version in (english_texts.strings[key], text)
+        )
+        if expected != actual:
             raise InputError(
-                f"texts '{path}': {key}: it has {', '.join(found) or 'nothing'} in braces; it must have "
-                f"{', '.join(wanted) or 'nothing'}"
+                f"texts '{path}': {key}: it has {', '.join(actual) or 'nothing'} in braces; it must have "
+                f"{', '.join(expected) or 'nothing'}"
             )
-    return given
+    return translated
 
 
-def copy(path: Path) -> Path:
+def copy_english_texts(path: Path) -> Path:
     """Copy the English texts to a file, to translate.
 
     Raises:
         StoreError: It is there already, or cannot be written.
     """
-    if reading.exists(path):
+    if reading.path_exists(path):
         raise StoreError(f"'{path}' exists already; choose another name")
-    replaced(path, ENGLISH.read_bytes())
+    replace_file(path, ENGLISH_FILE.read_bytes())
     return path
 
 
-def _same(path: Path, what: str, wanted: Iterable[str], given: Iterable[str]) -> None:
-    for fault, names in (("not known", set(given) - set(wanted)), ("missing", set(wanted) - set(given))):
+def _check_same_names(path: Path, kind: str, expected: Iterable[str], actual: Iterable[str]) -> None:
+    for fault, names in (("not known", set(actual) - set(expected)), ("missing", set(expected) - set(actual))):
         if names:
             first, *others = sorted(names)
-            more = f" (and {', '.join(others)})" if others else ""
-            raise InputError(f"texts '{path}': the {what} '{first}'{more} is {fault}; {_EXAMPLE} shows them all")
+            remainder = f" (and {', '.join(others)})" if others else ""
+            raise InputError(f"texts '{path}': the {kind} '{first}'{remainder} is {fault}; {_EXAMPLE_COMMAND} shows them all")
 
 
-def _read(path: Path) -> Texts:
+def _load_file(path: Path) -> Texts:
     try:
-        data = content(path, _EXAMPLE, "forms")
+        data = read_mapping(path, _EXAMPLE_COMMAND, "forms")
         strings = {key: value for key, value in data.items() if key != "forms"}
         for key, value in strings.items():
             if not isinstance(key, str) or not isinstance(value, str):
                 raise InputError(f"{key}: {value!r} is not text; put it in quotes")
-        model = _File.model_validate({"forms": data.get("forms")})
+        document = _TextsFile.model_validate({"forms": data.get("forms")})
     except ValidationError as error:
-        raise InputError(f"texts '{path}': {sentence(error, _File)}") from error
+        raise InputError(f"texts '{path}': {describe_error(error, _TextsFile)}") from error
     except InputError as error:
         raise InputError(f"texts '{path}': {error}") from error
-    names = [form.name for form in model.forms]
+    names = [form.name for form in document.forms]
     if len(set(names)) < len(names):
         raise InputError(f"texts '{path}': forms: two of them have the same name; give each another")
-    return Texts(strings, tuple(form.model_dump(by_alias=True, exclude_none=True) for form in model.forms))
+    return Texts(strings, tuple(form.model_dump(by_alias=True, exclude_none=True) for form in document.forms))

@@ -1,4 +1,4 @@
-"""Threads that own the records: one that writes, one that reads at leisure.
+"""Threads that own the records: one for writing, and one for reading.
 
 The writer collects the changes that came within a few milliseconds, applies each, by itself, inside one transaction, commits
 once, and only then answers: what has been answered is on the disk, and one ``fsync`` serves all stations.
@@ -21,8 +21,8 @@ from typing import Any, TypeVar
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.teleop.records.records import Records
 
-_GATHER = 0.008  # s that the first change of a transaction waits for others
-_MOST = 512  # changes in one transaction
+_GATHER_TIME_S = 0.008  # s that the first change of a transaction waits for others
+_MAX_TRANSACTION_JOBS = 512  # changes in one transaction
 
 _log = logging.getLogger(__name__)
 
@@ -30,8 +30,8 @@ T = TypeVar("T")
 Job = tuple[Callable[[Records], Any], Callable[[Any], None]]
 
 
-class Keeper:
-    """A thread that owns the records of a folder, and does what it is given, in order.
+class RecordsThread:
+    """Thread that owns the records of a folder and runs its jobs in order.
 
     Answers are given in the event loop, and where a job failed the answer is the exception.
 
@@ -59,24 +59,26 @@ class Keeper:
         self._folder, self._loop, self._writes, self._on_fault = folder, loop, writes, on_fault
         self.fault: str | None = None
         self._jobs: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
-        self._thread = threading.Thread(target=self._live, name="holdfast-writer" if writes else "holdfast-reader", daemon=True)
+        self._thread = threading.Thread(
+            target=self._run_thread, name="holdfast-writer" if writes else "holdfast-reader", daemon=True
+        )
         self._opened: Future[Records] = Future()
         self._thread.start()
         self.protocol = self._opened.result().protocol
 
-    def put(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
-        """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception.
+    def submit_job(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
+        """Submit a job; ``answer`` is called in the event loop with its result, or with its exception.
 
         A job that fails must leave nothing half done: jobs of several changes use
-        :meth:`holdfast.teleop.Records.together`.
+        :meth:`holdfast.teleop.Records.transaction`.
         """
         self._jobs.put((job, answer))
 
-    async def do(self, job: Callable[[Records], T]) -> T:
-        """The result of a job."""
+    async def run_job(self, job: Callable[[Records], T]) -> T:
+        """Run a job, and return its result."""
         future: asyncio.Future[T] = self._loop.create_future()
 
-        def answer(result: Any) -> None:
+        def set_outcome(result: Any) -> None:
             if future.cancelled():
                 return
             if isinstance(result, Exception):
@@ -84,66 +86,66 @@ class Keeper:
             else:
                 future.set_result(result)
 
-        self.put(_whole(job) if self._writes else job, answer)
+        self.submit_job(_make_atomic(job) if self._writes else job, set_outcome)
         return await future
 
     def close(self) -> None:
-        """Do what was given so far, and close the file."""
+        """Run the jobs submitted so far, and close the file."""
         self._jobs.put(None)
         self._thread.join()
 
     # ---- in the thread ---------------------------------------------------------------------------------------------
 
-    def _live(self) -> None:
+    def _run_thread(self) -> None:
         try:
             records = Records.open(self._folder)
             if self._writes:
-                records.prepare()
+                records.upgrade_tables()
         except Exception as error:
             self._opened.set_exception(error)
             return
         with records:
             self._opened.set_result(records)
-            while self._work(records):
+            while self._run_transaction(records):
                 pass
 
-    def _work(self, records: Records) -> bool:
-        """One transaction; False when there will be no more."""
+    def _run_transaction(self, records: Records) -> bool:
+        """Run one transaction, and return False when there will be no more."""
         jobs: list[Job] = []
         job = self._jobs.get()
-        until = time.monotonic() + _GATHER
+        deadline = time.monotonic() + _GATHER_TIME_S
         while job is not None:
             jobs.append(job)
-            left = until - time.monotonic()
-            if not self._writes or len(jobs) == _MOST or left <= 0:
+            remaining = deadline - time.monotonic()
+            if not self._writes or len(jobs) == _MAX_TRANSACTION_JOBS or remaining <= 0:
                 break
             try:
-                job = self._jobs.get(timeout=left)
+                job = self._jobs.get(timeout=remaining)
             except queue.Empty:
                 break
         if jobs:
-            results = self._all(records, jobs)
+            results = self._run_jobs(records, jobs)
             answers = [answer for _, answer in jobs]
             # The loop may have stopped: then nobody waits for an answer.
             if not self._loop.is_closed():
-                self._loop.call_soon_threadsafe(_answer, answers, results)
+                self._loop.call_soon_threadsafe(_deliver_results, answers, results)
         return job is not None
 
-    def _all(self, records: Records, jobs: list[Job]) -> list[Any]:
-        before = records.changes
+    def _run_jobs(self, records: Records, jobs: list[Job]) -> list[Any]:
+        changes_before = records.changes
         try:
-            with records.together() if self._writes else nullcontext():
-                results = [_result(job, records) for job, _ in jobs]
+            with records.transaction() if self._writes else nullcontext():
+                results = [_call_job(job, records) for job, _ in jobs]
         # A full disk, a folder that was deleted, a lock that somebody else keeps: none of it happened.
         except (sqlite3.Error, StoreError) as error:
-            self._turn(str(error))
+            self._set_fault(str(error))
             return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)
-        if self.fault is not None and records.changes > before:
-            self._turn(None)
+        if self.fault is not None and records.changes > changes_before:
+            self._set_fault(None)
         return results
 
-    def _turn(self, fault: str | None) -> None:
-        """Say it once, not for each message."""
+    def _set_fault(self, fault: str | None) -> None:
+        """Set the fault, and report a change once, not for each message."""
         if (fault is None) != (self.fault is None):
             _log.error("the records can be written again" if fault is None else f"the records cannot be written: {fault}")
             if not self._loop.is_closed():
@@ -151,17 +153,17 @@ class Keeper:
         self.fault = fault
 
 
-def _whole(job: Callable[[Records], T]) -> Callable[[Records], T]:
-    """A job of which all is done, or nothing."""
+def _make_atomic(job: Callable[[Records], T]) -> Callable[[Records], T]:
+    """Return a job of which all is done, or nothing."""
 
-    def whole(records: Records) -> T:
-        with records.together():
+    def run_atomic(records: Records) -> T:
+        with records.transaction():
             return job(records)
 
-    return whole
+    return run_atomic
 
 
-def _result(job: Callable[[Records], Any], records: Records) -> Any:
+def _call_job(job: Callable[[Records], Any], records: Records) -> Any:
     try:
         return job(records)
     except HoldfastError as error:
@@ -173,6 +175,6 @@ def _result(job: Callable[[Records], Any], records: Records) -> Any:
         return error
 
 
-def _answer(answers: list[Callable[[Any], None]], results: list[Any]) -> None:
+def _deliver_results(answers: list[Callable[[Any], None]], results: list[Any]) -> None:
     for answer, result in zip(answers, results, strict=True):
         answer(result)

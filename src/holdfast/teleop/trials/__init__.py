@@ -1,4 +1,4 @@
-"""One trial: stick, plant, operator, measures."""
+"""One trial: joystick, plant, operator, and measures."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Trials under way: an operator, a plant for each law, and the rules by which a trial ends; a whole batch at a time."""
+"""Trials in progress, in batches: an operator, a plant for each law, and the rules that end a trial."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End, Trials
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -21,8 +21,8 @@ _NOT_OVER = 255
 
 
 @dataclass(frozen=True)
-class Rules:
-    """When a trial is over.
+class EndRules:
+    """Rules that end a trial.
 
     Attributes:
         radius: Of the target circle, m.
@@ -42,22 +42,22 @@ class Rules:
     patience: int = 50
 
     def __post_init__(self) -> None:
-        for what in ("radius", "cycle_limit", "still", "patience"):
-            value = getattr(self, what)
+        for name in ("radius", "cycle_limit", "still", "patience"):
+            value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
-                raise InputError(f"{what} is {value:g}; it must be above 0")
+                raise InputError(f"{name} is {value:g}; it must be above 0")
 
 
 class Operator(ABC):
-    """Who holds the stick, of a batch of trials at once."""
+    """Operator who holds the joystick in a batch of trials."""
 
     @abstractmethod
     def begin(self, x: Array, target: Array) -> None:
-        """A batch of trials begins: tool points (N, m) and targets (N, m), m."""
+        """Begin a batch of trials with tool points (N, m) and targets (N, m), m."""
 
     @abstractmethod
-    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
-        """The velocity (K, m) that the stick is moved for, m/cycle, before dead zone and limit.
+    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+        """Return the velocity (K, m), m/cycle, that the operator commands, before dead zone and limit.
 
         Args:
             rows: (K,) which trials of the batch are under way.
@@ -67,13 +67,14 @@ class Operator(ABC):
         """
 
     def gives_up(self, rows: Indices, cycle: int) -> NDArray[np.bool_]:
-        """(K,) True where the operator aborts the trial."""
+        """Return (K,) True where the operator aborts the trial."""
         del cycle
         return np.zeros(rows.size, dtype=bool)
 
 
-class Computer(Operator):
-    """Straight at the target: ``Ke`` times the error, within the stick's limit; eq. (6) with Ke in 1/cycle.
+class ComputerOperator(Operator):
+    """Operator that steers straight at the target: ``Ke`` times the error, within the joystick's limit; eq. (6) with Ke in
+    1/cycle.
 
     Args:
         gain: Ke, 1/cycle.
@@ -89,13 +90,13 @@ class Computer(Operator):
     def begin(self, x: Array, target: Array) -> None:
         """See :meth:`Operator.begin`."""
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
         return self.gain * (target - x)
 
 
-class Recorded(Operator):
-    """The commands of recorded trials again, cycle by cycle, and no command when they are over."""
+class RecordedOperator(Operator):
+    """Operator that repeats the commands of recorded trials, cycle by cycle, and gives no command when they are over."""
 
     def __init__(self, trials: Trials) -> None:
         self._trials = trials
@@ -105,30 +106,30 @@ class Recorded(Operator):
         if len(x) != len(self._trials):
             raise InputError(f"{len(self._trials)} recorded trials cannot drive {len(x)} others; give the same trials")
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
         trials = self._trials
-        out = np.zeros((rows.size, trials.velocity.shape[1]))
-        under_way = cycle < trials.cycles[rows]
-        out[under_way] = trials.velocity[trials.first[rows[under_way]] + cycle]
-        return out
+        velocity = np.zeros((rows.size, trials.velocity.shape[1]))
+        in_progress = cycle < trials.cycles[rows]
+        velocity[in_progress] = trials.velocity[trials.first[rows[in_progress]] + cycle]
+        return velocity
 
     def gives_up(self, rows: Indices, cycle: int) -> NDArray[np.bool_]:
         """See :meth:`Operator.gives_up`."""
-        own_will = np.isin(self._trials.end[rows], (End.ABORTED, End.BROKEN_OFF))
-        return np.asarray(own_will & (cycle >= self._trials.cycles[rows]))
+        gave_up = np.isin(self._trials.end[rows], (End.ABORTED, End.BROKEN_OFF))
+        return np.asarray(gave_up & (cycle >= self._trials.cycles[rows]))
 
 
-def drive(
-    plants: Sequence[Plant],
+def drive_trials(
+    plants: Sequence[JoystickPlant],
     plant_of: ArrayLike,
     q0: ArrayLike,
     *,
     target: ArrayLike,
     healthy: ArrayLike,
     operator: Operator,
-    stick: Stick | None = None,
-    rules: Rules | None = None,
+    stick: Joystick | None = None,
+    rules: EndRules | None = None,
 ) -> Trials:
     """Run a batch of trials and record them.
 
@@ -148,56 +149,56 @@ def drive(
     Raises:
         InputError: Arrays that do not fit each other.
     """
-    rule = Rules() if rules is None else rules
+    end_rules = EndRules() if rules is None else rules
     n, m = plants[0].n, plants[0].m
-    q, goal, mask = (np.array(a, dtype=np.float64, ndmin=2) for a in (q0, target, healthy))
-    which = np.asarray(plant_of, dtype=np.int64)
-    count = len(which)
-    for what, a, width in (("q0", q, n), ("target", goal, m), ("healthy", mask, n)):
-        if a.shape != (count, width) or not np.isfinite(a).all():
+    q, goals, mask = (np.array(array, dtype=np.float64, ndmin=2) for array in (q0, target, healthy))
+    plant_index = np.asarray(plant_of, dtype=np.int64)
+    count = len(plant_index)
+    for name, array, width in (("q0", q, n), ("target", goals, m), ("healthy", mask, n)):
+        if array.shape != (count, width) or not np.isfinite(array).all():
             raise InputError(
-                f"{what} has shape {a.shape}; it must be ({count}, {width}), a row of finite numbers for each trial"
+                f"{name} has shape {array.shape}; it must be ({count}, {width}), a row of finite numbers for each trial"
             )
     x = plants[0].position(q)
-    operator.begin(x, goal)
-    end = np.full(count, End.TIME, dtype=np.uint8)
+    operator.begin(x, goals)
+    ends = np.full(count, End.TIME, dtype=np.uint8)
     q_end, x_end = q.copy(), x.copy()
-    still = np.zeros(count, dtype=np.int64)
-    rows = np.arange(count)
-    recorded: list[tuple[Indices, Array, Array, Array, Array]] = []
-    for cycle in range(rule.cycle_limit + 1):
-        wanted = operator.wanted(rows, cycle, x, target=goal[rows])
-        velocity = wanted if stick is None else stick.limited(wanted)
+    still_cycles = np.zeros(count, dtype=np.int64)
+    running = np.arange(count)
+    batches: list[tuple[Indices, Array, Array, Array, Array]] = []
+    for cycle in range(end_rules.cycle_limit + 1):
+        commanded = operator.command_velocity(running, cycle, x, target=goals[running])
+        velocity = commanded if stick is None else stick.limit_velocity(commanded)
         at_rest = np.asarray(~velocity.any(axis=1))
-        inside = np.linalg.norm(goal[rows] - x, axis=1) <= rule.radius
-        over = np.full(rows.size, End.TIME if cycle == rule.cycle_limit else _NOT_OVER, dtype=np.uint8)
-        over[still[rows] >= rule.patience] = End.STILL
-        over[inside & (at_rest | (not rule.at_rest))] = End.ARRIVED
-        over[operator.gives_up(rows, cycle)] = End.ABORTED
-        ended = over != _NOT_OVER
+        inside = np.linalg.norm(goals[running] - x, axis=1) <= end_rules.radius
+        outcomes = np.full(running.size, End.TIME if cycle == end_rules.cycle_limit else _NOT_OVER, dtype=np.uint8)
+        outcomes[still_cycles[running] >= end_rules.patience] = End.STILL
+        outcomes[inside & (at_rest | (not end_rules.at_rest))] = End.ARRIVED
+        outcomes[operator.gives_up(running, cycle)] = End.ABORTED
+        ended = outcomes != _NOT_OVER
         if ended.any():
-            done = rows[ended]
-            end[done], q_end[done], x_end[done] = over[ended], q[ended], x[ended]
-            on = ~ended
-            rows, at_rest = rows[on], at_rest[on]
-            q, x, velocity = q[on], x[on], velocity[on]
-        if not rows.size:
+            finished = running[ended]
+            ends[finished], q_end[finished], x_end[finished] = outcomes[ended], q[ended], x[ended]
+            continues = ~ended
+            running, at_rest = running[continues], at_rest[continues]
+            q, x, velocity = q[continues], x[continues], velocity[continues]
+        if not running.size:
             break
         q_next, actual = np.empty_like(q), np.empty_like(x)
-        for k, plant in enumerate(plants):
-            mine = np.flatnonzero(which[rows] == k)
-            if mine.size:
-                q_next[mine], actual[mine] = plant.cycles(q[mine], velocity[mine], mask[rows[mine]])
-        recorded.append((rows, velocity, q, x, actual))
+        for index, plant in enumerate(plants):
+            selected = np.flatnonzero(plant_index[running] == index)
+            if selected.size:
+                q_next[selected], actual[selected] = plant.step_batch(q[selected], velocity[selected], mask[running[selected]])
+        batches.append((running, velocity, q, x, actual))
         x_next = plants[0].position(q_next)
-        is_still = (np.linalg.norm(x_next - x, axis=1) < rule.still) & ~at_rest
-        still[rows] = np.where(is_still, still[rows] + 1, 0)
+        is_still = (np.linalg.norm(x_next - x, axis=1) < end_rules.still) & ~at_rest
+        still_cycles[running] = np.where(is_still, still_cycles[running] + 1, 0)
         q, x = q_next, x_next
-    return _gathered(recorded, count, n, m, q_end, x_end, goal, end)
+    return _gather_trials(batches, count, n, m, q_end, x_end, goals, ends)
 
 
-def _gathered(
-    recorded: list[tuple[Indices, Array, Array, Array, Array]],
+def _gather_trials(
+    batches: list[tuple[Indices, Array, Array, Array, Array]],
     count: int,
     n: int,
     m: int,
@@ -206,14 +207,14 @@ def _gathered(
     target: Array,
     end: NDArray[np.uint8],
 ) -> Trials:
-    """The cycles of all trials, sorted by trial."""
-    of = np.concatenate([np.empty(0, dtype=np.int64), *(r[0] for r in recorded)])
-    order = np.argsort(of, kind="stable")
+    """Gather the recorded cycles of all trials, sorted by trial."""
+    trial_of_cycle = np.concatenate([np.empty(0, dtype=np.int64), *(batch[0] for batch in batches)])
+    order = np.argsort(trial_of_cycle, kind="stable")
 
-    def sorted_cycles(k: int, width: int) -> Array:
-        return np.concatenate([np.empty((0, width)), *(r[k] for r in recorded)])[order]
+    def sorted_cycles(field_index: int, width: int) -> Array:
+        return np.concatenate([np.empty((0, width)), *(batch[field_index] for batch in batches)])[order]
 
-    first = np.concatenate([[0], np.cumsum(np.bincount(of, minlength=count))])
+    first = np.concatenate([[0], np.cumsum(np.bincount(trial_of_cycle, minlength=count))])
     return Trials(
         velocity=sorted_cycles(1, m),
         q=sorted_cycles(2, n),

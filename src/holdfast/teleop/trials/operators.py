@@ -1,4 +1,4 @@
-"""Simulated people at the stick. They are no people: every result made with them says "simulated".
+"""Simulated people who operate the joystick; every result made with them states that it is simulated.
 
 The parameters are a plausible population, never fitted to the paper's statistics. Where no source is named they are assumed.
 """
@@ -13,20 +13,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError
 from holdfast.teleop.trials.driving import Operator
-from holdfast.teleop.trials.stick import Stick
+from holdfast.teleop.trials.stick import Joystick
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_STOPS, _STARTS_AGAIN = 0.6, 0.9  # of the circle's radius: where the stick is released, and where it is used again
-_NOISE_MEMORY = 0.2  # s
-_HELD = 1.5  # s: how long another direction is tried
-_LOST = 0.05  # m: farther from the target by so much than one look-back ago is "moving away"
+_STOP_RADIUS_FRACTION, _RESTART_RADIUS_FRACTION = (
+    0.6,
+    0.9,
+)  # of the circle's radius: where the stick is released, and where it is used again
+_NOISE_MEMORY_S = 0.2  # s
+_DETOUR_DURATION_S = 1.5  # s: how long another direction is tried
+_LOST_DISTANCE_M = 0.05  # m: farther from the target by so much than one look-back ago is "moving away"
 
 
 @dataclass(frozen=True)
 class Person:
-    """How one simulated person steers.
+    """Steering parameters of one simulated person.
 
     Attributes:
         delay: From what is seen to what the end effector begins to do, s. About 0.24 s for a simple reaction: Card,
@@ -59,7 +62,7 @@ class Person:
                 raise InputError(f"a simulated person's {field.name} is {value:g}; it must be 0 or more")
 
 
-_SPREAD = {
+_PARAMETER_SPREAD = {
     "delay": 0.15,
     "lag": 0.25,
     "noise": 0.3,
@@ -72,8 +75,8 @@ _SPREAD = {
 """Standard deviation of the logarithm of each parameter between people; assumed."""
 
 
-def population(count: int, seed: int = 0, middle: Person | None = None) -> list[Person]:
-    """Simulated people, each different: every parameter is log-normal around that of ``middle``.
+def sample_people(count: int, seed: int = 0, middle: Person | None = None) -> list[Person]:
+    """Sample simulated people: every parameter is log-normal around that of ``middle``.
 
     Raises:
         InputError: Fewer than one person.
@@ -82,12 +85,15 @@ def population(count: int, seed: int = 0, middle: Person | None = None) -> list[
         raise InputError(f"{count} simulated operators were asked for; give 1 or more")
     typical = Person() if middle is None else middle
     generator = np.random.default_rng(seed)
-    factors = {name: np.exp(generator.normal(0.0, spread, count)) for name, spread in _SPREAD.items()}
-    return [Person(**{name: float(getattr(typical, name) * f[k]) for name, f in factors.items()}) for k in range(count)]
+    factors = {name: np.exp(generator.normal(0.0, spread, count)) for name, spread in _PARAMETER_SPREAD.items()}
+    return [
+        Person(**{name: float(getattr(typical, name) * factor[index]) for name, factor in factors.items()})
+        for index in range(count)
+    ]
 
 
 class SimulatedPeople(Operator):
-    """One simulated person for each trial of a batch.
+    """Operator with one simulated person for each trial of a batch.
 
     Args:
         people: (N,) who does each trial.
@@ -97,7 +103,7 @@ class SimulatedPeople(Operator):
         seed: Of the noise and of misjudged directions.
     """
 
-    def __init__(self, people: Sequence[Person], rate: float, stick: Stick, *, radius: float, seed: int = 0) -> None:
+    def __init__(self, people: Sequence[Person], rate: float, stick: Joystick, *, radius: float, seed: int = 0) -> None:
         self._people, self._rate, self._stick, self._radius = list(people), rate, stick, radius
         self._generator = np.random.default_rng(seed)
 
@@ -106,94 +112,113 @@ class SimulatedPeople(Operator):
         count, m = x.shape
         if count != len(self._people):
             raise InputError(f"there are {len(self._people)} simulated people for {count} trials; give one for each")
-        of = {f.name: np.array([getattr(p, f.name) for p in self._people]) for f in fields(Person)}
-        self._delay, self._look_back = of["delay"] * self._rate, np.maximum(of["look_back"] * self._rate, 1.0)
-        self._follow = 1 - np.exp(-1 / np.maximum(of["lag"] * self._rate, 1e-9))
-        self._noise, self._turn = of["noise"], of["turn"]
-        self._slowing, self._most = np.maximum(of["slowing"] * self._rate, 1.0), of["gives_up"] * self._rate
-        self._bias = of["bias"] * self._generator.normal(size=count)
-        self._aside = self._generator.normal(size=(count, m))  # the plane in which a spatial direction is misjudged
+        parameters = {
+            field.name: np.array([getattr(person, field.name) for person in self._people]) for field in fields(Person)
+        }
+        self._delay, self._look_back = parameters["delay"] * self._rate, np.maximum(parameters["look_back"] * self._rate, 1.0)
+        self._follow_gain = 1 - np.exp(-1 / np.maximum(parameters["lag"] * self._rate, 1e-9))
+        self._noise, self._detour_angle = parameters["noise"], parameters["turn"]
+        self._slowing, self._give_up_cycles = (
+            np.maximum(parameters["slowing"] * self._rate, 1.0),
+            parameters["gives_up"] * self._rate,
+        )
+        self._bias = parameters["bias"] * self._generator.normal(size=count)
+        self._bias_direction = self._generator.normal(size=(count, m))  # the plane in which a spatial direction is misjudged
         self._wobble = np.zeros((count, m))
         self._hand = np.zeros((count, m))
         self._stopped = np.zeros(count, dtype=bool)
         self._detour_until, self._detours = np.full(count, -1.0), np.zeros(count, dtype=np.int64)
         self._calm_until = np.zeros(count)
         self._side = np.where(self._generator.random(count) < 0.5, -1.0, 1.0)
-        self._seen = np.zeros((3 + int(np.ceil((self._delay + self._look_back).max())), count, m))  # of the last cycles
+        self._seen_positions = np.zeros(
+            (3 + int(np.ceil((self._delay + self._look_back).max())), count, m)
+        )  # of the last cycles
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
-        self._seen[cycle % len(self._seen), rows] = x
-        self._shake()
-        then = cycle - self._delay[rows]
-        seen, before = self._at(rows, then), self._at(rows, then - self._look_back[rows])
-        to_go = target - seen
-        distance = np.linalg.norm(to_go, axis=1)
-        lost_ground = distance - np.linalg.norm(target - before, axis=1)
-        self._reconsider(rows, cycle, np.linalg.norm(seen - before, axis=1), lost_ground)
-        self._stopped[rows] = np.where(
-            self._stopped[rows], distance < _STARTS_AGAIN * self._radius, distance < _STOPS * self._radius
+        self._seen_positions[cycle % len(self._seen_positions), rows] = x
+        self._update_wobble()
+        seen_cycle = cycle - self._delay[rows]
+        seen, earlier = (
+            self._interpolate_seen_positions(rows, seen_cycle),
+            self._interpolate_seen_positions(rows, seen_cycle - self._look_back[rows]),
         )
-        detour = np.where(cycle < self._detour_until[rows], self._side[rows] * self._turn[rows] * self._detours[rows], 0.0)
-        direction = _turned(to_go / np.maximum(distance, 1e-12)[:, None], self._bias[rows] + detour, self._aside[rows])
+        target_offset = target - seen
+        distance = np.linalg.norm(target_offset, axis=1)
+        retreat = distance - np.linalg.norm(target - earlier, axis=1)
+        self._start_detours(rows, cycle, np.linalg.norm(seen - earlier, axis=1), retreat)
+        self._stopped[rows] = np.where(
+            self._stopped[rows],
+            distance < _RESTART_RADIUS_FRACTION * self._radius,
+            distance < _STOP_RADIUS_FRACTION * self._radius,
+        )
+        detour = np.where(
+            cycle < self._detour_until[rows], self._side[rows] * self._detour_angle[rows] * self._detours[rows], 0.0
+        )
+        direction = _rotate_direction(
+            target_offset / np.maximum(distance, 1e-12)[:, None], self._bias[rows] + detour, self._bias_direction[rows]
+        )
         speed = np.minimum(self._stick.limit, distance / self._slowing[rows])
-        begun = (cycle >= self._delay[rows]) & ~self._stopped[rows]
-        aim = np.where(begun[:, None], speed[:, None] * direction, 0.0)
-        hand = self._hand[rows] + self._follow[rows, None] * (aim - self._hand[rows])
-        self._hand[rows] = hand
-        size = np.linalg.norm(hand, axis=1, keepdims=True)
-        return np.asarray(hand + size * self._noise[rows, None] * self._wobble[rows])
+        is_steering = (cycle >= self._delay[rows]) & ~self._stopped[rows]
+        aimed_velocity = np.where(is_steering[:, None], speed[:, None] * direction, 0.0)
+        hand_velocity = self._hand[rows] + self._follow_gain[rows, None] * (aimed_velocity - self._hand[rows])
+        self._hand[rows] = hand_velocity
+        hand_speed = np.linalg.norm(hand_velocity, axis=1, keepdims=True)
+        return np.asarray(hand_velocity + hand_speed * self._noise[rows, None] * self._wobble[rows])
 
     def gives_up(self, rows: Indices, cycle: int) -> NDArray[np.bool_]:
         """See :meth:`Operator.gives_up`."""
-        return np.asarray(cycle >= self._most[rows])
+        return np.asarray(cycle >= self._give_up_cycles[rows])
 
-    def _at(self, rows: Indices, time: Array) -> Array:
-        """What was to be seen at a time (K,), cycles; from before the start only the start."""
-        past = np.maximum(time, 0.0)
-        low = np.floor(past).astype(np.int64)
-        fraction = (past - low)[:, None]
-        length = len(self._seen)
+    def _interpolate_seen_positions(self, rows: Indices, time: Array) -> Array:
+        """Return the positions seen at times (K,), in cycles; for times before the start, the start."""
+        clipped = np.maximum(time, 0.0)
+        cycle_before = np.floor(clipped).astype(np.int64)
+        fraction = (clipped - cycle_before)[:, None]
+        length = len(self._seen_positions)
         # The fraction is 0 where there is no later cycle yet.
-        return np.asarray((1 - fraction) * self._seen[low % length, rows] + fraction * self._seen[(low + 1) % length, rows])
+        return np.asarray(
+            (1 - fraction) * self._seen_positions[cycle_before % length, rows]
+            + fraction * self._seen_positions[(cycle_before + 1) % length, rows]
+        )
 
-    def _shake(self) -> None:
-        """Noise of unit variance that lasts for a while, for all trials, whether they are over or not."""
-        keep = float(np.exp(-1 / (self._rate * _NOISE_MEMORY)))
-        fresh = self._generator.normal(size=self._wobble.shape)
-        self._wobble = keep * self._wobble + np.sqrt(1 - keep * keep) * fresh
+    def _update_wobble(self) -> None:
+        """Update the correlated noise of unit variance, for all trials, whether they are over or not."""
+        decay = float(np.exp(-1 / (self._rate * _NOISE_MEMORY_S)))
+        innovation = self._generator.normal(size=self._wobble.shape)
+        self._wobble = decay * self._wobble + np.sqrt(1 - decay * decay) * innovation
 
-    def _reconsider(self, rows: Indices, cycle: int, moved: Array, lost_ground: Array) -> None:
-        """Begin another direction where the straight one leads away, or nowhere.
+    def _start_detours(self, rows: Indices, cycle: int, moved: Array, retreat: Array) -> None:
+        """Start a detour in another direction where the straight one makes no progress or leads away from the target.
 
         Args:
             rows: (K,) trials under way.
             cycle: Now.
             moved: (K,) how far the end effector is from where it was one look-back ago, m.
-            lost_ground: (K,) by how much it is farther from the target, m.
+            retreat: (K,) by how much it is farther from the target, m.
         """
-        watched = cycle - self._delay[rows] >= self._look_back[rows]
-        free = watched & (cycle >= self._calm_until[rows]) & ~self._stopped[rows]
-        lost = free & ((lost_ground > _LOST) | (moved < 0.1 * _LOST))
-        tired = rows[lost]
-        self._detours[tired] += 1
-        self._side[tired] *= -1
-        self._detour_until[tired] = cycle + _HELD * self._rate
-        self._calm_until[tired] = self._detour_until[tired] + self._look_back[tired]
+        is_established = cycle - self._delay[rows] >= self._look_back[rows]
+        may_detour = is_established & (cycle >= self._calm_until[rows]) & ~self._stopped[rows]
+        is_lost = may_detour & ((retreat > _LOST_DISTANCE_M) | (moved < 0.1 * _LOST_DISTANCE_M))
+        detouring = rows[is_lost]
+        self._detours[detouring] += 1
+        self._side[detouring] *= -1
+        self._detour_until[detouring] = cycle + _DETOUR_DURATION_S * self._rate
+        self._calm_until[detouring] = self._detour_until[detouring] + self._look_back[detouring]
 
 
-def _turned(direction: Array, angle: Array, aside: Array) -> Array:
-    """Unit vectors (K, m) turned by angles (K,): to the left in the plane, towards ``aside`` in space."""
+def _rotate_direction(direction: Array, angle: Array, reference: Array) -> Array:
+    """Rotate unit vectors (K, m) by angles (K,): to the left in the plane, towards ``aside`` in space."""
     if direction.shape[1] == 2:
-        across = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
+        normal = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
     else:
-        across = aside - np.einsum("ij,ij->i", aside, direction)[:, None] * direction
-        across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-12)
-    return np.asarray(np.cos(angle)[:, None] * direction + np.sin(angle)[:, None] * across)
+        normal = reference - np.einsum("ij,ij->i", reference, direction)[:, None] * direction
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
+    return np.asarray(np.cos(angle)[:, None] * direction + np.sin(angle)[:, None] * normal)
 
 
-def rate(time: ArrayLike, ideal: ArrayLike, steps: int = 4, *, seed: int = 0) -> NDArray[np.int64]:
-    """What a simulated person says about the comfort of trials: by how many times the ideal time they took.
+def rate_comfort(time: ArrayLike, ideal: ArrayLike, steps: int = 4, *, seed: int = 0) -> NDArray[np.int64]:
+    """Rate the comfort of trials like a simulated person, from the ratio of their time to the ideal time.
 
     The first step ends at 1.5 times, each further one 1.6 times later (with four steps: 1.5, 2.4, 3.8), all blurred by a
     factor of 1.2 up or down (one standard deviation). Assumed, and not fitted.
@@ -207,10 +232,10 @@ def rate(time: ArrayLike, ideal: ArrayLike, steps: int = 4, *, seed: int = 0) ->
     Returns:
         (N,) steps from 0.
     """
-    taken, least = np.broadcast_arrays(np.asarray(time, dtype=np.float64), np.asarray(ideal, dtype=np.float64))
-    blur = np.random.default_rng(seed).normal(0.0, np.log(1.2), taken.shape)
+    durations, ideal_durations = np.broadcast_arrays(np.asarray(time, dtype=np.float64), np.asarray(ideal, dtype=np.float64))
+    noise = np.random.default_rng(seed).normal(0.0, np.log(1.2), durations.shape)
     limits = np.log(1.5) + np.arange(steps - 1) * np.log(1.6)
     with np.errstate(invalid="ignore"):
-        felt = np.log(taken / least) + blur
-        level = (felt[..., None] > limits).sum(axis=-1)
-    return np.where(np.isnan(felt), steps - 1, level)
+        log_ratios = np.log(durations / ideal_durations) + noise
+        ratings = (log_ratios[..., None] > limits).sum(axis=-1)
+    return np.where(np.isnan(log_ratios), steps - 1, ratings)

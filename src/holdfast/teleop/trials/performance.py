@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Measure:
-    """One measure.
+    """Measure of performance of a trial.
 
     Attributes:
         name: M1 to M12.
@@ -48,12 +48,12 @@ MEASURES = (
     Measure("M11", "command variation", "m/cycle"),
     Measure("M12", "subjective operator assessment", "1"),
 )
-RECORDED = 11  # of them: all but the rating
-_STILL = 1e-12  # of the command: below it the end effector has no direction
+RECORDED_MEASURES = 11  # of them: all but the rating
+_MIN_SPEED_FRACTION = 1e-12  # of the command: below it the end effector has no direction
 
 
-def measures(trials: Trials) -> Array:
-    """M1 to M11 of each trial.
+def compute_measures(trials: Trials) -> Array:
+    """Compute the measures M1 to M11 of each trial.
 
     With the commanded velocity v, its actual velocity a at the beginning of a cycle, its position x, and the straight
     segment from the start to the target:
@@ -74,64 +74,72 @@ def measures(trials: Trials) -> Array:
 
     Source: reconstruction of the lost table of Goel et al. 2003.
     """
-    count, first, of = len(trials), trials.first[:-1], trials.of_cycle()
-    sizes = trials.cycles
-    out = np.zeros((count, RECORDED))
-    begun = np.flatnonzero(sizes > 0)
+    count, first, trial_of_cycle = len(trials), trials.first[:-1], trials.of_cycle()
+    cycle_counts = trials.cycles
+    result = np.zeros((count, RECORDED_MEASURES))
+    started = np.flatnonzero(cycle_counts > 0)
 
-    def total(values: Array) -> Array:
-        return np.asarray(np.bincount(of, weights=values, minlength=count), dtype=np.float64)
+    def sum_by_trial(values: Array) -> Array:
+        return np.asarray(np.bincount(trial_of_cycle, weights=values, minlength=count), dtype=np.float64)
 
-    def largest(values: Array) -> Array:
-        found = np.zeros(count)
-        if begun.size:
-            found[begun] = np.maximum.reduceat(values, first[begun])
-        return found
+    def max_by_trial(values: Array) -> Array:
+        maxima = np.zeros(count)
+        if started.size:
+            maxima[started] = np.maximum.reduceat(values, first[started])
+        return maxima
 
-    def after(here: Array, end: Array) -> Array:
-        """The same quantity one cycle later."""
-        later = np.empty_like(here)
-        later[:-1] = here[1:]
-        later[first[begun] + sizes[begun] - 1] = end[begun]
-        return later
+    def shift_by_cycle(values: Array, end: Array) -> Array:
+        """Return the same quantity one cycle later."""
+        shifted = np.empty_like(values)
+        shifted[:-1] = values[1:]
+        shifted[first[started] + cycle_counts[started] - 1] = end[started]
+        return shifted
 
-    x, x_after = trials.x, after(trials.x, trials.x_end)
+    x, x_after = trials.x, shift_by_cycle(trials.x, trials.x_end)
     start, target = trials.start(), trials.target
-    aside, aside_end = _distance(x, start[of], target[of]), _distance(trials.x_end, start, target)
-    away = np.linalg.norm(x_after - target[of], axis=1) - np.linalg.norm(x - target[of], axis=1)
-    out[:, 0] = sizes
-    out[:, 1] = total(np.linalg.norm(x_after - x, axis=1))
-    out[:, 2] = np.maximum(largest(aside), aside_end)
-    out[:, 3] = (total(aside) + aside_end) / (sizes + 1)
-    out[:, 4] = total(np.maximum(away, 0.0))
-    out[:, 5] = total(np.abs(after(trials.q, trials.q_end) - trials.q).sum(axis=1))
+    deviation, deviation_end = (
+        _distance_to_segment(x, start[trial_of_cycle], target[trial_of_cycle]),
+        _distance_to_segment(trials.x_end, start, target),
+    )
+    distance_change = np.linalg.norm(x_after - target[trial_of_cycle], axis=1) - np.linalg.norm(
+        x - target[trial_of_cycle], axis=1
+    )
+    result[:, 0] = cycle_counts
+    result[:, 1] = sum_by_trial(np.linalg.norm(x_after - x, axis=1))
+    result[:, 2] = np.maximum(max_by_trial(deviation), deviation_end)
+    result[:, 3] = (sum_by_trial(deviation) + deviation_end) / (cycle_counts + 1)
+    result[:, 4] = sum_by_trial(np.maximum(distance_change, 0.0))
+    result[:, 5] = sum_by_trial(np.abs(shift_by_cycle(trials.q, trials.q_end) - trials.q).sum(axis=1))
 
     v, a = trials.velocity, trials.actual
-    speed, done = np.linalg.norm(v, axis=1), np.linalg.norm(a, axis=1)
+    speed, actual_speed = np.linalg.norm(v, axis=1), np.linalg.norm(a, axis=1)
     commanded = speed > 0
-    moved = commanded & (done > _STILL * speed)
+    has_moved = commanded & (actual_speed > _MIN_SPEED_FRACTION * speed)
     with np.errstate(divide="ignore", invalid="ignore"):
         error = np.where(commanded, np.linalg.norm(v - a, axis=1) / speed, 0.0)
-        unit, done_unit = v / speed[:, None], a / done[:, None]
+        direction, actual_direction = v / speed[:, None], a / actual_speed[:, None]
         # Exact also for small angles and for those close to pi, unlike the arc cosine.
-        apart, along = np.linalg.norm(unit - done_unit, axis=1), np.linalg.norm(unit + done_unit, axis=1)
-        angle = np.where(moved, 2 * np.arctan2(apart, along), 0.0)
-    out[:, 6] = total(error) / np.maximum(total(commanded.astype(float)), 1)
-    out[:, 7] = largest(error)
-    out[:, 8] = total(angle) / np.maximum(total(moved.astype(float)), 1)
-    out[:, 9] = largest(angle)
+        difference_norm, sum_norm = (
+            np.linalg.norm(direction - actual_direction, axis=1),
+            np.linalg.norm(direction + actual_direction, axis=1),
+        )
+        angle = np.where(has_moved, 2 * np.arctan2(difference_norm, sum_norm), 0.0)
+    result[:, 6] = sum_by_trial(error) / np.maximum(sum_by_trial(commanded.astype(float)), 1)
+    result[:, 7] = max_by_trial(error)
+    result[:, 8] = sum_by_trial(angle) / np.maximum(sum_by_trial(has_moved.astype(float)), 1)
+    result[:, 9] = max_by_trial(angle)
     change = np.zeros(len(v))
     if len(v):
         change[:-1] = np.linalg.norm(np.diff(v, axis=0), axis=1)
-        change[first[begun] + sizes[begun] - 1] = 0.0
-    out[:, 10] = total(change)
-    out[~trials.completed] = np.nan
-    return out
+        change[first[started] + cycle_counts[started] - 1] = 0.0
+    result[:, 10] = sum_by_trial(change)
+    result[~trials.is_completed] = np.nan
+    return result
 
 
 @dataclass(frozen=True, eq=False)
 class CPM:
-    """Combined performance measures with the normalisers they were made with.
+    """Combined performance measures with their normalisers.
 
     Attributes:
         values: CPM of each trial, in the shape of the trials; NaN where a measure is.
@@ -142,8 +150,8 @@ class CPM:
     normalisers: Array
 
 
-def cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
-    """The combined performance measure (11): the sum of all measures, each divided by its largest value.
+def compute_cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
+    """Compute the combined performance measure (11): the sum of all measures, each divided by its largest value.
 
     One extreme trial sets a normaliser, and with it the level of all CPM: compare ratios and raw measures, not levels of
     different sets.
@@ -160,23 +168,27 @@ def cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
 
     Source: Goel et al. 2003, eq. (11); a term whose largest value is 0 is 0.
     """
-    m = np.asarray(values, dtype=np.float64)
-    if m.ndim < 1 or (m.size and np.nanmin(m, initial=0.0) < 0):
+    measured = np.asarray(values, dtype=np.float64)
+    if measured.ndim < 1 or (measured.size and np.nanmin(measured, initial=0.0) < 0):
         raise InputError("measures must be a list of numbers of 0 or more, a row for each trial")
-    flat = m.reshape(-1, m.shape[-1])
+    by_trial = measured.reshape(-1, measured.shape[-1])
     if normalisers is None:
-        largest = np.nanmax(flat, axis=0, initial=0.0, where=~np.isnan(flat)) if flat.size else np.zeros(m.shape[-1])
+        largest = (
+            np.nanmax(by_trial, axis=0, initial=0.0, where=~np.isnan(by_trial))
+            if by_trial.size
+            else np.zeros(measured.shape[-1])
+        )
     else:
         largest = np.asarray(normalisers, dtype=np.float64)
-        if largest.shape != m.shape[-1:]:
-            raise InputError(f"there are {largest.size} normalisers for {m.shape[-1]} measures; give one for each")
-    terms = np.where(largest > 0, m / np.where(largest > 0, largest, 1.0), np.where(np.isnan(m), np.nan, 0.0))
+        if largest.shape != measured.shape[-1:]:
+            raise InputError(f"there are {largest.size} normalisers for {measured.shape[-1]} measures; give one for each")
+    terms = np.where(largest > 0, measured / np.where(largest > 0, largest, 1.0), np.where(np.isnan(measured), np.nan, 0.0))
     return CPM(terms.sum(axis=-1), np.asarray(largest))
 
 
-def _distance(x: Array, start: Array, end: Array) -> Array:
-    """(K,) distances of points (K, m) from segments."""
-    along = end - start
-    size = np.einsum("ij,ij->i", along, along)
-    fraction = np.einsum("ij,ij->i", x - start, along) / np.where(size > 0, size, 1.0)
-    return np.asarray(np.linalg.norm(x - start - np.clip(fraction, 0.0, 1.0)[:, None] * along, axis=1))
+def _distance_to_segment(x: Array, start: Array, end: Array) -> Array:
+    """Return the (K,) distances of points (K, m) from segments."""
+    segment = end - start
+    squared_length = np.einsum("ij,ij->i", segment, segment)
+    fraction = np.einsum("ij,ij->i", x - start, segment) / np.where(squared_length > 0, squared_length, 1.0)
+    return np.asarray(np.linalg.norm(x - start - np.clip(fraction, 0.0, 1.0)[:, None] * segment, axis=1))

@@ -1,4 +1,4 @@
-"""Recorded trials: what was commanded, where the arm was, and how each trial ended."""
+"""Recorded trials: the commands, the motion of the arm, and the end of each trial."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 class End(IntEnum):
-    """How one trial ended."""
+    """End of one trial."""
 
     ARRIVED = 0
     STILL = 1
@@ -23,11 +23,11 @@ class End(IntEnum):
 
     @property
     def sentence(self) -> str:
-        """What it means, for people."""
-        return _SENTENCES[self]
+        """Meaning of the end, as a sentence for people."""
+        return _END_SENTENCES[self]
 
 
-_SENTENCES = {
+_END_SENTENCES = {
     End.ARRIVED: "the end effector reached the target circle",
     End.STILL: "the end effector was still although it was commanded to move",
     End.TIME: "the cycles allowed were over",
@@ -38,7 +38,7 @@ _SENTENCES = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RecordedCycles:
-    """Rows of N trials as they are in the records, trial i's at ``first[i]`` to ``first[i + 1]``, the last of them its end.
+    """Stored rows of N trials, trial i's at ``first[i]`` to ``first[i + 1]``, with its end in the last of them.
 
     Attributes:
         time: (R,) s since the trial began, by the clock of who held the stick; NaN at the end.
@@ -55,7 +55,7 @@ class RecordedCycles:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Trials:
-    """N recorded trials; their C cycles lie one after the other, trial i's at ``first[i]`` to ``first[i + 1]``.
+    """N recorded trials; their C cycles are concatenated, trial i's at ``first[i]`` to ``first[i + 1]``.
 
     Attributes:
         velocity: (C, m) commanded in each cycle, after dead zone and limit, m/cycle.
@@ -84,39 +84,39 @@ class Trials:
 
     @property
     def cycles(self) -> NDArray[np.int64]:
-        """(N,) number of cycles of each trial."""
+        """Number (N,) of cycles of each trial."""
         return np.diff(self.first)
 
     @property
-    def completed(self) -> NDArray[np.bool_]:
+    def is_completed(self) -> NDArray[np.bool_]:
         """(N,) True where the end effector reached the target circle."""
         return np.asarray(self.end == End.ARRIVED)
 
     def of_cycle(self) -> NDArray[np.int64]:
-        """(C,) which trial each cycle belongs to."""
+        """Return the trial (C,) of each cycle."""
         return np.repeat(np.arange(len(self)), self.cycles)
 
     def start(self) -> Array:
-        """(N, m) tool point at the start, m."""
-        begun = self.cycles > 0
-        out = self.x_end.copy()
-        out[begun] = self.x[self.first[:-1][begun]]
-        return out
+        """Return the tool point (N, m) at the start, m."""
+        has_cycles = self.cycles > 0
+        starts = self.x_end.copy()
+        starts[has_cycles] = self.x[self.first[:-1][has_cycles]]
+        return starts
 
     def path(self, i: int) -> Array:
-        """(K + 1, m) the tool point of trial i, from start to end, m."""
+        """Return the tool point (K + 1, m) of trial i, from start to end, m."""
         return np.vstack([self.x[self.first[i] : self.first[i + 1]], self.x_end[i]])
 
     def configurations(self, i: int) -> Array:
-        """(K + 1, n) the configurations of trial i, from start to end, rad and m."""
+        """Return the configurations (K + 1, n) of trial i, from start to end, rad and m."""
         return np.vstack([self.q[self.first[i] : self.first[i + 1]], self.q_end[i]])
 
     def take(self, rows: Sequence[int] | NDArray[np.int64]) -> Trials:
-        """Some of the trials, in the order given."""
+        """Return some of the trials, in the given order."""
         chosen = np.asarray(rows, dtype=np.int64)
-        sizes = self.cycles[chosen]
-        first = np.concatenate([[0], np.cumsum(sizes)])
-        cycles = np.repeat(self.first[chosen] - first[:-1], sizes) + np.arange(first[-1])
+        cycle_counts = self.cycles[chosen]
+        first = np.concatenate([[0], np.cumsum(cycle_counts)])
+        cycles = np.repeat(self.first[chosen] - first[:-1], cycle_counts) + np.arange(first[-1])
         return Trials(
             velocity=self.velocity[cycles],
             q=self.q[cycles],
@@ -130,10 +130,10 @@ class Trials:
         )
 
     @staticmethod
-    def joined(parts: Sequence[Trials]) -> Trials:
-        """The trials of several sets, one set after the other."""
-        starts = np.cumsum([0, *(len(p.velocity) for p in parts)])
-        first = np.concatenate([*(p.first[:-1] + s for p, s in zip(parts, starts, strict=False)), starts[-1:]])
+    def concatenate(parts: Sequence[Trials]) -> Trials:
+        """Return the trials of several sets, one set after the other."""
+        starts = np.cumsum([0, *(len(part.velocity) for part in parts)])
+        first = np.concatenate([*(part.first[:-1] + start for part, start in zip(parts, starts, strict=False)), starts[-1:]])
         names = ("velocity", "q", "x", "actual", "q_end", "x_end", "target", "end")
-        arrays = {name: np.concatenate([getattr(p, name) for p in parts]) for name in names}
+        arrays = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
         return Trials(first=first, **arrays)

@@ -1,4 +1,4 @@
-"""What an operator is asked to do: steer the end effector from a start to a target, and under which conditions."""
+"""Point-to-point tasks of the end effector, and the scenarios in which operators do them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Scenario:
-    """One condition of a trial: a control law, and whether the task's joint has failed.
+    """Condition of a trial: a control law, and whether the task's joint has failed.
 
     Attributes:
         number: As people count, from 1.
@@ -35,11 +35,11 @@ class Scenario:
 
     @property
     def label(self) -> str:
-        """For people: ``failed, pseudoinverse``."""
+        """Label for people: ``failed, pseudoinverse``."""
         return f"{'failed' if self.failed else 'healthy'}, {self.law}"
 
     def make_law(self, arm: Arm, task: str | Task | Sequence[str] = "planar") -> Law:
-        """The control law of an arm and the task rows that the stick moves.
+        """Make the control law of an arm for the task components that the joystick commands.
 
         Raises:
             InputError: Unknown law, or an option that it does not have.
@@ -73,13 +73,13 @@ class PointTasks:
     def __len__(self) -> int:
         return len(self.joint)
 
-    def healthy(self, failed: bool | NDArray[np.bool_]) -> Array:
-        """(N, n) 1, or 0 for a joint that is locked; ``failed`` for all tasks, or (N,) for each."""
+    def healthy_mask(self, failed: bool | NDArray[np.bool_]) -> Array:
+        """Return the mask (N, n): 1, or 0 for a joint that is locked; ``failed`` for all tasks, or (N,) for each."""
         mask = np.ones(self.q0.shape)
-        rows = np.flatnonzero((self.joint >= 0) & failed)
-        mask[rows, self.joint[rows]] = 0.0
+        locked = np.flatnonzero((self.joint >= 0) & failed)
+        mask[locked, self.joint[locked]] = 0.0
         return mask
 
     def take(self, rows: NDArray[np.int64]) -> PointTasks:
-        """Some of the tasks, in the order given."""
+        """Return some of the tasks, in the given order."""
         return PointTasks(self.q0[rows], self.target[rows], self.joint[rows])

@@ -1,4 +1,4 @@
-"""The stick: what its deflection commands."""
+"""Joystick: from its deflection to the commanded velocity."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Stick:
-    """Rate control: the commanded velocity of the end effector is proportional to the deflection, outside a dead zone.
+class Joystick:
+    """Rate control by joystick: the commanded velocity of the end effector is proportional to the deflection, outside a dead
+    zone.
 
     Nothing is rescaled outside the dead zone.
 
@@ -39,13 +40,13 @@ class Stick:
                 f"the dead zone is {self.dead_zone:g} m/cycle; it must be 0 or more, and below the limit of {self.limit:g}"
             )
 
-    def velocity(self, deflection: ArrayLike) -> Array:
-        """Commanded velocity (..., m), m/cycle, for a deflection (..., m) of -1 to 1, 0 in the middle."""
-        return self.limited(self.limit * np.asarray(deflection, dtype=np.float64))
+    def command_velocity(self, deflection: ArrayLike) -> Array:
+        """Return the commanded velocity (..., m), m/cycle, for a deflection (..., m) of -1 to 1, 0 in the middle."""
+        return self.limit_velocity(self.limit * np.asarray(deflection, dtype=np.float64))
 
-    def limited(self, velocity: ArrayLike) -> Array:
-        """A wanted velocity (..., m), m/cycle, after dead zone and limit."""
+    def limit_velocity(self, velocity: ArrayLike) -> Array:
+        """Apply dead zone and limit to a velocity (..., m), m/cycle."""
         v = np.asarray(velocity, dtype=np.float64)
         speed = np.linalg.norm(v, axis=-1, keepdims=True)
-        slower = np.where(speed > self.limit, self.limit / np.maximum(speed, self.limit), 1.0)
-        return np.asarray(np.where(speed < self.dead_zone, 0.0, v * slower))
+        factor = np.where(speed > self.limit, self.limit / np.maximum(speed, self.limit), 1.0)
+        return np.asarray(np.where(speed < self.dead_zone, 0.0, v * factor))

@@ -1,4 +1,4 @@
-"""How often the arm collides with itself or its cell, and what it was taken to be."""
+"""Frequency of collisions of the arm with itself or its cell, and the collision model that was used."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ import numpy as np
 
 from holdfast.assessment.rows import Collisions
 from holdfast.clearance.clearance import Clearance
-from holdfast.present.assessment.facts import Facts
-from holdfast.present.clearance.shape import cell_text
+from holdfast.present.assessment.facts import AssessmentFacts
+from holdfast.present.clearance.shape import describe_cell
 from holdfast.report import figures
 from holdfast.report.page import Block, Callout, Picture, Table, Text
-from holdfast.words import counted, interval, percent, share
+from holdfast.words import format_count, format_interval, format_percent, format_share
 
 TITLE = "Does the arm collide with {others}?"
-_MOST_NAMED = 6  # pairs that are not checked, by name
+_MAX_NAMED_PAIRS = 6  # pairs that are not checked, by name
 
 
-def blocks(f: Facts) -> list[Block]:
-    """How often the arm collides; that nobody looked, if the run chose configurations without looking."""
-    found, clearance = f.a.collisions, f.a.plan.clearance
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Build the table of collisions; a remark if configurations were optimised without checking for collisions."""
+    found, clearance = facts.assessment.collisions, facts.assessment.plan.clearance
     if found is None or clearance is None:
-        if f.a.optimised is None:
+        if facts.assessment.optimised is None:
             return []
         return [Text("Not checked: nothing kept the best configurations from a collision of the arm with itself.")]
     if not found.reached:
         return []
-    arm, capsules = f.a.arm, clearance.capsules
+    arm, capsules = facts.assessment.arm, clearance.capsules
     blocks: list[Block] = []
     if capsules.assumed(arm):
         text = (
@@ -35,37 +35,47 @@ def blocks(f: Facts) -> list[Block]:
             "1/20 of the sum of the link lengths. Give the real one by --capsules, or its radius by --radius."
         )
         blocks.append(Callout(text))
-    most, cell = "at most " * (clearance.cell is not None), clearance.cell
-    hit = f"{most}{share(found.found, found.reached)}"
-    facts = [(f"Configurations found that bring the arm into collision with {f.others}", hit)]
-    if f.a.clear is not None:
-        facts.append((f"Poses reached clear of {f.everything}", f"at least {interval(f.a.reached_clear())} of all"))
-    if f.a.optimised is not None:
-        close = clearance.too_close(found.margin)
-        facts += [
-            (f"Poses at whose best configuration the arm {close}", share(found.blocked, found.reached)),
-            ("… and one that is clear was chosen instead", share(found.blocked - found.hopeless, found.reached)),
+    prefix, cell = "at most " * (clearance.cell is not None), clearance.cell
+    hit_text = f"{prefix}{format_share(found.found, found.reached)}"
+    entries = [(f"Configurations found that bring the arm into collision with {facts.collision_objects}", hit_text)]
+    if facts.assessment.clear is not None:
+        entries.append(
+            (
+                f"Poses reached clear of {facts.avoided_objects}",
+                f"at least {format_interval(facts.assessment.reached_clear())} of all",
+            )
+        )
+    if facts.assessment.optimised is not None:
+        verb_phrase = clearance.too_close(found.margin)
+        entries += [
+            (f"Poses at whose best configuration the arm {verb_phrase}", format_share(found.blocked, found.reached)),
+            ("… and one that is clear was chosen instead", format_share(found.blocked - found.hopeless, found.reached)),
             (
                 "… and no clear one was found; they count as not reached after optimisation",
-                share(found.hopeless, found.reached),
+                format_share(found.hopeless, found.reached),
             ),
             ("Smallest clearance asked of the best configurations", f"{found.margin:g} m"),
         ]
-    closest = _closest(f, clearance)
+    closest = _describe_closest_pair(facts, clearance)
     if closest:
-        facts.append((f"Closest where the arm collides with {f.others}", closest))
-    facts += [
+        entries.append((f"Closest where the arm collides with {facts.collision_objects}", closest))
+    entries += [
         ("Capsules", capsules.describe(arm)),
         *(
             []
             if cell is None
-            else [("Cell", f"{cell_text(cell)}; margin {cell.margin:g} m, or an object's own if that is larger")]
+            else [("Cell", f"{describe_cell(cell)}; margin {cell.margin:g} m, or an object's own if that is larger")]
         ),
-        ("Checked", counted(len(clearance.pairs), "pair") + " of capsules"),
-        ("Not checked", _ignored(clearance)),
+        ("Checked", format_count(len(clearance.pairs), "pair") + " of capsules"),
+        ("Not checked", _describe_ignored_pairs(clearance)),
     ]
-    blocks.append(Table([[k, v] for k, v in facts], caption=f"Of the {found.reached:,} {f.reached}, not weighted."))
-    blocks += _with_each(f, found)
+    blocks.append(
+        Table(
+            [[label, value] for label, value in entries],
+            caption=f"Of the {found.reached:,} {facts.reached_noun}, not weighted.",
+        )
+    )
+    blocks += _build_contact_blocks(facts, found)
     text = (
         "Links are named by the joint that moves them. The clearance is the smallest distance between capsules that could meet."
     )
@@ -74,62 +84,77 @@ def blocks(f: Facts) -> list[Block]:
     return [*blocks, Text(text, quiet=True)]
 
 
-def _with_each(f: Facts, found: Collisions) -> list[Block]:
-    """Which object is in the way most often, if there is a cell."""
-    names = [name for name, count in found.with_each.items() if count or found.blocked_by[name]]
+def _build_contact_blocks(facts: AssessmentFacts, collisions: Collisions) -> list[Block]:
+    """Build the figure of the objects that the arm touches most often, if there is a cell."""
+    names = [name for name, count in collisions.with_each.items() if count or collisions.blocked_by[name]]
     if not names:
         return []
-    names.sort(key=lambda name: -found.with_each[name])
-    what = f"{f.noun}s at whose configuration the arm touches it, at most"
-    figure = figures.bar_figure(names, [found.with_each[name] for name in names], what, total=found.reached)
-    words = "What the arm touches at the configurations found; a configuration that touches several counts for each."
-    blocks: list[Block] = [Picture(figures.svg(figure, "in-the-way", "What the arm touches"), words)]
-    if found.blocked:
-        barred = sorted(names, key=lambda name: -found.blocked_by[name])
-        rows = [[name, share(found.blocked_by[name], found.reached)] for name in barred if found.blocked_by[name]]
-        blocks.append(Table(rows, ["Nearest at the best configuration, where that is not clear", f"{f.noun}s"], frozenset({1})))
+    names.sort(key=lambda name: -collisions.with_each[name])
+    axis_label = f"{facts.noun}s at whose configuration the arm touches it, at most"
+    figure = figures.bar_figure(names, [collisions.with_each[name] for name in names], axis_label, total=collisions.reached)
+    explanation = "What the arm touches at the configurations found; a configuration that touches several counts for each."
+    blocks: list[Block] = [Picture(figures.svg(figure, "in-the-way", "What the arm touches"), explanation)]
+    if collisions.blocked:
+        blocking_names = sorted(names, key=lambda name: -collisions.blocked_by[name])
+        table_rows = [
+            [name, format_share(collisions.blocked_by[name], collisions.reached)]
+            for name in blocking_names
+            if collisions.blocked_by[name]
+        ]
+        blocks.append(
+            Table(table_rows, ["Nearest at the best configuration, where that is not clear", f"{facts.noun}s"], frozenset({1}))
+        )
     return blocks
 
 
-def _closest(f: Facts, clearance: Clearance) -> str:
-    """The pair that is closest most often where the arm collides, or nothing."""
-    if f.rows is None:
+def _describe_closest_pair(facts: AssessmentFacts, clearance: Clearance) -> str:
+    """Describe the pair that is closest most often where the arm collides; empty if no reached configuration collides."""
+    if facts.poses is None:
         return ""
-    q = f.rows.q[f.rows.reached]
+    q = facts.poses.q[facts.poses.reached]
     q = q[clearance(q) < 0]
     if not len(q):
         return ""
     counts = np.bincount(clearance.closest_pair(q), minlength=len(clearance.pair_names))
-    k = int(counts.argmax())
-    return f"{clearance.pair_names[k]}, in {percent(counts[k] / len(q))} of {counted(len(q), f.noun)}"
+    pair = int(counts.argmax())
+    return f"{clearance.pair_names[pair]}, in {format_percent(counts[pair] / len(q))} of {format_count(len(q), facts.noun)}"
 
 
-def _ignored(clearance: Clearance) -> str:
-    """Pairs that are not checked, and why."""
+def _describe_ignored_pairs(clearance: Clearance) -> str:
+    """Describe the pairs that are not checked, with the reasons."""
     if not clearance.ignored:
         return "none"
-    short = {"adjacent links": "adjacent links", "to be ignored": "as the capsules say"}
-    groups = Counter(short.get(p.reason, "") for p in clearance.ignored)
-    parts = [f"{n} of {reason}" if reason == "adjacent links" else f"{n} {reason}" for reason, n in groups.items() if reason]
+    phrases = {"adjacent links": "adjacent links", "to be ignored": "as the capsules say"}
+    groups = Counter(phrases.get(pair.reason, "") for pair in clearance.ignored)
+    parts = [
+        f"{count} of {reason}" if reason == "adjacent links" else f"{count} {reason}"
+        for reason, count in groups.items()
+        if reason
+    ]
     if groups[""]:
-        names = [p.name for p in clearance.ignored if p.reason not in short]
-        more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
-        parts.append(f"{len(names)} that overlap nearly always, so by construction: {', '.join(names[:_MOST_NAMED])}{more}")
-    return f"{counted(len(clearance.ignored), 'pair')} on different links: {'; '.join(parts)}"
+        names = [pair.name for pair in clearance.ignored if pair.reason not in phrases]
+        remainder = f" and {len(names) - _MAX_NAMED_PAIRS} more" if len(names) > _MAX_NAMED_PAIRS else ""
+        parts.append(
+            f"{len(names)} that overlap nearly always, so by construction: {', '.join(names[:_MAX_NAMED_PAIRS])}{remainder}"
+        )
+    return f"{format_count(len(clearance.ignored), 'pair')} on different links: {'; '.join(parts)}"
 
 
-def summary(f: Facts) -> str:
-    """One line for the key numbers, or nothing."""
-    found, clearance = f.a.collisions, f.a.plan.clearance
-    if found is None or clearance is None or not found.reached:
+def summarize_collisions(facts: AssessmentFacts) -> str:
+    """Summarize the collisions in one line for the key numbers; empty if collisions were not checked."""
+    counts, clearance = facts.assessment.collisions, facts.assessment.plan.clearance
+    if counts is None or clearance is None or not counts.reached:
         return ""
-    most = "at most " * (clearance.cell is not None)
-    text = f"{most}{percent(found.found / found.reached)} of the configurations found"
-    if f.a.clear is not None:
-        text += f"; at least {interval(f.a.reached_clear())} of the poses are reached by a clear one"
-    if f.a.optimised is not None:
-        kept = f"keep a clearance of {found.margin:g} m" if found.margin else f"keep the arm clear of {f.everything}"
-        text += f"; the best configurations {kept}, which {percent(found.blocked / found.reached)} of them otherwise would not"
-        text += f", and {counted(found.hopeless, 'pose')} cannot" if found.hopeless else ""
-    around = "" if clearance.cell is None else f"; {cell_text(clearance.cell)}"
-    return f"{text} ({clearance.capsules.describe(f.a.arm)}{around})"
+    prefix = "at most " * (clearance.cell is not None)
+    text = f"{prefix}{format_percent(counts.found / counts.reached)} of the configurations found"
+    if facts.assessment.clear is not None:
+        text += f"; at least {format_interval(facts.assessment.reached_clear())} of the poses are reached by a clear one"
+    if facts.assessment.optimised is not None:
+        kept = f"keep a clearance of {counts.margin:g} m" if counts.margin else f"keep the arm clear of {facts.avoided_objects}"
+        text += (
+            f"; the best configurations {kept}, which {format_percent(counts.blocked / counts.reached)} of them "
+            f"otherwise would not"
+        )
+        text += f", and {format_count(counts.hopeless, 'pose')} cannot" if counts.hopeless else ""
+    cell_suffix = "" if clearance.cell is None else f"; {describe_cell(clearance.cell)}"
+    return f"{text} ({clearance.capsules.describe(facts.assessment.arm)}{cell_suffix})"

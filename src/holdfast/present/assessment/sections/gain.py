@@ -1,128 +1,168 @@
-"""What choosing configurations well gains: the distribution before and after, and pose by pose."""
+"""Gain from choosing configurations: the distribution before and after, and each pose."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.present.assessment.facts import Facts
+from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.probability.distribution import Distribution
 from holdfast.report import figures
 from holdfast.report.figures import Curve
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.words import as_given, counted, half_width, interval, number
+from holdfast.words import format_as_given, format_count, format_half_width, format_interval, format_number
 
 TITLE = "What choosing configurations gains"
-_MOST_DOTS = 20_000
+_MAX_DOTS = 20_000
 
 
-def blocks(f: Facts) -> list[Block]:
-    """Before and after, if the run was optimised; Abdi et al. 2012, Figs. 5 to 7."""
-    best = f.a.optimised
-    if best is None or not best.reached:
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Compare the index before and after optimisation, if the run was optimised; Abdi et al. 2012, Figs. 5 to 7."""
+    optimised = facts.assessment.optimised
+    if optimised is None or not optimised.reached:
         return []
     blocks: list[Block] = [
         Text(
-            f"After: for each pose the best configuration found that keeps the pose{_kept(f)}. "
+            f"After: for each pose the best configuration found that keeps the pose{_describe_constraints(facts)}. "
             "Found by a local search from several starts: a lower bound of what is possible."
         ),
-        _table(f, best),
+        _tabulate_gain(facts, optimised),
     ]
-    if f.drawable:
-        figure = gain_figure(f, best)
+    if facts.has_finite_values:
+        figure = draw_gain(facts, optimised)
         blocks.append(
             Picture(
                 figures.svg(figure, "gain", "Distribution of the index before and after choosing configurations"),
-                f"{f.d.samples:,} poses. Right: the {f.d.reached:,} reached poses in the order of the index before; "
-                "what a pose gains is the height of its dot above the line." + _lost(f),
+                f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses in the "
+                f"order of the index before; "
+                "what a pose gains is the height of its dot above the line." + _describe_blocked_poses(facts),
             )
         )
     return blocks
 
 
-def _kept(f: Facts) -> str:
-    """What the best configurations keep besides the pose."""
-    clearance, margin = f.a.plan.clearance, f.a.plan.margin
+def _describe_constraints(facts: AssessmentFacts) -> str:
+    """Describe the constraints of the best configurations in addition to the pose."""
+    clearance, margin = facts.assessment.plan.clearance, facts.assessment.plan.margin
     if clearance is None:
         return " and the joint limits, even where the arm collides with itself"
-    apart = f"a clearance of {margin:g} m" if margin else f"the arm clear of {f.everything}"
-    return f", the joint limits and {apart} ({clearance.capsules.describe(f.a.arm)})"
+    clearance_text = f"a clearance of {margin:g} m" if margin else f"the arm clear of {facts.avoided_objects}"
+    return f", the joint limits and {clearance_text} ({clearance.capsules.describe(facts.assessment.arm)})"
 
 
-def _lost(f: Facts) -> str:
-    hopeless = f.a.collisions.hopeless if f.a.collisions is not None else 0
-    others = "the arm itself" if f.others == "itself" else f.everything
-    return f" {counted(hopeless, 'pose')} without a configuration clear of {others} have no dot." if hopeless else ""
+def _describe_blocked_poses(facts: AssessmentFacts) -> str:
+    blocked = facts.assessment.collisions.hopeless if facts.assessment.collisions is not None else 0
+    obstacles = "the arm itself" if facts.collision_objects == "itself" else facts.avoided_objects
+    return f" {format_count(blocked, 'pose')} without a configuration clear of {obstacles} have no dot." if blocked else ""
 
 
-def _table(f: Facts, best: Distribution) -> Table:
-    steps = (0.05, 0.25, 0.5, 0.75, 0.95)
-    ask = {"at_least" if f.larger else "at_most": f.threshold}
-    rows = []
-    for name, d, optimised in (("before", f.d, False), ("after", best, True)):
-        chance = f.a.interval(optimised=optimised, **ask)  # type: ignore[arg-type]
-        top = d.highest if f.larger else d.lowest
-        name += f", {d.reached:,} poses" if best.reached < f.d.reached else ""
-        rows.append([name, *[number(float(x)) for x in d.quantile(steps)], number(d.mean), number(top), interval(chance)])
-    sign = "≥" if f.larger else "≤"
-    head = [
+def _tabulate_gain(facts: AssessmentFacts, best: Distribution) -> Table:
+    levels = (0.05, 0.25, 0.5, 0.75, 0.95)
+    threshold_option = {"at_least" if facts.larger_is_better else "at_most": facts.threshold}
+    table_rows = []
+    for name, distribution, optimised in (("before", facts.distribution, False), ("after", best, True)):
+        probability = facts.assessment.interval(optimised=optimised, **threshold_option)  # type: ignore[arg-type]
+        best_value = distribution.highest if facts.larger_is_better else distribution.lowest
+        name += f", {distribution.reached:,} poses" if best.reached < facts.distribution.reached else ""
+        table_rows.append(
+            [
+                name,
+                *[format_number(float(value)) for value in distribution.quantile(levels)],
+                format_number(distribution.mean),
+                format_number(best_value),
+                format_interval(probability),
+            ]
+        )
+    relation = "≥" if facts.larger_is_better else "≤"
+    header = [
         "Index over reached poses", "5 %", "25 %", "median", "75 %", "95 %", "mean", "best",
-        f"P({sign} {as_given(f.threshold)}), all poses",
+        f"P({relation} {format_as_given(facts.threshold)}), all poses",
     ]  # fmt: skip
-    return Table(rows, head, frozenset(range(1, 9)), wide=True)
+    return Table(table_rows, header, frozenset(range(1, 9)), wide=True)
 
 
-def gain_figure(f: Facts, best: Distribution) -> Figure:
-    """Left: the two cumulative distributions. Right: both values of each pose, sorted by the first (Figs. 6 and 7)."""
-    curves = gain_curves(f, best)
-    axis = curves[0].x
+def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
+    """Draw the two cumulative distributions (left) and both values of each pose, sorted by the first (right; Figs. 6 and 7)."""
+    curves = build_gain_curves(facts, best)
+    axis_values = curves[0].x
     with figures.style():
         figure = Figure(figsize=(figures.WIDTH, 3.9))
-        left, right = figure.subplots(1, 2)
-        shown = [mark for mark in f.marks if mark.x <= axis[-1]]
-        figures.draw_cdf(left, curves, shown, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", log=f.log)
-        left.set_title(f"Cumulative (CDF), {f.d.samples:,} poses")
-        rows = f.rows
-        if rows is None:
-            right.set_axis_off()
+        cdf_axes, pose_axes = figure.subplots(1, 2)
+        visible_marks = [mark for mark in facts.marks if mark.x <= axis_values[-1]]
+        figures.draw_cdf(
+            cdf_axes,
+            curves,
+            visible_marks,
+            xlabel=facts.axis_label,
+            ylabel="fraction with a smaller value, F",
+            log=facts.is_logarithmic,
+        )
+        cdf_axes.set_title(f"Cumulative (CDF), {facts.distribution.samples:,} poses")
+        poses = facts.poses
+        if poses is None:
+            pose_axes.set_axis_off()
         else:
-            before = rows.value[rows.reached]
-            after = f.a.columns["optimised_index"][:][: len(rows.reached)][rows.reached]
+            before = poses.value[poses.reached]
+            after = facts.assessment.columns["optimised_index"][:][: len(poses.reached)][poses.reached]
             order = np.argsort(before)
-            some = order if len(order) <= _MOST_DOTS else order[:: -(-len(order) // _MOST_DOTS)]
-            rank = np.searchsorted(np.sort(before), before[some]) + 1
-            right.plot(rank, after[some], ".", color=figures.BLUE, markersize=2.2, rasterized=True)
-            right.plot(rank, before[some], color=figures.ORANGE, linewidth=1.6)
-            right.set(xlabel="reached poses, sorted by the index before", ylabel=f.axis_label, ylim=(0, None))
-            if f.log:
-                right.set(yscale="log", ylim=(None, None))
-            right.set_title("Each pose before (line) and after (dots)")
-        figures.legend_below(figure, left)
+            chosen = order if len(order) <= _MAX_DOTS else order[:: -(-len(order) // _MAX_DOTS)]
+            ranks = np.searchsorted(np.sort(before), before[chosen]) + 1
+            pose_axes.plot(ranks, after[chosen], ".", color=figures.BLUE, markersize=2.2, rasterized=True)
+            pose_axes.plot(ranks, before[chosen], color=figures.ORANGE, linewidth=1.6)
+            pose_axes.set(xlabel="reached poses, sorted by the index before", ylabel=facts.axis_label, ylim=(0, None))
+            if facts.is_logarithmic:
+                pose_axes.set(yscale="log", ylim=(None, None))
+            pose_axes.set_title("Each pose before (line) and after (dots)")
+        figures.legend_below(figure, cdf_axes)
         return figures.finished(figure)
 
 
-def gain_curves(f: Facts, best: Distribution) -> list[Curve]:
-    """The distributions after and before choosing configurations over one axis, each with its 95 % band."""
-    ends = [x for d in (f.d, best) for x in (d.lowest, d.highest) if np.isfinite(x)]
-    low = min(0.0, *ends) if not f.log else min(ends)
-    axis = (np.geomspace if f.log else np.linspace)(low, max(ends) * 1.02, 400)
-    samples = ((best, "after: the best configurations", False), (f.d, "before: as inverse kinematics found them", True))
+def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]:
+    """Return the distributions after and before choosing configurations over one axis, each with its 95 % band."""
+    extremes = [
+        value
+        for distribution in (facts.distribution, best)
+        for value in (distribution.lowest, distribution.highest)
+        if np.isfinite(value)
+    ]
+    lower = min(0.0, *extremes) if not facts.is_logarithmic else min(extremes)
+    axis_values = (np.geomspace if facts.is_logarithmic else np.linspace)(lower, max(extremes) * 1.02, 400)
+    samples = (
+        (best, "after: the best configurations", False),
+        (facts.distribution, "before: as inverse kinematics found them", True),
+    )
     return [
-        Curve(axis, d.cdf(axis), f"{label}, 95 % band {half_width(d.band())}", second=second, band=d.band())
-        for d, label, second in samples
+        Curve(
+            axis_values,
+            distribution.cdf(axis_values),
+            f"{label}, 95 % band {format_half_width(distribution.band())}",
+            second=second,
+            band=distribution.band(),
+        )
+        for distribution, label, second in samples
     ]
 
 
-def cdf_figure(f: Facts) -> Figure:
-    """The cumulative distribution with its 95 % band; before and after choosing configurations if the run was optimised."""
-    best = f.a.optimised
-    curves = f.curves if best is None or not best.reached else gain_curves(f, best)
+def draw_cdf_figure(facts: AssessmentFacts) -> Figure:
+    """Draw the cumulative distribution with its 95 % band; before and after optimisation if the run was optimised."""
+    optimised = facts.assessment.optimised
+    curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
     with figures.style():
         figure = Figure(figsize=(7.2, 4.8))
         axes = figure.subplots()
-        shown = [mark for mark in f.marks if mark.x <= curves[0].x[-1]]
-        figures.draw_cdf(axes, curves, shown, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", log=f.log)
-        lost = f", {f.d.unreached:,} of them not reached" if f.d.unreached else ""
-        axes.set_title(f"{figures.plain(f.a.arm.name, 30)}: {f.d.samples:,} {f.noun}s{lost}")
+        visible_marks = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]]
+        figures.draw_cdf(
+            axes,
+            curves,
+            visible_marks,
+            xlabel=facts.axis_label,
+            ylabel="fraction with a smaller value, F",
+            log=facts.is_logarithmic,
+        )
+        unreached_text = f", {facts.distribution.unreached:,} of them not reached" if facts.distribution.unreached else ""
+        axes.set_title(
+            f"{figures.format_label(facts.assessment.arm.name, 30)}: {facts.distribution.samples:,} "
+            f"{facts.noun}s{unreached_text}"
+        )
         figures.legend_below(figure, axes, 1)
         return figures.finished(figure)

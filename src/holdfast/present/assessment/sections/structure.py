@@ -1,55 +1,58 @@
-"""Every task, and the joints that it cannot lose."""
+"""Every task and the joints whose lock makes it impossible."""
 
 from __future__ import annotations
 
 from markupsafe import Markup
 
-from holdfast.present.assessment.facts import Facts
+from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report.page import Block, Table, Text
-from holdfast.words import number, percent
+from holdfast.words import format_number, format_percent
 
 TITLE = "Single points of failure by structure"
 
 
-def blocks(f: Facts) -> list[Block]:
-    """Every task and the joints it cannot lose."""
-    own, everything = f.structures
-    names = f.a.arm.joint_names
-    rows: list[list[str | Markup]] = []
-    for s in everything:
-        cells: list[str | Markup] = [Markup("{} {}").format(s.task, "(this run)") if s is own else s.task, str(s.redundancy)]
-        little = dict(s.nearly)
-        weak = {w.joint: w for w in s.weak}
-        for k in range(len(names)):
-            bad = k in s.fatal or s.never
-            said = Markup('<span class="fatal">fatal</span>') if bad else Markup('<span class="ok">–</span>')
-            if k in little:
-                said = Markup('<span class="fatal">≤ {}</span>').format(number(little[k]))
-            elif k in weak:
-                said = Markup('<span class="weak">≤ {}</span>').format(percent(weak[k].manipulability_left))
-            cells.append(said)
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Build the table of every task and the joints whose lock makes it impossible."""
+    run_structure, all_structures = facts.task_structures
+    joint_names = facts.assessment.arm.joint_names
+    table_rows: list[list[str | Markup]] = []
+    for structure in all_structures:
+        cells: list[str | Markup] = [
+            Markup("{} {}").format(structure.task, "(this run)") if structure is run_structure else structure.task,
+            str(structure.redundancy),
+        ]
+        near_losses = dict(structure.nearly)
+        weaknesses = {weakness.joint: weakness for weakness in structure.weak}
+        for joint in range(len(joint_names)):
+            is_fatal = joint in structure.fatal or structure.never
+            cell = Markup('<span class="fatal">fatal</span>') if is_fatal else Markup('<span class="ok">–</span>')
+            if joint in near_losses:
+                cell = Markup('<span class="fatal">≤ {}</span>').format(format_number(near_losses[joint]))
+            elif joint in weaknesses:
+                cell = Markup('<span class="weak">≤ {}</span>').format(format_percent(weaknesses[joint].manipulability_left))
+            cells.append(cell)
         verdict = (
             "never possible"
-            if s.never
+            if structure.never
             else "not redundant"
-            if s.redundancy <= 0
+            if structure.redundancy <= 0
             else "single point of failure"
-            if s.fatal
+            if structure.fatal
             else "all but one"
-            if s.nearly
+            if structure.nearly
             else "nearly"
-            if s.weak
+            if structure.weak
             else "none"
         )
-        rows.append([*cells, verdict])
-    head = ["Task", "Redundancy", *[str(k + 1) for k in range(len(names))], "Single point of failure"]
-    joints = "; ".join(f"{k + 1} {n}" for k, n in enumerate(names))
+        table_rows.append([*cells, verdict])
+    header = ["Task", "Redundancy", *[str(joint + 1) for joint in range(len(joint_names))], "Single point of failure"]
+    joints = "; ".join(f"{joint + 1} {name}" for joint, name in enumerate(joint_names))
     return [
         Text(
             "A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps. "
             "A number is the largest relative manipulability found after the lock, where that is next to nothing. A percentage "
             "is the largest manipulability found after the lock, compared with the largest one of the healthy arm."
         ),
-        Table(rows, head, frozenset({1}), marks=frozenset(range(2, len(names) + 2)), wide=True, sortable=False),
+        Table(table_rows, header, frozenset({1}), marks=frozenset(range(2, len(joint_names) + 2)), wide=True, sortable=False),
         Text(f"Joints: {joints}. Redundancy: joints minus rows of the task.", quiet=True),
     ]

@@ -1,4 +1,4 @@
-"""What is left of the region once a joint has locked."""
+"""Remaining workspace of the region after a joint has locked."""
 
 from __future__ import annotations
 
@@ -7,54 +7,62 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.assessment.plan import LOCK_RESTARTS
-from holdfast.clearance.exact.sharper import Sharper
-from holdfast.present.assessment.facts import Facts
+from holdfast.clearance.exact.sharper import ExactClearance
+from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.report.views import View, sides
-from holdfast.words import as_given, fixed, interval, percent
+from holdfast.report.views import View, choose_side_and_top_views
+from holdfast.words import format_as_given, format_decimals, format_interval, format_percent
 
 TITLE = "What survives a locked joint"
 Array = NDArray[np.float64]
 
-_LEAST_FOR_MAP = 200
+_MIN_POSES_FOR_MAP = 200
 
 
-def blocks(f: Facts) -> list[Block]:
-    """Fraction of the region that each lock leaves, if the run asked for it."""
-    survivors = f.a.survivors
-    if survivors is None or not f.d.samples:
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Build the figure and the table of the fraction of the region that remains after each lock, if the run tested locks."""
+    survivors = facts.assessment.survivors
+    if survivors is None or not facts.distribution.samples:
         return []
-    shares, locks = f.a.survival(), f.a.plan.locks
-    worst = min(shares, key=lambda name: shares[name].value)
-    rules = {f.a.arm.joint_names[k]: _rule(f, k, angle) for k, angle in locks.items()}
-    names = [
-        f"{k + 1} {f.a.arm.joint_names[k]}{'' if angle is None else f' {_angle(f, k, angle)}'}" for k, angle in locks.items()
+    fractions, locks = facts.assessment.survival(), facts.assessment.plan.locks
+    worst = min(fractions, key=lambda name: fractions[name].value)
+    lock_positions = {
+        facts.assessment.arm.joint_names[joint]: _describe_lock_position(facts, joint, angle) for joint, angle in locks.items()
+    }
+    bar_labels = [
+        f"{joint + 1} "
+        f"{facts.assessment.arm.joint_names[joint]}{'' if angle is None else f' {_format_position(facts, joint, angle)}'}"
+        for joint, angle in locks.items()
     ]
-    what = f"{'weight of ' if f.d.weighted else ''}poses still reached once the joint has locked"
-    figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, total=_whole(f), stress="least")
-    given = [angle is not None for angle in locks.values()]
-    where = "where it was at another pose of the region, drawn at random"
-    if all(given):
-        where = "at the angle that was given"
-    elif any(given):
-        where = f"at the angle that was given for it, else {where}"
+    axis_label = f"{'weight of ' if facts.distribution.weighted else ''}poses still reached once the joint has locked"
+    figure = figures.bar_figure(
+        bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
+    )
+    is_specified = [angle is not None for angle in locks.values()]
+    place = "where it was at another pose of the region, drawn at random"
+    if all(is_specified):
+        place = "at the angle that was given"
+    elif any(is_specified):
+        place = f"at the angle that was given for it, else {place}"
     blocks: list[Block] = [
         Text(
-            f"Healthy, the arm reaches {percent(1 - f.d.unreached_share)} of {'the weight of ' if f.d.weighted else ''}the "
-            f"{f.d.samples:,} poses{_clear(f)}. The lock that costs most is that of {worst}, {rules[worst]}: "
-            f"{interval(shares[worst])} of the poses are left."
+            f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
+            f"{'the weight of ' if facts.distribution.weighted else ''}the "
+            f"{facts.distribution.samples:,} poses{_describe_safe_reach(facts)}. The lock that costs most is that of "
+            f"{worst}, {lock_positions[worst]}: "
+            f"{format_interval(fractions[worst])} of the poses are left."
         ),
         Picture(
             figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
-            f"Each joint is locked {where}. A pose counts as left if one of {LOCK_RESTARTS} starts reaches it with that joint "
-            f"held there{_and_clear(f)}; so the fractions are lower bounds.",
+            f"Each joint is locked {place}. A pose counts as left if one of {LOCK_RESTARTS} starts reaches it with that joint "
+            f"held there{_describe_clearance_method(facts)}; so the fractions are lower bounds.",
         ),
     ]
-    blocks += _before_and_after(f, f.a.arm.joint_index(worst), rules[worst])
+    blocks += _build_map_blocks(facts, facts.assessment.arm.joint_index(worst), lock_positions[worst])
     blocks.append(
         Table(
-            [[name, rules[name], interval(share)] for name, share in shares.items()],
+            [[name, lock_positions[name], format_interval(fraction)] for name, fraction in fractions.items()],
             ["Once it has locked", "where", "fraction of the poses still reached"],
             frozenset({2}),
         )
@@ -62,62 +70,77 @@ def blocks(f: Facts) -> list[Block]:
     return blocks
 
 
-def _clear(f: Facts) -> str:
-    """The same where only configurations clear of the cell count, if there is one."""
-    return "" if f.a.clear is None else f" and at least {interval(f.a.reached_clear())} of all clear of {f.everything}"
+def _describe_safe_reach(facts: AssessmentFacts) -> str:
+    """Describe the fraction of poses reached without collision; empty if collisions were not checked."""
+    return (
+        ""
+        if facts.assessment.clear is None
+        else f" and at least {format_interval(facts.assessment.reached_clear())} of all clear of {facts.avoided_objects}"
+    )
 
 
-def _and_clear(f: Facts) -> str:
-    clearance = f.a.plan.clearance
-    if f.a.clear is None or clearance is None:
+def _describe_clearance_method(facts: AssessmentFacts) -> str:
+    clearance = facts.assessment.plan.clearance
+    if facts.assessment.clear is None or clearance is None:
         return ""
-    known = f"exact where small, {clearance.exact_by}" if isinstance(clearance, Sharper) else "lower bounds"
-    return f", clear of {f.everything} (distances: {known})"
+    distance_kind = f"exact where small, {clearance.exact_by}" if isinstance(clearance, ExactClearance) else "lower bounds"
+    return f", clear of {facts.avoided_objects} (distances: {distance_kind})"
 
 
-def _whole(f: Facts) -> float:
-    return f.d.total_weight() if f.d.weighted else f.d.samples
+def _get_total_weight(facts: AssessmentFacts) -> float:
+    return facts.distribution.total_weight() if facts.distribution.weighted else facts.distribution.samples
 
 
-def _angle(f: Facts, joint: int, angle: float) -> str:
-    """In degrees, or metres."""
-    return f"at {as_given(angle)} m" if f.a.arm.prismatic[joint] else f"at {fixed(np.rad2deg(angle), 1)} deg"
+def _format_position(facts: AssessmentFacts, joint: int, position: float) -> str:
+    """Format a joint position in degrees, or in metres for a prismatic joint."""
+    return (
+        f"at {format_as_given(position)} m"
+        if facts.assessment.arm.prismatic[joint]
+        else f"at {format_decimals(np.rad2deg(position), 1)} deg"
+    )
 
 
-def _rule(f: Facts, joint: int, angle: float | None) -> str:
-    """Where the joint is locked."""
-    if angle is None:
+def _describe_lock_position(facts: AssessmentFacts, joint: int, position: float | None) -> str:
+    """Describe the position at which the joint is locked."""
+    if position is None:
         return "where it was at another pose"
-    return _angle(f, joint, angle) + ("" if f.a.arm.prismatic[joint] else f" ({as_given(angle)} rad)")
+    return _format_position(facts, joint, position) + (
+        "" if facts.assessment.arm.prismatic[joint] else f" ({format_as_given(position)} rad)"
+    )
 
 
-def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
-    """Where the healthy arm reaches, and where it still does after the lock that costs most."""
-    rows = f.rows
-    if rows is None or len(rows.reached) < _LEAST_FOR_MAP:
+def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list[Block]:
+    """Map the reached poses of the healthy arm and those that remain after the lock that costs most."""
+    poses = facts.poses
+    if poses is None or len(poses.reached) < _MIN_POSES_FOR_MAP:
         return []
-    views = sides(rows.position, ("seen from the side", "seen from above"))
+    views = choose_side_and_top_views(poses.position, ("seen from the side", "seen from above"))
     if not views:
         return []
     view = views[0]
-    left = f.a.columns["survives"][:][rows.number, joint] == 1
-    healthy = rows.reached if f.a.clear is None else f.a.columns["clear"][:][rows.number] == 1
-    name = f.a.arm.joint_names[joint]
-    figure = before_and_after_figure(rows.position, healthy, left, view, f"{name} locked", rows.weight)
-    total = len(left)
+    remaining = facts.assessment.columns["survives"][:][poses.number, joint] == 1
+    healthy = poses.reached if facts.assessment.clear is None else facts.assessment.columns["clear"][:][poses.number] == 1
+    name = facts.assessment.arm.joint_names[joint]
+    figure = draw_before_and_after(poses.position, healthy, remaining, view, f"{name} locked", poses.weight)
+    total = len(remaining)
     text = (
         f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
         f"how many poses the cell holds. Left: the healthy arm reaches {int(healthy.sum()):,} of {total:,} poses"
-        f"{_and_clear(f)}. Right: with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
+        f"{_describe_clearance_method(facts)}. Right: with {name} locked {position}, {int(remaining.sum()):,} of {total:,}."
     )
-    if f.d.weighted:
+    if facts.distribution.weighted:
         text += " Fractions count by weight, these numbers do not."
     return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
 
 
-def before_and_after_figure(
-    position: Array, healthy: NDArray[np.bool_], locked: NDArray[np.bool_], view: View, after: str, weights: Array | None = None
+def draw_before_and_after(
+    position: Array,
+    healthy: NDArray[np.bool_],
+    remaining: NDArray[np.bool_],
+    view: View,
+    locked_title: str,
+    weights: Array | None = None,
 ) -> Figure:
-    """Maps of the fraction of poses (N, 3), m, reached (N,) before and after a failure, by weight (N,) if there is one."""
-    panels = [("Healthy", healthy), (figures.plain(after, 37), locked)]
+    """Map the fraction of poses (N, 3), m, reached (N,) before and after a failure, by weight (N,) if there is one."""
+    panels = [("Healthy", healthy), (figures.format_label(locked_title, 37), remaining)]
     return maps.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)

@@ -6,52 +6,63 @@ from typing import Any
 
 from holdfast.present.arm.view import scene
 from holdfast.present.assessment import pointing
-from holdfast.present.assessment.facts import Facts
+from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report import figures, scenes
 from holdfast.report.page import Block, Picture
-from holdfast.words import counted
+from holdfast.words import format_count
 
 TITLE = "The arm and the region"
 
 
-def blocks(f: Facts) -> list[Block]:
-    """The arm and the region, from the side and from above."""
-    scene, drawn = f.scene
-    d = f.d
-    dots = f"{f.noun} drawn" if f.a.region.kind != "joints" else "tool position of a configuration drawn"
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Draw the arm and the region from the side, from above, and in three dimensions."""
+    scene, drawn_count = facts.scene
+    distribution = facts.distribution
+    dot_label = f"{facts.noun} drawn" if facts.assessment.region.kind != "joints" else "tool position of a configuration drawn"
     legend = [("base", "base"), ("joint", "joints, numbered from the base"), ("tool", "tool")]
-    if f.a.arm.prismatic.any():
+    if facts.assessment.arm.prismatic.any():
         legend.insert(2, ("slide", "prismatic joint"))
     if len(scene.points):
-        legend.append(("dot", dots))
+        legend.append(("dot", dot_label))
     if len(scene.missing):
         legend.append(("cross", "no configuration found"))
     if scene.box is not None:
         legend.append(("box", "positions of the region"))
-    figure = scenes.view_figure(scene, f.views, f.scale, label=f.axis_label, legend=legend)
-    image = figures.svg(figure, "views", f"The arm and the {f.noun}s of the region, by index")
-    text = f"The arm is drawn {f.representative[1]}."
-    if not drawn and d.samples:
-        text += f" The {f.noun}s of this run were not kept, so none are drawn."
-    elif drawn < d.samples:
-        text += f" Of {d.samples:,} {f.noun}s a random {drawn:,} are drawn"
-    elif drawn:
-        text += f" All {counted(drawn, f.noun)} are drawn"
-    if drawn:
+    figure = scenes.view_figure(scene, facts.views, facts.color_scale, label=facts.axis_label, legend=legend)
+    image = figures.svg(figure, "views", f"The arm and the {facts.noun}s of the region, by index")
+    text = f"The arm is drawn {facts.drawn_configuration[1]}."
+    if not drawn_count and distribution.samples:
+        text += f" The {facts.noun}s of this run were not kept, so none are drawn."
+    elif drawn_count < distribution.samples:
+        text += f" Of {distribution.samples:,} {facts.noun}s a random {drawn_count:,} are drawn"
+    elif drawn_count:
+        text += f" All {format_count(drawn_count, facts.noun)} are drawn"
+    if drawn_count:
         text += "; colour is the index." if len(scene.points) else "."
-    if drawn and d.infinite:
+    if drawn_count and distribution.infinite:
         text += " Infinite values have the darkest colour."
-    return [Picture(image, text), *pointing.blocks(f, figure), _turned(f)]
+    return [Picture(image, text), *pointing.blocks(facts, figure), _build_rotatable_view(facts)]
 
 
-def _turned(f: Facts) -> Picture:
-    """The same in three dimensions."""
-    rows, chosen = f.rows, pointing.answering(f)
-    poses: dict[str, Any] = {}
-    if rows is not None and len(chosen):
-        poses = {"points": rows.position[chosen].round(4), "colors": 255 * f.scale.colors(rows.value[chosen])[:, :3]}
-    view = scene(f.a.arm, f.representative[0], region=f.a.region, cell=f.a.plan.cell, **poses)
-    text = f"The arm {f.representative[1]}; drag to turn it."
-    if poses:
-        text += f" A dot is a {f.noun} that can be chosen; what is chosen above moves the arm."
-    return Picture(view.html(pointing.VIEW, f"{f.a.arm.name} and its region in three dimensions"), text, screen=True)
+def _build_rotatable_view(facts: AssessmentFacts) -> Picture:
+    """Build the view of the arm and the region in three dimensions."""
+    poses, chosen = facts.poses, pointing.choose_selectable_poses(facts)
+    dot_options: dict[str, Any] = {}
+    if poses is not None and len(chosen):
+        dot_options = {
+            "points": poses.position[chosen].round(4),
+            "colors": 255 * facts.color_scale.colors(poses.value[chosen])[:, :3],
+        }
+    view = scene(
+        facts.assessment.arm,
+        facts.drawn_configuration[0],
+        region=facts.assessment.region,
+        cell=facts.assessment.plan.cell,
+        **dot_options,
+    )
+    text = f"The arm {facts.drawn_configuration[1]}; drag to turn it."
+    if dot_options:
+        text += f" A dot is a {facts.noun} that can be chosen; what is chosen above moves the arm."
+    return Picture(
+        view.to_html(pointing.VIEW_ID, f"{facts.assessment.arm.name} and its region in three dimensions"), text, screen=True
+    )
