@@ -34,7 +34,11 @@ PAGES = ("tests/report/", "tests/present/", "tests/assessment/", "tests/teleop/t
 _LAID_OUT = [True]
 # Solvers that are kept for an arm. Built-in arms are the same objects in every test, so one that was made on CasADi's machine
 # would serve later tests too, and differ in the last bits from what these compile; so would kernels that the arms keep.
-_KEPT = {"solvers.inverse_kinematics": "_solver", "solvers.self_motions": "_tracer", "reach.extrema": "_critical"}
+_KEPT = {
+    "solvers.inverse_kinematics": "_cached_solver",
+    "solvers.self_motions": "_cached_tracer",
+    "reach.extrema": "_cached_critical_points",
+}
 _INTERPRETED = [False]
 
 

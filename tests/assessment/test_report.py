@@ -298,7 +298,7 @@ def test_every_section_is_in_the_list_and_has_what_the_page_asks_for() -> None:
     for name in report.SECTION_MODULES:
         section = import_module(f"holdfast.present.assessment.sections.{name}")
         assert isinstance(section.TITLE, str)
-        assert next(iter(inspect.signature(section.blocks).parameters.values())).annotation == "Facts"
+        assert next(iter(inspect.signature(section.blocks).parameters.values())).annotation == "AssessmentFacts"
 
 
 def test_unwritable_path(tmp_path: Path) -> None:

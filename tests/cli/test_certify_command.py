@@ -51,7 +51,7 @@ def test_a_tolerant_box(cli, tmp_path, monkeypatch):
     assert "healthy" in out
     code, out, _ = cli(*words, *ranges, "--failures", "3", "--no-check")
     assert code == 2  # of three joints at once
-    monkeypatch.setattr("holdfast.cli.certify_search.stopping", lambda said: nullcontext(lambda: True))
+    monkeypatch.setattr("holdfast.cli.certify_search.stop_on_signal", lambda said: nullcontext(lambda: True))
     code, out, err = cli(*words, *ranges)
     assert (code, err) == (130, "holdfast: stopped\n")
     assert "undecided" in out

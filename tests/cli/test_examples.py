@@ -127,7 +127,10 @@ def carry_out(name, cli, monkeypatch, folder):
         assert cli(*shlex.split(first))[0] == 0, first
     words = shlex.split(f"{text} {CHEAPER.get(name, '')}")
     module = sys.modules[function.__module__]
-    shown = "json_" in inspect.signature(function).parameters and "printed(" in inspect.getsource(function).replace("_each", "")
+    shown = (
+        "json_" in inspect.signature(function).parameters
+        and re.search(r"print_results?\(", inspect.getsource(function)) is not None
+    )
     # Computed once and shown both ways; a command that asks itself which way, or has no JSON, is run for people too.
     if not shown or re.search(r"if (not )?json_", inspect.getsource(function)):
         code, out, err = cli(*words)

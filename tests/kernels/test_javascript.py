@@ -175,8 +175,8 @@ def test_no_bit_depends_on_how_a_program_is_split(piece, monkeypatch, rng):
     out = ca.vertcat(*values[-50:])
     points = rng.normal(size=(200, 4))
     whole = in_node([x], [out], points)
-    monkeypatch.setattr(printer, "_PIECE", piece)
-    monkeypatch.setattr(printer, "_TREE", min(piece, 60))
+    monkeypatch.setattr(printer, "_OPERATIONS_PER_FUNCTION", piece)
+    monkeypatch.setattr(printer, "_OPERATIONS_PER_EXPRESSION", min(piece, 60))
     text = write_javascript(Program("test", [x], [out]), "f")
     count = len(re.findall(r"^function p", text, re.MULTILINE))
     assert count == 1 if piece > 1000 else count > 3

@@ -108,7 +108,7 @@ def test_quick_code_serves_until_enough_rows_have_come(fresh, monkeypatch, rng):
 
 def test_vast_programs_stay_as_they_are(fresh, monkeypatch, rng):
     monkeypatch.setattr(compiled, "SHORT_PROGRAM_OPERATIONS", 0)
-    for name in ("WORTH", "AT_ONCE", "VAST"):
+    for name in ("REPAYING_WORK", "MAX_IMMEDIATE_OPERATIONS", "MAX_COMPILED_OPERATIONS"):
         monkeypatch.setattr(compiled, name, 500)
     x, y = long_function(60)
     kernel = Kernel("vast", [x], [y])

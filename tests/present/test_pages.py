@@ -31,13 +31,23 @@ PARTS = {
     "WaypointCheck",
     "WorkingRanges",
 }  # of a result, without a command that writes their page
-PARTS |= {"Book", "Ceiling", "CeilingSearch", "CeilingTable", "FaultBatch", "Orders", "Record", "RecordCheck", "Synthesis"}
-PARTS |= {"SingularValueCeiling"}
+PARTS |= {
+    "RecordBook",
+    "UpperBound",
+    "UpperBoundSearch",
+    "UpperBoundTable",
+    "FaultBatch",
+    "JointOrders",
+    "DesignRecord",
+    "RecordCheck",
+    "Synthesis",
+}
+PARTS |= {"SingularValueBound"}
 NAMES = [
     e.name
     for kind in (RecoveryOutcome, RunOutcome, Reason, Status)
     for e in kind
-    if "_" in e.name or e.name in ("HOME", "CONVERGED")
+    if "_" in e.name or e.name in ("GOAL_REACHED", "CONVERGED")
 ]
 
 

@@ -131,7 +131,7 @@ def test_a_port_in_use_is_named():
 def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
     pytest.importorskip("viser")
     found, order = [], []
-    for name in ("_camera", "body_of"):
+    for name in ("_choose_camera", "body_of"):
         real = getattr(server, name)
         monkeypatch.setattr(server, name, lambda *given, name=name, real=real: (order.append(name), real(*given))[1])
 
@@ -145,7 +145,7 @@ def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
         [(url, status, content)] = found
         assert (url, status) == (page.url, 200)
         assert b"<html" in content
-    assert order == ["_camera", "ready", "body_of"]
+    assert order == ["_choose_camera", "ready", "body_of"]
 
 
 def test_without_viser_there_is_a_sentence(monkeypatch):

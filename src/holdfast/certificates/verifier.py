@@ -173,13 +173,14 @@ def _verify_boxes(
     checked, rejected = _check_leaves(
         claim_verifier, (leaf for index, leaf in enumerate(leaves()) if index in picked), workers, report_checked
     )
-    undecided += claim_verifier.unproved(rejected, leaves)
+    undecided += claim_verifier.find_unproved_cells(rejected, leaves)
     refuted = bool(document.get("witness")) and checked > len(rejected)
     if "found" in document:
         refuted = lower > claim_verifier.threshold if kind == "ceiling" else upper < claim_verifier.threshold
     return CertificateVerdict(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), refuted=refuted,
-        seconds=time.perf_counter() - started, undecided=tree.compute_volume(undecided), attained_bound=lower if kind == "ceiling" else upper,
+        seconds=time.perf_counter() - started, undecided=tree.compute_volume(undecided),
+        attained_bound=lower if kind == "ceiling" else upper,
         unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets),
     )  # fmt: skip
 

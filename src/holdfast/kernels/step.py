@@ -72,6 +72,6 @@ class Steppable(ABC):
         Raises:
             KernelError: :meth:`prepare` was not called.
         """
-        if "_prepared" not in self.__dict__:
+        if "_prepared_step" not in self.__dict__:
             raise KernelError("the step of this law is not compiled yet; call its prepare() once, before the control loop")
         return self._prepared_step

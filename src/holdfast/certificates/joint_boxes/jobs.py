@@ -138,7 +138,8 @@ class JointBoxJob:
         results = [result, *child_results]
         return JointBoxResult(
             merged, sum(part.tested for part in results), all(part.finished for part in results),
-            sum(part.proved for part in results), sum(part.undecided for part in results), sum(part.seconds for part in results),
+            sum(part.proved for part in results), sum(part.undecided for part in results),
+            sum(part.seconds for part in results),
         )  # fmt: skip
 
 

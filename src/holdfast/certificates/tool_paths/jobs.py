@@ -191,8 +191,8 @@ class RunningToolPathJob:
         tube = claim.tube[[int(row > 2) for row in TASK_ROWS[claim.task]]] if claim.tube.any() else np.empty(0)
         limits = np.column_stack([claim.arm.lower, claim.arm.upper])
         enclosure = LockedTrackingEnclosure(
-            CertificateChain.from_arm(claim.arm), claim.knots, claim.task, driven=[job.joint, *job.followers], tube=tube, limits=limits,
-            slides=claim.arm.prismatic,
+            CertificateChain.from_arm(claim.arm), claim.knots, claim.task, driven=[job.joint, *job.followers], tube=tube,
+            limits=limits, slides=claim.arm.prismatic,
         )  # fmt: skip
         self._march = SlabMarch(enclosure, job.slabs, job.halvings, job.max_cells, make_closure_exclusion(claim, job.joint))
 

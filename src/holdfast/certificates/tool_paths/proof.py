@@ -97,8 +97,8 @@ def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathPro
             joint=job.joint, followers=job.followers, slabs=tuple(result.slabs),
             refuted_intervals=tuple(result.never),
             proved=Fraction(sum(slab.stop - slab.begin for slab in result.slabs), total_instants),
-            refuted=Fraction(sum(interval.stop - interval.begin for interval in result.never), total_instants), nodes=result.nodes,
-            finished=result.finished, seconds=result.seconds,
+            refuted=Fraction(sum(interval.stop - interval.begin for interval in result.never), total_instants),
+            nodes=result.nodes, finished=result.finished, seconds=result.seconds,
         )
         for job, result in zip(jobs, budget.run_jobs(jobs), strict=True)
     )  # fmt: skip

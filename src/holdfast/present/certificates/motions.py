@@ -60,7 +60,8 @@ def tables(proof: PathProof) -> list[TextTable]:
     """Tabulate the fractions of each lock, then those of all locks."""
     rows = [
         [
-            _joint_name(proof, part), format_percent(part.proved), format_percent(part.refuted), format_percent(part.undecided, up=True),
+            _joint_name(proof, part), format_percent(part.proved), format_percent(part.refuted),
+            format_percent(part.undecided, up=True),
             _format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}",
         ]
         for part in proof.parts
@@ -112,12 +113,13 @@ def story(proof: PathProof) -> PageContent:
             f"Whichever joint locks, at {share} of the instants the {claim.task} path{tolerance_text} is proved to "
             f"be finished; {remainder}."
         )
+    undecided = [[_joint_name(proof, path), _format_undecided_intervals(proof, path)] for path in proof.parts]
     return PageContent(
         f"What {claim.arm.name} finishes after a lock",
         f"{answer} {UNVERIFIED_NOTE}",
         lines=proof.describe()[:1],
         facts=[(share, "of the lock instants, whichever joint locks"), (f"{proof.leaves:,}", "cells, glued or empty")],
-        tables=[TextTable(["lock of", "undecided between knots"], [[_joint_name(proof, locked_path), _format_undecided_intervals(proof, locked_path)] for locked_path in proof.parts])],
+        tables=[TextTable(["lock of", "undecided between knots"], undecided)],
         figures={
             "slices": (
                 "When it may lock",
