@@ -420,11 +420,11 @@ def report(path: Path) -> str:
     results = [(i, compare(FAMILIES[i], rows)) for i, rows in sorted(found.items())]
     lines, total, same = [], 0, 0
     for _, r in results:
-        share = Interval.of(len(r.rows) - len(r.different), len(r.rows))
+        share = Interval.from_counts(len(r.rows) - len(r.different), len(r.rows))
         total, same = total + len(r.rows), same + len(r.rows) - len(r.different)
         counts = ", ".join(f"{count} {name}" for name, count in r.counts.items())
         lines.append([r.family.name, str(len(r.rows)), percent(share), f"{r.converged:.0e}", f"{r.stuck:.0e}", counts])
-    share = Interval.of(same, total)
+    share = Interval.from_counts(same, total)
     lines.append(
         [
             "**all**",

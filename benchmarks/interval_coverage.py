@@ -92,7 +92,7 @@ def _student(draw: Draw, truth: float) -> Study:
 
 
 def _share(truth: float) -> Study:
-    return lambda rng, n: _inside(Interval.of(int(rng.binomial(n, truth)), n), truth)
+    return lambda rng, n: _inside(Interval.from_counts(int(rng.binomial(n, truth)), n), truth)
 
 
 def _pairs(both: float, lost: float, won: float) -> Study:
@@ -136,7 +136,7 @@ WEIGHTS = {
 
 def _weighted(rng: np.random.Generator, n: int, w: Weight, known: bool) -> tuple[np.ndarray, Distribution]:
     x = np.sort(rng.random(n))
-    return x, Distribution.of(x, "larger", weights=w.of(x), heaviest=w.heaviest if known else 0.0)
+    return x, Distribution.from_values(x, "larger", weights=w.of(x), heaviest=w.heaviest if known else 0.0)
 
 
 def _band(w: Weight, known: bool = True) -> Study:
@@ -159,7 +159,7 @@ def _weighted_share(w: Weight, at: float) -> Study:
 
 def _quantile(level: float) -> Study:
     def study(rng: np.random.Generator, n: int) -> tuple[bool, float]:
-        found = HeldOutResult.of(rng.random(n), np.ones(n), np.zeros(0), level=level)
+        found = HeldOutResult.from_values(rng.random(n), np.ones(n), np.zeros(0), level=level)
         return _inside(found.guaranteed, 1 - level)
 
     return study

@@ -37,12 +37,12 @@ JOINTS = "joints: {lower: [-1, -1, -1, -1, -1, -1, -1, -1, -1], upper: [1, 1, 1,
 
 
 def study(folder: Path, chunks: int, chunk: int):
-    from holdfast.studies import read
+    from holdfast.studies import read_study_file
 
     file = folder / f"{chunks}x{chunk}.yaml"
     (folder / "joints.yaml").write_text(JOINTS)
     file.write_text(STUDY.format(poses=chunks * chunk, chunk=chunk))
-    return read(file)
+    return read_study_file(file)
 
 
 def timed(folder: Path, asked, runner, stop=None, part=(1, 1)) -> np.ndarray:

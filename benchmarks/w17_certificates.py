@@ -50,7 +50,7 @@ def proofs(chosen: argparse.Namespace) -> str:
         for part, verdict in zip(found.parts, check.parts, strict=True):
             cells = [f"{part.leaves:,}", f"{float(part.undecided):.1e}", str(verdict.rejected)]
             times = [f"{part.seconds:.1f}", f"{verdict.seconds:.1f}", sampled(part.claim, part.seconds)]
-            rows.append([f"{size} m", found.named(part), *cells, *times])
+            rows.append([f"{size} m", found.part_label(part), *cells, *times])
         cells = [f"{found.leaves:,}", f"{float(found.undecided):.1e} at the worst", str(check.rejected)]
         times = [
             f"{search:.1f} of processor",
@@ -78,7 +78,14 @@ def poses(chosen: argparse.Namespace) -> str:
     with tempfile.TemporaryDirectory() as folder:
         check = hf.check_certificate(found.write(Path(folder) / "cube.certificate"))
     rows = [
-        [found.named(p), f"{p.leaves:,}", f"{float(p.undecided):.1e}", str(v.rejected), f"{p.seconds:.1f}", f"{v.seconds:.1f}"]
+        [
+            found.part_label(p),
+            f"{p.leaves:,}",
+            f"{float(p.undecided):.1e}",
+            str(v.rejected),
+            f"{p.seconds:.1f}",
+            f"{v.seconds:.1f}",
+        ]
         for p, v in zip(found.parts, check.parts, strict=True)
     ]
     rows.append(["all", f"{found.leaves:,}", f"{float(found.undecided):.1e} at the worst", str(check.rejected), "", ""])

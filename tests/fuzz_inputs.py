@@ -647,7 +647,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.paths.path_file import read_pose_table
     from holdfast.recovery.waypoints import read_waypoints
     from holdfast.regions.pose_list import PoseList
-    from holdfast.studies import read as read_study
+    from holdfast.studies import read_study_file as read_study
     from holdfast.studies.results import read_assessment
     from holdfast.studio.motions import read_motion
     from holdfast.teleop.records.verification import open_or_name_damage
@@ -673,7 +673,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     (root / "weighted" / "poses.csv").write_bytes(POSES)
     toy, planar = arms.resolve(str(root / "arm.yaml")), arms.load("planar-3r")
     run = root / "run"
-    hf.assess(planar, hf.Region.around(planar), poses=8, seed=1, store=run, task="planar")
+    hf.assess(planar, hf.Region.around_tool(planar), poses=8, seed=1, store=run, task="planar")
     (root / "study.yaml").write_bytes(b"poses: 8\nchunk: 4\narms: [planar-3r]\nassess: {}\n")
     asked = read_study(root / "study.yaml")
     whole = study.Study.create(root / "study", asked.name, asked.seed, cells=asked.cells, source=asked.text)

@@ -32,7 +32,7 @@ def test_extremes_stay_inside(rng):
 
 
 def test_limits_of_a_share_are_those_of_clopper_and_pearson():
-    found = Interval.of(np.int64(3), np.int64(40), 0.9)
+    found = Interval.from_counts(np.int64(3), np.int64(40), 0.9)
     assert found.low == pytest.approx(beta.ppf(0.05, 3, 38), rel=1e-12)
     assert found.high == pytest.approx(beta.ppf(0.95, 4, 37), rel=1e-12)
     assert isinstance(found.low, float)

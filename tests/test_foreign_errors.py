@@ -49,7 +49,7 @@ def good() -> dict[str, Any]:
         "path": line,
         "timed": hf.paths.TimedPath(line, hf.paths.Constant(1.0)),
         "tiny": hf.paths.TimedPath(hf.paths.line(place, place + np.full(3, 5e-5)), hf.paths.Constant(1.0)),
-        "capsules": hf.Capsules.along(arm),
+        "capsules": hf.Capsules.along_links(arm),
     }
 
 
@@ -231,7 +231,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"weight": None},
         ),
         "Region.joints": (hf.Region.joints, {"lower": [0, 0, 0], "upper": [1, 1, 1], "name": "r"}),
-        "Region.around": (hf.Region.around, {"arm": arm, "q": q, "share": 0.3}),
+        "Region.around": (hf.Region.around_tool, {"arm": arm, "q": q, "share": 0.3}),
         "Region.from_poses": (hf.Region.from_poses, {"poses": [pose], "weights": [1.0], "name": "r"}),
         "Region.load": (hf.Region.load, {"path": folder / "none.yaml"}),
         "paths.line": (hf.paths.line, {"start": [0, 0, 0], "end": [1, 0, 0], "name": "l"}),
@@ -247,7 +247,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "paths.TimedPath.load": (hf.paths.TimedPath.load, {"file": folder / "none.yaml"}),
         "timed.pose": (g["timed"].pose, {"t": 0.5}),
         "path.pose": (g["path"].pose, {"s": 0.5}),
-        "Capsules.along": (hf.Capsules.along, {"arm": arm, "radius": 0.1}),
+        "Capsules.along": (hf.Capsules.along_links, {"arm": arm, "radius": 0.1}),
         "Capsules.load": (hf.Capsules.load, {"path": folder / "none.yaml", "arm": arm}),
         "Clearance": (hf.Clearance, {"arm": g["panda"], "capsules": None}),
         "index.evaluate": (index.evaluate, {"q": q}),

@@ -98,7 +98,7 @@ def test_mean_differences_are_students(rng):
 @given(st.integers(1, 400).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))), st.sampled_from([0.8, 0.95, 0.999]))
 def test_a_share_is_that_of_clopper_and_pearson(count, confidence):
     hits, size = count
-    found = Interval.of(hits, size, confidence)
+    found = Interval.from_counts(hits, size, confidence)
     exact = stats.binomtest(hits, size).proportion_ci(confidence, "exact")
     np.testing.assert_allclose((found.low, found.high), (exact.low, exact.high), atol=1e-11)
     assert found.value == hits / size

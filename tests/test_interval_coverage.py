@@ -123,7 +123,7 @@ def test_betting_at_the_edges(values):
     assert 0 <= found.low <= found.value <= found.high <= 1
     np.testing.assert_allclose((found.low, found.high), (1 - mirrored.high, 1 - mirrored.low), atol=1e-8)
     if len(set(values)) == 1 and values[0] in (0.0, 1.0):
-        exact = Interval.of(sum(values), len(values))
+        exact = Interval.from_counts(sum(values), len(values))
         assert found.high - found.low >= exact.high - exact.low - 1e-9  # nothing that always covers is narrower
 
 
@@ -150,7 +150,7 @@ def test_a_weighted_share_scatters_no_more_than_the_effective_samples_say(rng):
     for _ in range(600):
         x = rng.random(size)
         w = weight.of(x)
-        d = Distribution.of(x, "larger", weights=w)
+        d = Distribution.from_values(x, "larger", weights=w)
         shares.append(d.probability(at_least=at))
         sizes.append(d.effective())
         kish.append(w.sum() ** 2 / (w @ w))
@@ -166,6 +166,6 @@ def test_a_density_knows_its_heaviest_weight():
     assert box.heaviest == 8.0
     poses = np.tile(np.eye(4), (3, 1, 1))
     assert hf.Region.from_poses(poses, [1, 7, 2]).heaviest == 7
-    seen = Distribution.of([0.1, 0.2], "larger", weights=[1, 1], heaviest=10)
+    seen = Distribution.from_values([0.1, 0.2], "larger", weights=[1, 1], heaviest=10)
     assert seen.effective() == pytest.approx(0.2)
     assert seen.band() == 1.0

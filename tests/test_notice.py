@@ -351,7 +351,7 @@ def best_path(arm, x):
 
 
 CALLS = {
-    "assessing poses": lambda arm, law, x: assess(arm, hf.Region.around(arm, x)),
+    "assessing poses": lambda arm, law, x: assess(arm, hf.Region.around_tool(arm, x)),
     "solving inverse kinematics": lambda arm, law, x: hf.solve_ik(arm, arm.forward_kinematics(x), task="planar"),
     "tracing self-motions": lambda arm, law, x: hf.self_motion(arm, [1.5, 1.5], "planar", starts=4),
     "simulating motions": lambda arm, law, x: hf.simulate(law, x, [1.5, 1.5]),

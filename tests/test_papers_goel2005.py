@@ -70,7 +70,9 @@ def test_sinks_folds_and_lines_of_the_three_joints():
     found = rest_points.curves()
     for c, sinks, folds in zip(found, rest_points.SINKS, rest_points.FOLDS, strict=True):
         assert np.degrees(c.sink_arcs) == pytest.approx(np.array(sinks), abs=0.01)
-        turns = np.concatenate([three_links.wrapped(np.degrees(k.locked[k.folds])) for k in c.curves if not k.degenerate])
+        turns = np.concatenate(
+            [three_links.wrapped(np.degrees(k.locked_values[k.folds])) for k in c.curves if not k.degenerate]
+        )
         assert np.sort(turns) == pytest.approx(np.array(folds), abs=0.02)
     # Closed form of the fold of joint 3: cos(h) + 2 cos(h)^2 = norm(x), h half its angle.
     half = np.arccos((-1 + np.sqrt(1 + 8 * np.linalg.norm(three_links.TARGET))) / 4)
@@ -82,7 +84,7 @@ def test_sinks_folds_and_lines_of_the_three_joints():
 
 def test_starts_on_either_side_of_the_boundary_end_at_different_solutions():
     found = hf.basins(three_links.law(), three_links.TARGET, {1: np.deg2rad(45)}, grid=12)
-    assert found.converged.value == 1
+    assert found.convergence.value == 1
     assert rest_points.split_by(found) > 0.9
     assert len(rest_points.basin_table(found)) == 4
 

@@ -48,7 +48,7 @@ READERS = {
     "poses.csv": PoseList.read_csv,
     "joints.csv": lambda path: read_joint_table(FLAT, path, "waypoints", "step"),
     "weights.csv": lambda path: read_weights("--weights", str(path)),
-    "study.yaml": study_file.read,
+    "study.yaml": study_file.read_study_file,
     "protocol.yaml": protocol.read_protocol,
     "texts.yaml": texts.load_texts,
     "study.json": _study,

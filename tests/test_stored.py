@@ -17,7 +17,7 @@ import holdfast as hf
 from holdfast import arms, control
 from holdfast.engine import Study, ThreadRunner
 from holdfast.recovery import read_waypoints
-from holdfast.studies import read
+from holdfast.studies import read_study_file
 from holdfast.studies.results import read_assessment, read_convergence
 from holdfast.teleop.records import Records
 from holdfast.teleop.trials import End
@@ -75,7 +75,7 @@ def test_a_study(folder, told):
 
 
 def test_a_study_is_resumed(folder):
-    asked, study = read(folder / "small.yaml"), Study.open(folder / "study")
+    asked, study = read_study_file(folder / "small.yaml"), Study.open(folder / "study")
     before = unchanged(study.path)
     study.check_same(Study.create(folder / "again", asked.name, asked.seed, cells=asked.cells, source=asked.text))
     assert study.run(asked.cells, ThreadRunner(1)) == {}

@@ -39,7 +39,7 @@ def main(out, count=100):
     rows = []
     for joint in compared.joints:
         cases = [compared.case(name, joint) for name in compared.names]
-        lost = [c.error[~c.ended("converged")] for c in cases]
+        lost = [c.error[~c.has_outcome("converged")] for c in cases]
         astray = ", ".join(f"{1000 * np.median(e):.0f} mm" if e.size else "none" for e in lost)
         rows.append((joint, f"{cases[0].reachable.mean():.0%}", *(f"{c.share().value:.0%}" for c in cases), astray))
     figure = compared.plot("errors")

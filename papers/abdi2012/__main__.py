@@ -163,7 +163,7 @@ def other_arms() -> list[str]:
     rows = []
     for name in ("panda", "xarm7"):
         arm = hf.arms.load(name)
-        region = hf.Region.around(arm, hf.arms.about(name).home)
+        region = hf.Region.around_tool(arm, hf.arms.about(name).home)
         for task in ("pose", "pointing"):
             index = hf.indices.relative_manipulability(arm, task)
             run = hf.assess(arm, region, index, poses=2000, seed=SEED, optimise=True, after_lock=True)
@@ -212,7 +212,7 @@ def figure_1_2(run: hf.Assessment, path_1: Path, path_2: Path) -> None:
     for k, axis, where, path in ((1, 2, "side", path_1), (2, 1, "top", path_2)):
         title = f"Fig. {k} of Abdi et al. 2012 made again: {where} view, {run.poses} random poses"
         figure = view_figure(
-            scene, [View(np.eye(3)[0], np.eye(3)[axis], title)], Scale.of(value[reached]), label=label, legend=legend
+            scene, [View(np.eye(3)[0], np.eye(3)[axis], title)], Scale.from_values(value[reached]), label=label, legend=legend
         )
         with style():
             figure.savefig(path, dpi=110, bbox_inches="tight")

@@ -68,8 +68,8 @@ def ceilings() -> list[str]:
         "|---|---|---|---|---|---|---|---|",
     ]
     for c in hf.ceilings.bound_table().ceilings:
-        best = "attained" if c.attained else f"{c.best_known:.7f}"
-        gap = "0" if c.attained else f"{100 * (c.gap or 0):.1f} %"
+        best = "attained" if c.is_attained else f"{c.best_known:.7f}"
+        gap = "0" if c.is_attained else f"{100 * (c.gap or 0):.1f} %"
         lines.append(f"| {c.n} | {c.m} | {c.k} | {c.bound:.7f} | {c.bound_by} | {best} | {c.closed_form} | {gap} |")
     return lines
 

@@ -64,7 +64,9 @@ def known() -> list[Known]:
 
     return [
         Known("planar 3R, position, one point", flat, lengths, "planar", one_pose(flat), 1),
-        Known("planar 3R, position, 95 % of a region", flat, lengths, "planar", hf.Region.around(flat, np.zeros(flat.n)), 128),
+        Known(
+            "planar 3R, position, 95 % of a region", flat, lengths, "planar", hf.Region.around_tool(flat, np.zeros(flat.n)), 128
+        ),
         Known("spatial 4R, position, one point", four, open_(four), "position", one_pose(four), 1),
         Known("spatial 7R, pose, one pose", seven, open_(seven), "pose", one_pose(seven), 1),
     ]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, finished, save_png, style
+from holdfast.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, save_png, settle_layout, style
 from holdfast.solvers import self_motion
 from papers.english1998.hardware import DURATION as HARDWARE_DURATION
 from papers.english1998.hardware import SCALES, Hardware
@@ -57,7 +57,7 @@ def figure_4(planar: Planar, found: Extremes, path: Path) -> None:
             "Hand at (0.6, -1.9) m, gravity along -y. Beside each joint: its holding torque over the largest it can have. "
             "Best and worst of all configurations by optimisation, checked by tracing them all.",
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_5(planar: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Global, path: Path) -> None:
@@ -81,7 +81,7 @@ def figure_5(planar: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Gl
             f"Torque criterion along y = {there.poses[0, 1, 3]:g} m (our assumption) in {DURATION:g} s, gradient projection, "
             f"{len(x)} samples; the best of all configurations at {len(best.x)} points.",
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_6(planar: Planar, motion: hf.Trajectory, borders: Sequence[float], path: Path, capped: bool = False) -> None:
@@ -108,7 +108,7 @@ def figure_6(planar: Planar, motion: hf.Trajectory, borders: Sequence[float], pa
             f"{DURATION:g} s, {len(x)} samples"
         )
         _caption(figure, text + (f"; cap of 1 rad/s, hand within {motion.position_error.max():.0e} m." if capped else "."))
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -> None:
@@ -139,7 +139,7 @@ def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -
             f"All configurations of four points on y = {y:g} m, traced 0.01 rad apart; dot and arm: where gradient projection "
             "is. (a) whole range, (b) to (d) a part.",
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_9_11(hardware: Hardware, motion: hf.Trajectory, text: str, path: Path) -> None:
@@ -158,7 +158,7 @@ def figure_9_11(hardware: Hardware, motion: hf.Trajectory, text: str, path: Path
         axes[0].set_ylabel("z (up), m")
         axes[0].legend(loc="upper right")
         _caption(figure, f"{text} Seen along the path (y); joint 1 turns about x, gravity points down.")
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_10(hardware: Hardware, path: Path) -> None:
@@ -175,7 +175,7 @@ def figure_10(hardware: Hardware, path: Path) -> None:
         _caption(
             figure, "Static torque of joint 2, squared, made small: torque of the whole dynamics at three times for the path."
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_12(hardware: Hardware, path: Path) -> None:
@@ -192,7 +192,7 @@ def figure_12(hardware: Hardware, path: Path) -> None:
         axes.set(xlabel="distance along the path, m", ylabel="|torque of joint 2|, N m", ylim=(0, None))
         axes.legend(loc="center right")
         _caption(figure, "Static torque of joint 2, squared, made large, beside the motions of Fig. 10; whole dynamics.")
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def _arms_along(axes: Axes, planar: Planar, motion: hf.Trajectory, count: int = 13) -> None:

@@ -71,7 +71,7 @@ class Study:
 def compare(name: str) -> Study:
     """The first configuration found for each pose, and the best under each measure."""
     arm = hf.arms.load(name)
-    region = hf.Region.around(arm, hf.arms.about(name).home)
+    region = hf.Region.around_tool(arm, hf.arms.about(name).home)
     poses = region.poses(next(region.blocks(0, SEED))[:POSES])
     torque = hf.susceptibility.torque(arm, "effort")
     acceleration, swing = hf.susceptibility.acceleration(arm), hf.susceptibility.swing_angle(arm)

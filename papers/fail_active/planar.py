@@ -35,7 +35,7 @@ def guarantees(quick: bool) -> Part:
         count += 1
         sure = _guaranteed(machine, unit_links.places(path, 21))
         given += sure
-        alike += sure == best.guaranteed and (best.guaranteed or best.never is not None or best.survival > 0.99)
+        alike += sure == best.survives_all_locks and (best.survives_all_locks or best.never is not None or best.survival > 0.99)
     why = f"planar arms of three unit links, half with narrow limits; brute force finds a motion that survives all on {given}"
     return Part(
         [Claim("E4 says 1 exactly where brute force does", "asked always", f"{alike} of {count}", why, verdict(alike == count))]

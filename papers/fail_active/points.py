@@ -51,7 +51,9 @@ def point_to_point(quick: bool) -> Part:
         way = start + np.linspace(0, 1, 2001)[:, None] * (nearest - start)
         out = [~np.any([(x >= a) & (x <= b) for a, b in spans], axis=0) for x, spans in zip(way.T, got.ranges, strict=True)]
         straight.append(float(np.mean(out, axis=1).sum()) * float((np.abs(nearest - start) / velocity).max()))
-        for q, k in zip(got.at(locks.uniform(0, got.duration, INJECTED)), locks.integers(0, arm.n, INJECTED), strict=True):
+        for q, k in zip(
+            got.positions_at(locks.uniform(0, got.duration, INJECTED)), locks.integers(0, arm.n, INJECTED), strict=True
+        ):
             if any(a + 1e-6 <= q[k] <= b - 1e-6 for a, b in got.ranges[k]):
                 tried += 1
                 lost_inside += not there(int(k), q[k])

@@ -32,7 +32,7 @@ def row(name: str, task: str, zero: tuple[int, ...], count: int, seed: int) -> s
         q = rng.uniform(arm.lower, arm.upper)
         q[list(zero)] = 0.0
         probe = hf.diagnosis.plan_identification(arm, q, task=task, seed=k)
-        motion, told = probe.at(RATE), set(probe.told_apart)
+        motion, told = probe.resample(RATE), set(probe.isolable)
         for joint in (None, *arm.joint_names):
             faults = [] if joint is None else [hf.faults.FaultEvent("locked", joint, 0.0)]
             record = hf.diagnosis.simulate_log(arm, motion=motion, faults=faults, seed=60_000 + k)
@@ -48,7 +48,7 @@ def row(name: str, task: str, zero: tuple[int, ...], count: int, seed: int) -> s
                 places = arm.forward_kinematics(record.q[[0, int(np.searchsorted(record.t, said.time))]])[:, :3, 3]
                 strayed.append(1e3 * float(np.linalg.norm(places[1] - places[0])))
                 took.append(said.time)
-    of = Interval.of(found, testable)
+    of = Interval.from_counts(found, testable)
     where = f", q{' = q'.join(str(i + 1) for i in zero)} = 0" if zero else ""
     both = [f"{np.median(x):.3g} / {np.quantile(x, 0.95):.3g}" for x in (strayed, took)]
     cells = [

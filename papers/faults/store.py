@@ -73,5 +73,5 @@ def of(hits: int, size: int) -> str:
 
 def limits(hits: int, size: int) -> str:
     """The exact 95 % interval of Clopper and Pearson in per cent, to four digits: an upper end of 99.69 is not 100."""
-    interval = Interval.of(hits, size)
+    interval = Interval.from_counts(hits, size)
     return f"{100 * interval.low:.4g} to {100 * interval.high:.4g}"

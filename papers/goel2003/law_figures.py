@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
+from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, legend_below, save_png, settle_layout, style
 
 if TYPE_CHECKING:
     from papers.goel2003.peak_error import TwoMinima
@@ -32,7 +32,7 @@ def two_minima(found: TwoMinima, path: Path) -> None:
         axes.set_title("7R arm, pose: two minima")
         axes.set_xlim(1e-4, largest)
         legend_below(figure, axes, 2)
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def trade_off(curves: Sequence[hf.control.TradeOff], path: Path) -> None:
@@ -45,4 +45,4 @@ def trade_off(curves: Sequence[hf.control.TradeOff], path: Path) -> None:
             for axes in row:
                 axes.axvline(0.5, color=SOFT, linestyle=(0, (1.2, 1.6)), label="the paper's choice")
         legend_below(figure, row[1], 5)
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)

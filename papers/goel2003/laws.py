@@ -304,7 +304,7 @@ def largest_gap(found: list[Statistics]) -> float:
 
 def claims(found: list[Statistics]) -> list[Claim]:
     """What section II says."""
-    above = [Interval.of(float((s.pad > np.pi / 6).sum()), len(s)) for s in found]
+    above = [Interval.from_counts(float((s.pad > np.pi / 6).sum()), len(s)) for s in found]
     active = [float((s.damping > 1 - _END).mean()) for s in found]
     many = [float((s.minima > 1).mean()) for s in found]
     worst = [float((s.golden / s.least - 1).max()) for s in found]

@@ -33,7 +33,7 @@ CREEPING = 5e-3  # of the reach: unequal links that are nearly equal
 @cache
 def joints() -> DesignJoints:
     """The arm with its three lengths as joints."""
-    return DesignJoints.of(design_space(law().arm, {f"a{k}": (0.05, REACH) for k in (1, 2, 3)}))
+    return DesignJoints.from_space(design_space(law().arm, {f"a{k}": (0.05, REACH) for k in (1, 2, 3)}))
 
 
 def rings() -> Array:

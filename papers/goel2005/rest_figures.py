@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from holdfast.equilibria import Curve, Curves
-from holdfast.report import INK, KINDS, WIDTH, finished, save_png, style
+from holdfast.report import INK, KINDS, WIDTH, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 
@@ -53,12 +53,12 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
             "angle, by kind; S1, S2: seeds for joint 1. Below: determinant of the linearised motion of the two healthy joints "
             "(logarithmic outside the dashed lines); curves of degenerate points, on which it is 0, are left out.",
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def _stretches(axes: Axes, curve: Curve, values: Array) -> None:
     """Values along a curve over the locked angle, drawn by kind, broken where an angle comes round."""
-    x = np.degrees(curve.locked) % 360
+    x = np.degrees(curve.locked_values) % 360
     for s in curve.segments:
         rows = slice(s.first, s.last + 1)
         color, width, line, _ = KINDS[s.kind.word]

@@ -114,11 +114,11 @@ def range_table(found: Sequence[Curves]) -> list[str]:
     for c in found:
         for number, curve in enumerate(c.curves, 1):
             if curve.degenerate:
-                at = float(wrapped(np.degrees(np.median(curve.locked)) - 1e-6) + 1e-6)
+                at = float(wrapped(np.degrees(np.median(curve.locked_values)) - 1e-6) + 1e-6)
                 lines.append(f"| {c.joint + 1} | {number} | degenerate | {at:.4f} only | whole line of stationary points |")
                 continue
             for s in curve.segments:
-                first, last = np.degrees(curve.locked[[s.first, s.last]])
+                first, last = np.degrees(curve.locked_values[[s.first, s.last]])
                 low = min(first, last)
                 shift = wrapped(low + 1e-6) - 1e-6 - low
                 shape = family(c.joint, curve.q[(s.first + s.last) // 2])
@@ -146,7 +146,7 @@ def sinks(found: Sequence[Curves]) -> list[str]:
     ]
     for c, expected, folds, points in zip(found, SINKS, FOLDS, LINES, strict=True):
         arcs = zip(np.degrees(c.sink_arcs).ravel(), np.ravel(expected), strict=True)
-        turns = np.concatenate([wrapped(np.degrees(k.locked[k.folds])) for k in c.curves if not k.degenerate])
+        turns = np.concatenate([wrapped(np.degrees(k.locked_values[k.folds])) for k in c.curves if not k.degenerate])
         angles = [wrapped(np.degrees(x) - 1e-6) + 1e-6 for x in c.degenerate_angles]
         cells = [
             " to ".join(beside(float(x), e, 2) for x, e in arcs),
@@ -241,12 +241,12 @@ def claims(found: Sequence[Curves], basins: Basins, split: float, worst: tuple[f
         Claim(
             "Fig. 8 and 4.5: basins",
             "all trajectories converge to the solution of their basin; what is drawn to S1 and S2 parts the basins",
-            f"{basins.converged.value:.1%} of {len(basins.end)} starts converge, {basins.shares[0][1].value:.1%} and "
+            f"{basins.convergence.value:.1%} of {len(basins.end)} starts converge, {basins.shares[0][1].value:.1%} and "
             f"{basins.shares[1][1].value:.1%} to either solution; {split:.0%} of the places along the stable manifolds of S1 "
             "and "
             "S2, followed backwards, have starts 0.02 rad away on either side that end at different solutions",
             "agrees; which solution the paper calls 1 is not stated",
-            Verdict.HOLDS if basins.converged.value == 1 and split > 0.95 else Verdict.PARTLY,
+            Verdict.HOLDS if basins.convergence.value == 1 and split > 0.95 else Verdict.PARTLY,
         ),
         Claim(
             "Fig. 9: joint 1, x_d = (1.5, 1.5)",

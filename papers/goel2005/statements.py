@@ -135,7 +135,7 @@ class Window:
 def window() -> Window:
     """From the curves that :func:`holdfast.stationary_points` traces."""
     curve = next(c for c in hf.stationary_points(law(), NEAR, {JOINT: None}).curves if len(c.hopf_points))
-    angle = np.degrees(curve.locked) % 360
+    angle = np.degrees(curve.locked_values) % 360
     fold = next(float(angle[k]) for k in curve.folds if 160 < angle[k] < 180)
     k = next(k for k in curve.hopf_points if angle[k] < 180)
     pair = curve.eigenvalues[k]
@@ -189,7 +189,7 @@ def cycle_table() -> list[str]:
 
 def figure_cycle(path: Path) -> None:
     """The limit cycle in the plane of the healthy joints."""
-    from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
+    from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, legend_below, save_png, settle_layout, style
 
     points = at(168.30)
     with style():
@@ -206,7 +206,7 @@ def figure_cycle(path: Path) -> None:
         axes.plot(*np.degrees(source[[0, 2]]), "o", color="white", markeredgecolor="black", label="source")
         axes.set(xlabel="joint 1, deg", ylabel="joint 3, deg", title="Joint 2 locked at 168.30 deg, target (0.9, 0) m")
         legend_below(figure, axes, 2)
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 # ---- all of it -------------------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import BLUE, FAINT, INK, WIDTH, finished, save_png, style
+from holdfast.report import BLUE, FAINT, INK, WIDTH, save_png, settle_layout, style
 from papers.goel2005 import drawing
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ def figure_5_6(found: Sequence[hf.Runs], title: str, path: Path) -> None:
             "blue: the end effector; cross: the target. One panel for each elbow.",
             100,
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_7(turning: hf.Runs, resting: hf.Runs, path: Path) -> None:
@@ -51,7 +51,7 @@ def figure_7(turning: hf.Runs, resting: hf.Runs, path: Path) -> None:
             "target (cross), locked joint (filled). Below: joint 1 over time.",
             100,
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def _draw(axes: Axes, run: hf.Runs, until: float) -> float:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from holdfast.report import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, save_png, style
+from holdfast.report import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH, legend_below, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.drawing import point
 from papers.goel2005.two_link_motion import START, Ended, hand, rate, target, wrapped
@@ -47,7 +47,7 @@ def figure_1(stuck: Ended, path: Path) -> None:
             f"parallel to within {angle:.0e} deg, so only joint 1 is commanded.",
             62,
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_2(found: Sequence[Ended], path: Path) -> None:
@@ -69,7 +69,7 @@ def figure_2(found: Sequence[Ended], path: Path) -> None:
             "targets.",
             62,
         )
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def figure_3_4(rho: float, found: Sequence[Ended], path: Path) -> None:
@@ -91,7 +91,7 @@ def figure_3_4(rho: float, found: Sequence[Ended], path: Path) -> None:
         axes.fill_between([], [], color=SKY, label="error shrinks")
         axes.fill_between([], [], color="#f3f4f6", edgecolor=FAINT, label="error grows")
         legend_below(figure, axes, 3)
-        save_png(finished(figure), path, dpi=110)
+        save_png(settle_layout(figure), path, dpi=110)
 
 
 def _arrows(axes: Axes, rho: float) -> None:

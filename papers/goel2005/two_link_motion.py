@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.simulation import Path
+from holdfast.simulation import RunPath
 
 Array = NDArray[np.float64]
 
@@ -87,7 +87,7 @@ class Ended:
     case: Case
     run: hf.Runs
     rate: float
-    path: Path
+    path: RunPath
 
     @property
     def angle(self) -> float:

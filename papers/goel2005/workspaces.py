@@ -162,9 +162,10 @@ def work(w: hf.Workspace, seconds: float) -> list[str]:
     every = sum(BRUTE.ends)
     brute_slow = (BRUTE.ends[3] + BRUTE.ends[4]) / every
     return [
-        f"Procedure, this run: {w.simulated} of {int(w.ends.sum())} failures simulated ({w.saved:.2%} saved), {seconds:.0f} s "
+        f"Procedure, this run: {w.simulated_count} of {int(w.ends.sum())} failures simulated ({w.skipped_fraction:.2%} "
+        f"saved), {seconds:.0f} s "
         "of "
-        f"processor time. Of those simulated {slow / max(w.simulated, 1):.0%} were undecided at 2000/Ke, all but "
+        f"processor time. Of those simulated {slow / max(w.simulated_count, 1):.0%} were undecided at 2000/Ke, all but "
         f"{int(w.ends[:, 3].sum())} of them next to a solution that attracts, counted as converged: the procedure simulates "
         "only what locks where a sink is, and that is within 0.06 deg of the ends of the ranges, where the arm creeps.",
         "",
@@ -292,7 +293,8 @@ def claims(w: hf.Workspace, grid: hf.Workspace, gaps: Array) -> list[Claim]:
         Claim(
             "6 and 5: brute force only over some portions of the workspace",
             "the procedure minimises the number of brute-force checks",
-            f"{grid.simulated} of {int(grid.ends.sum())} failures need a simulation, {grid.saved:.2%} do not; the measures "
+            f"{grid.simulated_count} of {int(grid.ends.sum())} failures need a simulation, {grid.skipped_fraction:.2%} do "
+            f"not; the measures "
             "differ "
             f"from brute force by at most {BRUTE.difference:.2g} percentage points",
             "agrees, for this target; that no sink means convergence is a rule of thumb (see section 5, pseudocode)",

@@ -57,7 +57,7 @@ def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
         both = [r for r in rows if "undecided" not in (r.kinematic, r.physical)]
         same = sum(r.kinematic == r.physical for r in both)
         kinds = Counter(r.kinematic for r in both)
-        share = Interval.of(same, len(both)) if both else "none"
+        share = Interval.from_counts(same, len(both)) if both else "none"
         agreed = sum(r.there[0] == r.there[1] for r in rows)
         late = Counter(f"{r.kinematic} ({r.reason})" for r in rows if r.physical == "undecided")
         cells = [
@@ -66,7 +66,7 @@ def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
             f"{len(both)}: " + ", ".join(f"{n} {kind}" for kind, n in kinds.items()),
             f"{same}, share {share}",
             ", ".join(f"{n} {kind}" for kind, n in late.items()) or "none",
-            f"{agreed} (there: {sum(r.there[0] for r in rows)}), share {Interval.of(agreed, len(rows))}",
+            f"{agreed} (there: {sum(r.there[0] for r in rows)}), share {Interval.from_counts(agreed, len(rows))}",
             f"{np.median([r.moved for r in rows]):.2f} m",
         ]
         lines.append("| " + " | ".join(cells) + " |")

@@ -83,7 +83,7 @@ def row(run: PhysicalRun, joint: int) -> Row:
         run.terminal_distance,
         run.terminal_turn,
         float(run.tracking_error.max()),
-        float(run.saturated.max()),
+        float(run.saturated_fraction.max()),
         float(np.linalg.norm(np.diff(run.x, axis=0), axis=1).sum()),
         float(run.time[-1]),
     )

@@ -62,8 +62,8 @@ def part(name: str, task: str, motions: int, folder: Path, seed: int = SEED) -> 
 def _any(c: hf.LawComparison, name: str) -> dict[str, float]:
     """Shares over all joints, each as likely to lock as any other."""
     arrived = c.share_any(name)
-    code, past = c.pooled(name, "code"), c.pooled(name, "past_limits")
-    reachable, error = c.pooled(name, "reachable"), c.pooled(name, "error")
+    code, past = c.pool_values(name, "code"), c.pool_values(name, "past_limits")
+    reachable, error = c.pool_values(name, "reachable"), c.pool_values(name, "error")
     done = code == 0
     return {
         "converged": arrived.value,

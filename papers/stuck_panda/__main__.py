@@ -62,11 +62,11 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
     """RESULTS.md."""
     goal = target()[:3, 3]
     sizes = "; ".join(
-        f"task {task}: {len(c.maps[0].places)} places, {int(c.maps[0].known.sum())} motions, "
-        f"{int(c.maps[0].known.sum()) * (arm().n + 1)} runs under each of {len(c.names)} laws"
+        f"task {task}: {len(c.maps[0].places)} places, {int(c.maps[0].has_configuration.sum())} motions, "
+        f"{int(c.maps[0].has_configuration.sum()) * (arm().n + 1)} runs under each of {len(c.names)} laws"
         for task, c in choices.items()
     )
-    limits = [np.mean([m.limits_passed[m.known][:, :-1].mean() for m in c.maps]) for c in choices.values()]
+    limits = [np.mean([m.limits_passed[m.has_configuration][:, :-1].mean() for m in c.maps]) for c in choices.values()]
     return [
         "# Where does a Panda get stuck when its elbow locks and nobody notices?",
         "",

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import INK, KINDS, WIDTH, Stack, binned, finished, place_maps, save_png, stack_figure, style
+from holdfast.report import INK, KINDS, WIDTH, Stack, bin_positions, place_maps, save_png, settle_layout, stack_figure, style
 from papers.stuck_panda.study import ELBOW, SHOWN, Elbow, arm
 
 Array = NDArray[np.float64]
@@ -43,7 +43,10 @@ def draw_joints(task: str, choice: hf.LawChoice, path: Path) -> None:
                 level=level,
             )
         )
-    label = f"share of {int(maps[0].known.sum())} motions to the target, each law and locked joint; {arm().name}, task {task}"
+    label = (
+        f"share of {int(maps[0].has_configuration.sum())} motions to the target, each law and locked joint; "
+        f"{arm().name}, task {task}"
+    )
     save_png(stack_figure(stacks, OUTCOMES, label, level="target within reach"), path, dpi=80)
 
 
@@ -79,10 +82,11 @@ def draw_map(task: str, choice: hf.LawChoice, goal: Array, path: Path) -> None:
     rows: dict[str, Array] = {}
     for outcome in OUTCOMES:
         values = 100 * np.stack([m.values(outcome)[:, ELBOW] for m in maps], axis=1)
-        plane, rows[outcome] = binned(points, values, CELLS)
+        plane, rows[outcome] = bin_positions(points, values, CELLS)
     plane = replace(plane, labels=("x, m", "z, m"), mark=(float(goal[0, 3]), float(goal[2, 3])), mark_label="target")
     caption = (
-        f"{arm().name}, task {task}, joint 4 locked from the start: {int(maps[0].known.sum())} motions from {len(points)} "
+        f"{arm().name}, task {task}, joint 4 locked from the start: {int(maps[0].has_configuration.sum())} motions from "
+        f"{len(points)} "
         "places "
         "of the end effector\nseen from the side, mean over the places in a cell, whatever their depth"
     )
@@ -124,4 +128,4 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
         )
         handles.append(Line2D([], [], marker="_", color=INK, linestyle="none", label="stuck runs ended"))
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.2, handletextpad=0.3)
-        save_png(finished(figure), path, dpi=100)
+        save_png(settle_layout(figure), path, dpi=100)

@@ -81,7 +81,7 @@ def against(choice: hf.LawChoice, name: str, other: str) -> Against:
 def open_share(choice: hf.LawChoice, name: str) -> float:
     """Share of the failures that were undecided though the target was in reach."""
     m = choice.map_of(name)
-    return float(((m.code == RunOutcome.UNDECIDED) & m.in_reach)[m.known][:, :-1].mean())
+    return float(((m.code == RunOutcome.UNDECIDED) & m.in_reach)[m.has_configuration][:, :-1].mean())
 
 
 # ---- stationary points with the elbow locked ---------------------------------------------------------------------------------

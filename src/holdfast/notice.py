@@ -22,7 +22,9 @@ T = TypeVar("T")
 Progress = Callable[[int, int], None]
 
 LONG_WORK_S = 1.0  # s
-REPEAT_FACTOR, MAX_SILENCE_S = 4.0, 60.0  # next word after as many times as long, but not later than so many s
+# REPEAT_FACTOR and MAX_SILENCE_S: next word after as many times as long, but not later than so many s
+REPEAT_FACTOR = 4.0
+MAX_SILENCE_S = 60.0
 MIN_COUNTED_PARTS = 10  # once such a part of a whole is done, the time left follows from it: threads hand over whole blocks
 RESUMED_WITHIN_S = 0.1  # s: what is done by then was done before
 _clock = time.monotonic

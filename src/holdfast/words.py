@@ -102,7 +102,7 @@ def format_share(count: int, whole: int) -> str:
         return f"{count:,}"
     from holdfast.probability.intervals import Interval
 
-    limits = Interval.of(count, whole)
+    limits = Interval.from_counts(count, whole)
     low, high = (format_percent(round(x, 9)) for x in (limits.low, limits.high))
     return f"{count:,} ({format_percent(count / whole)}, 95 % interval {low.removesuffix(' %')} to {high})"
 

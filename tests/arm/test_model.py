@@ -47,19 +47,19 @@ def same(link: Link, expected: pin.Inertia) -> None:
 def test_bodies_move_and_join_as_in_pinocchio(seed: int) -> None:
     rng = np.random.default_rng(seed)
     bodies, pose = [random_link(rng, "x") for _ in range(3)], random_pose(rng)
-    moved = bodies[0].moved(pose)
+    moved = bodies[0].in_frame(pose)
     same(moved, pin.SE3(pose).act(as_pin(bodies[0])))
     assert moved.name == "x"
-    same(Link.joined(bodies, "sum"), as_pin(bodies[0]) + as_pin(bodies[1]) + as_pin(bodies[2]))
+    same(Link.merge(bodies, "sum"), as_pin(bodies[0]) + as_pin(bodies[1]) + as_pin(bodies[2]))
 
 
 def test_massless_bodies_join() -> None:
-    empty = Link.joined([])
+    empty = Link.merge([])
     assert (empty.mass, empty.inertia.sum()) == (0, 0)
     rotor = Link(0.0, np.ones(3), np.eye(3))
-    assert Link.joined([rotor, rotor], "r").inertia.tolist() == (2 * np.eye(3)).tolist()
+    assert Link.merge([rotor, rotor], "r").inertia.tolist() == (2 * np.eye(3)).tolist()
     arm = Link(2.0, np.ones(3), np.eye(3))
-    both = Link.joined([rotor, arm])
+    both = Link.merge([rotor, arm])
     assert (both.mass, both.com.tolist()) == (2, [1, 1, 1])
 
 

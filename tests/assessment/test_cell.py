@@ -31,7 +31,7 @@ def cell():
 
 @pytest.fixture(scope="module")
 def call(arm, cell):
-    clearance = hf.Clearance(arm, hf.Capsules.along(arm, WIDTH), itself=False)
+    clearance = hf.Clearance(arm, hf.Capsules.along_links(arm, WIDTH), itself=False)
     return {"region": REGION, "task": "planar", "poses": 500, "seed": 3, "clearance": clearance, "cell": cell}
 
 

@@ -13,7 +13,7 @@ import yaml
 import holdfast as hf
 from holdfast import Capsules, Clearance, Region, arms, assess, load
 from holdfast.assessment.plan import make_plan
-from holdfast.clearance import Capsule
+from holdfast.clearance import LinkCapsule
 from holdfast.clearance.cover import choose_capsules
 from holdfast.errors import InputError, StoreError
 from holdfast.present.assessment.facts import AssessmentFacts
@@ -34,7 +34,7 @@ def arm():
 @pytest.fixture(scope="module")
 def thick(arm):
     """First and third link in one plane."""
-    return Clearance(arm, Capsules.along(arm, 0.13))
+    return Clearance(arm, Capsules.along_links(arm, 0.13))
 
 
 @pytest.fixture(scope="module")
@@ -170,20 +170,20 @@ def test_a_lost_column_is_named(name, saved, tmp_path):
 
 def test_where_capsules_come_from():
     arm = arms.load("panda")
-    assumed, own = Capsules.along(arm), Capsules.along(arm, 0.05)
-    other = Capsules((Capsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), *own.parts[1:]))
-    assert [c.assumed(arm) for c in (assumed, own, other)] == [True, False, False]
+    assumed, own = Capsules.along_links(arm), Capsules.along_links(arm, 0.05)
+    other = Capsules((LinkCapsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), *own.parts[1:]))
+    assert [c.is_assumed(arm) for c in (assumed, own, other)] == [True, False, False]
     assert [c.radius_along(arm) for c in (assumed, own, other)] == [assumed.parts[0].radius, 0.05, None]
     assert assumed.describe(arm) == "assumed radius 0.0711 m along each link"
     assert own.describe(arm) == "given radius 0.05 m along each link"
     assert other.describe(arm) == f"{len(other)} capsules, as given"
-    assert Capsules.from_dict(assumed.to_dict(arm), arm).assumed(arm)
+    assert Capsules.from_dict(assumed.to_dict(arm), arm).is_assumed(arm)
     assert Capsules(()).describe(arm) == "0 capsules, as given"
     assert Capsules(own.parts, ((0, 3),)).radius_along(arm) is None
     assert Clearance.by_default(arms.load("planar-3r")) is None
     assert Clearance.by_default(arm).capsules.describe(arm).startswith("cover of the collision shapes of panda.urdf: ")
     other = arms.load("xarm7")  # its file gives none
-    assert Clearance.by_default(other).capsules == Capsules.along(other)
+    assert Clearance.by_default(other).capsules == Capsules.along_links(other)
 
 
 def test_the_report_says_what_was_counted(run, thick, tmp_path):
@@ -233,10 +233,12 @@ def test_an_assumed_shape_is_called_one(arm, tmp_path):
 def test_the_command_makes_the_same_run(optimise, capsules, margin, words):
     arm = arms.load("panda")
     own = Capsules(
-        (Capsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), Capsule(6, (0, 0, 0.1), (0, 0, 0.1), radius=0.07)), ((0, 2),)
+        (LinkCapsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), LinkCapsule(6, (0, 0, 0.1), (0, 0, 0.1), radius=0.07)), ((0, 2),)
     )
-    usual = {"default": choose_capsules(arm), "assumed": Capsules.along(arm)}
-    shape = {"own": own, None: None, **usual}.get(capsules) or (None if capsules is None else Capsules.along(arm, capsules))
+    usual = {"default": choose_capsules(arm), "assumed": Capsules.along_links(arm)}
+    shape = {"own": own, None: None, **usual}.get(capsules) or (
+        None if capsules is None else Capsules.along_links(arm, capsules)
+    )
     clearance = False if shape is None else Clearance(arm, shape)
     index = hf.indices.relative_manipulability(arm)
     plan = make_plan(arm, CLOSE, index, 10, 0, "random", 100, optimise, False, None, clearance, margin)

@@ -50,7 +50,7 @@ def sample(rng, better, size=300):
 @pytest.mark.parametrize("better", BETTER)
 def test_against_counting(better, reachable_only, rng):
     values = sample(rng, better)
-    d = Distribution.of(values, better, unreached=41, singular=5)
+    d = Distribution.from_values(values, better, unreached=41, singular=5)
     oracle = Counting(values, better, 41, reachable_only)
     thresholds = np.r_[-1, 0, 1e-300, values[np.isfinite(values)], 0.3, 0.7, 1e9]
     np.testing.assert_array_equal(d.cdf(thresholds, reachable_only), [oracle.cdf(h) for h in thresholds])
@@ -67,7 +67,7 @@ def test_against_counting(better, reachable_only, rng):
 
 def test_strictly_below_at_zero():
     """Specification, section 4: F(0) = 0 and the probability of at least 0 is 1, zeros and unreached poses or not."""
-    d = Distribution.of([0, 0, 0.1, 0.2], "larger", unreached=6)
+    d = Distribution.from_values([0, 0, 0.1, 0.2], "larger", unreached=6)
     assert d.cdf(0) == 0
     assert d.probability(at_least=0) == 1
     assert d.cdf(5e-324) == 0.8
@@ -76,7 +76,7 @@ def test_strictly_below_at_zero():
 
 
 def test_infinity_is_a_value_like_any_other():
-    d = Distribution.of([1, 2, np.inf], "smaller", unreached=1)
+    d = Distribution.from_values([1, 2, np.inf], "smaller", unreached=1)
     assert d.probability(at_most=2) == 0.5
     assert d.probability(at_least=np.inf) == 0.5
     assert d.probability(at_most=1e308) == 0.5
@@ -88,11 +88,11 @@ def test_a_quantile_at_a_whole_number_of_samples():
     """0.07 * 100 is a little above 7 in floating point; the seventh of a hundred has a share of 0.07."""
     values = np.arange(1, 101) / 100
     shares = np.arange(1, 101) / 100
-    np.testing.assert_array_equal(Distribution.of(values, "larger").quantile(shares), values)
+    np.testing.assert_array_equal(Distribution.from_values(values, "larger").quantile(shares), values)
 
 
 def test_scalars_and_arrays_keep_their_shape():
-    d = Distribution.of([0.1, 0.2, 0.3], "larger")
+    d = Distribution.from_values([0.1, 0.2, 0.3], "larger")
     assert d.cdf(0.2).shape == ()
     assert d.cdf(np.zeros((2, 3))).shape == (2, 3)
     assert d.quantile(0.5).shape == ()
@@ -109,7 +109,7 @@ cases = st.tuples(st.lists(numbers, min_size=1, max_size=40), st.integers(0, 12)
 @given(cases, st.lists(numbers, min_size=2, max_size=8))
 def test_cdf_is_monotone_and_complements_the_probability(case, thresholds):
     values, unreached, better, only = case
-    d, oracle = Distribution.of(values, better, unreached), Counting(values, better, unreached, only)
+    d, oracle = Distribution.from_values(values, better, unreached), Counting(values, better, unreached, only)
     h = np.sort(thresholds)
     f = d.cdf(h, only)
     assert (np.diff(f) >= 0).all()
@@ -126,7 +126,7 @@ def test_cdf_is_monotone_and_complements_the_probability(case, thresholds):
 )
 def test_quantile_inverts_the_cdf(case, p):
     values, unreached, better, only = case
-    d, oracle = Distribution.of(values, better, unreached), Counting(values, better, unreached, only)
+    d, oracle = Distribution.from_values(values, better, unreached), Counting(values, better, unreached, only)
     v = float(d.quantile(p, only))
     assert v == oracle.quantile(p)
     assert d.cdf(v, only) <= p  # everything below the quantile is less than its share ...
@@ -140,7 +140,7 @@ def test_quantile_inverts_the_cdf(case, p):
 @pytest.mark.parametrize(("hits", "n", "confidence"), [(12, 40, 0.95), (0, 25, 0.99), (25, 25, 0.9)])
 def test_an_interval_is_the_exact_one(hits, n, confidence):
     """Clopper and Pearson 1934: at either end the count, or one more extreme, has half of what is left of the probability."""
-    d = Distribution.of(np.r_[np.ones(hits), np.zeros(n - hits)], "larger")
+    d = Distribution.from_values(np.r_[np.ones(hits), np.zeros(n - hits)], "larger")
     found = d.interval(at_least=0.5, confidence=confidence)
     assert found.value == hits / n
     if hits:
@@ -157,7 +157,7 @@ def test_an_interval_reads_as_a_sentence():
 
 @pytest.mark.parametrize(("n", "expected"), [(500, 0.061), (2000, 0.030)])
 def test_band_is_that_of_the_specification(n, expected):
-    d = Distribution.of(np.zeros(n // 2), "larger", unreached=n - n // 2)
+    d = Distribution.from_values(np.zeros(n // 2), "larger", unreached=n - n // 2)
     assert d.band() == pytest.approx(expected, abs=5e-4)
     assert d.band() == pytest.approx(np.sqrt(np.log(40) / (2 * n)))
     assert d.band(0.99) == pytest.approx(np.sqrt(np.log(200) / (2 * n)))
@@ -170,7 +170,7 @@ def test_band_covers_the_true_cdf_as_often_as_it_says(confidence, at_most):
     generator, inside = np.random.default_rng(2012), 0
     for _ in range(400):
         x = np.sort(generator.random(200))
-        d = Distribution.of(x, "larger")
+        d = Distribution.from_values(x, "larger")
         off = max(np.abs(d.cdf(x) - x).max(), np.abs(d.cdf(np.nextafter(x, 2)) - x).max())
         inside += off <= d.band(confidence)
     noise = 3 * np.sqrt(confidence * (1 - confidence) / 400)
@@ -180,7 +180,7 @@ def test_band_covers_the_true_cdf_as_often_as_it_says(confidence, at_most):
 def test_an_interval_covers_the_true_probability():
     generator, inside = np.random.default_rng(1927), 0
     for _ in range(400):
-        found = Distribution.of(generator.random(200), "larger").interval(at_least=0.8)
+        found = Distribution.from_values(generator.random(200), "larger").interval(at_least=0.8)
         inside += found.low <= 0.2 <= found.high
     assert 0.917 <= inside / 400 <= 0.985
 
@@ -191,7 +191,7 @@ def test_an_interval_covers_the_true_probability():
 @pytest.mark.parametrize("better", BETTER)
 def test_density_integrates_to_the_finite_share(better, rng):
     values = sample(rng, better)
-    d = Distribution.of(values, better, unreached=100)
+    d = Distribution.from_values(values, better, unreached=100)
     edges, density = d.density(23)
     assert (len(edges), len(density)) == (24, 23)
     finite = values[np.isfinite(values)]
@@ -209,14 +209,14 @@ def test_density_integrates_to_the_finite_share(better, rng):
 )
 def test_density_of_values_that_hardly_differ(values):
     """An index that does not depend on the joints that move: equal but for rounding."""
-    edges, density = Distribution.of(values, "larger").density()
+    edges, density = Distribution.from_values(values, "larger").density()
     assert np.isfinite(density).all()
     assert (np.diff(edges) > 0).all()
     assert (density * np.diff(edges)).sum() == pytest.approx(1)
 
 
 def test_density_when_all_is_infinite():
-    edges, density = Distribution.of([np.inf] * 3, "smaller").density()
+    edges, density = Distribution.from_values([np.inf] * 3, "smaller").density()
     assert (np.diff(edges) > 0).all()
     assert (density == 0).all()
 
@@ -225,7 +225,7 @@ def test_density_when_all_is_infinite():
 
 
 def test_no_sample_at_all_is_said():
-    d = Distribution.of([], "larger")
+    d = Distribution.from_values([], "larger")
     for ask in (lambda: d.cdf(0.1), lambda: d.probability(at_least=0.1), lambda: d.quantile(0.5), d.band, d.density):
         with pytest.raises(InputError, match=r"no samples"):
             ask()
@@ -235,7 +235,7 @@ def test_no_sample_at_all_is_said():
 @pytest.mark.parametrize("binned", [False, True])
 @pytest.mark.parametrize("better", BETTER)
 def test_all_unreached(better, binned):
-    d = Distribution.of([], better, unreached=50)
+    d = Distribution.from_values([], better, unreached=50)
     if binned:
         collector = DistributionCollector(better, None, most=-1)
         collector.add(np.zeros(0), 50, 0)
@@ -256,7 +256,7 @@ def test_all_unreached(better, binned):
 
 
 def test_wrong_questions_are_refused():
-    d = Distribution.of([0.1, 0.2], "larger")
+    d = Distribution.from_values([0.1, 0.2], "larger")
     with pytest.raises(InputError, match="exactly one"):
         d.probability()
     with pytest.raises(InputError, match="exactly one"):
@@ -274,7 +274,7 @@ def test_wrong_questions_are_refused():
 @pytest.mark.parametrize("which", ["at_least", "at_most"])
 def test_a_threshold_of_nan_is_refused(which):
     with pytest.raises(InputError, match=r"(?i)nan|number"):
-        Distribution.of([0.1, 0.2], "larger").probability(**{which: np.nan})
+        Distribution.from_values([0.1, 0.2], "larger").probability(**{which: np.nan})
 
 
 # ---- chunk by chunk ------------------------------------------------------------------------------------------------
@@ -290,7 +290,7 @@ def collect(values, better, bound, most, parts=13, unreached=0, singular=0):
 def test_collector_is_exact_while_it_can_be(rng):
     values = rng.permutation(sample(rng, "larger"))
     d = collect(values, "larger", 0.6, most=300, unreached=2, singular=1)
-    exact = Distribution.of(values, "larger", 26, singular=13)
+    exact = Distribution.from_values(values, "larger", 26, singular=13)
     np.testing.assert_array_equal(d.values, exact.values)
     assert (d.samples, d.unreached, d.singular, d.infinite) == (326, 26, 13, 0)
 
@@ -299,7 +299,7 @@ def test_binned_distribution_agrees_to_its_resolution(rng):
     """3e5 values in 65,535 bins up to the bound: everything is right to one bin."""
     bound = 0.5773502691896257
     values = rng.permutation(np.r_[bound * rng.beta(2, 3, 300_000), np.zeros(500)])
-    d, exact = collect(values, "larger", bound, 20_000, unreached=7), Distribution.of(values, "larger", 91)
+    d, exact = collect(values, "larger", bound, 20_000, unreached=7), Distribution.from_values(values, "larger", 91)
     assert d.values is None
     width = bound / 65_535
     h = np.r_[0, rng.uniform(0, bound, 400), bound, 1]
@@ -353,7 +353,7 @@ def test_binned_quantiles_at_the_bound_and_among_infinite_values(better, bound, 
     for part in np.array_split(values, 7):
         weights = (np.ones(len(part)), np.ones(2)) if weighted else ()
         collector.add(part, 2, 0, *weights)
-    d, exact = collector.finish(), Distribution.of(values, better, 14)
+    d, exact = collector.finish(), Distribution.from_values(values, better, 14)
     p = np.r_[0.0, 0.1, 0.3, 0.5, 0.89, 0.899, 0.9, 0.95, 1.0]
     for only in (True, False):
         np.testing.assert_allclose(d.quantile(p, only), exact.quantile(p, only), atol=2e-4)
@@ -391,7 +391,7 @@ def test_binned_condition_numbers_keep_their_digits(rng):
     values = 1 / rng.random(100_000) ** 2
     values[::1000] = np.inf
     d = collect(values, "smaller", None, 50_000, unreached=100)
-    exact = Distribution.of(values, "smaller", 1300)
+    exact = Distribution.from_values(values, "smaller", 1300)
     p = [0.05, 0.25, 0.5, 0.75, 0.95]
     np.testing.assert_allclose(d.quantile(p), exact.quantile(p), rtol=0.02)
     for h in (2, 10, 100):

@@ -152,7 +152,7 @@ def test_sobol_points_are_stratified(seed):
 @pytest.mark.parametrize("name", arms.names())
 def test_around_the_home_of_every_built_in_arm(name):
     arm, entry = arms.load(name), arms.about(name)
-    region = Region.around(arm, entry.home)
+    region = Region.around_tool(arm, entry.home)
     tool = oracles.forward(arm, np.array([entry.home]))[0]
     middle = region.poses(np.array([region.center]))[0]
     np.testing.assert_allclose(middle, tool, atol=1e-12)
@@ -169,27 +169,27 @@ def test_around_the_home_of_every_built_in_arm(name):
 def test_where_no_configuration_is_given_most_of_the_region_is_in_reach(name):
     """Around the middle of the joint ranges, where many arms are stretched, it is half of them."""
     arm, task = arms.load(name), arms.about(name).task
-    assert Region.around(arm) == Region.around(arm)
+    assert Region.around_tool(arm) == Region.around_tool(arm)
 
-    found = hf.solve_ik(arm, Region.around(arm).poses(take(Region.around(arm), 256)), task=task, restarts=20)
+    found = hf.solve_ik(arm, Region.around_tool(arm).poses(take(Region.around_tool(arm), 256)), task=task, restarts=20)
     assert found.success.mean() > 0.75
 
 
 def test_around_a_planar_arm_in_a_tilted_plane_is_reached(planar4):
-    region = Region.around(planar4, np.array([0.3, 0.5, 0.7, 0.9]))
+    region = Region.around_tool(planar4, np.array([0.3, 0.5, 0.7, 0.9]))
     assert hf.solve_ik(planar4, region.poses(take(region, 64)), task="planar", restarts=10).success.mean() > 0.9
 
 
 def test_around_takes_a_share_of_the_reach(pa10):
-    small, large = Region.around(pa10, oracles.NOMINAL, share=0.1), Region.around(pa10, oracles.NOMINAL, share=0.2)
+    small, large = Region.around_tool(pa10, oracles.NOMINAL, share=0.1), Region.around_tool(pa10, oracles.NOMINAL, share=0.2)
     np.testing.assert_allclose(2 * np.array(small.size[:3]), large.size[:3])
 
 
 def test_around_refuses_a_wrong_configuration(pa10):
     with pytest.raises(InputError, match="9"):
-        Region.around(pa10, np.zeros(7))
+        Region.around_tool(pa10, np.zeros(7))
     with pytest.raises(HoldfastError):
-        Region.around(pa10, np.full(9, np.nan))
+        Region.around_tool(pa10, np.full(9, np.nan))
 
 
 # ---- what is refused, what is kept ---------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ NASTY = replace(NINE, name='<script>alert("1")</script> $\\x$ 臂', source='"><i
 
 
 def around(name: str) -> hf.Region:
-    return hf.Region.around(hf.arms.load(name), np.array(hf.arms.about(name).home))
+    return hf.Region.around_tool(hf.arms.load(name), np.array(hf.arms.about(name).home))
 
 
 CASES: dict[str, Callable[[], hf.Assessment]] = {

@@ -59,7 +59,7 @@ def test_shares_are_what_the_rows_say(arm, region):
     shares = run.survival()
     assert list(shares) == ["joint1", "joint2", "joint3"]
     for k, share in enumerate(shares.values()):
-        assert share == Interval.of(int((rows[:, k] == 1).sum()), 1500)
+        assert share == Interval.from_counts(int((rows[:, k] == 1).sum()), 1500)
     assert run.survival("joint2") == {"joint2": shares["joint2"]}
     expected = (2 * shares["joint1"].value + shares["joint3"].value) / 3
     assert run.expected_survival({"joint1": 2.0, 2: 1.0}) == pytest.approx(expected, rel=1e-14)
@@ -260,6 +260,6 @@ def test_sentences_about_given_angles(arm, region):
         with pytest.raises(hf.InputError, match=sentence):
             hf.assess(arm, region, poses=10, task="planar", locked=given)
     with pytest.raises(hf.InputError, match=r"its limits are -0\.785398 to 0\.785398 rad"):
-        hf.assess(limited, hf.Region.around(limited), poses=10, locked={0: 1.0})
+        hf.assess(limited, hf.Region.around_tool(limited), poses=10, locked={0: 1.0})
     with pytest.raises(hf.InputError, match="give a box"):
         hf.assess(arm, hf.Region.joints([-1, -1, -1], [1, 1, 1]), poses=10, task="planar", locked={0: 1.0})

@@ -78,7 +78,7 @@ def test_by_hand(pa10):
     made = dict(run._rows)
     made["by_failure"] = np.array([[9.0, 2.0, 3.0], [5.0, 1.0, 8.0], [1.0, 1.0, 2.0]])
     made["index"] = made["by_failure"].max(1)
-    distribution = Distribution.of(made["index"], "smaller")
+    distribution = Distribution.from_values(made["index"], "smaller")
     run = replace(run, distribution=distribution, _rows=made)
     found = {u.joint: u for u in run.upgrades(4.0)}
     a, b, c = arm.joint_names
@@ -126,7 +126,7 @@ def test_gap_to_the_bound(run):
 
 def test_what_cannot_be_said(run, pa10):
     bins = hf.assess(pa10, PAPER, poses=20, keep=False)
-    assert not bins.kept
+    assert not bins.has_rows
     with pytest.raises(hf.InputError, match="were not kept"):
         bins.upgrades(0.2)
     with pytest.raises(hf.InputError, match="not optimised"):

@@ -45,8 +45,8 @@ def test_whole_weights_are_repetitions(found, lost, better, only, data):
     values, w = (np.array(x, dtype=float) for x in zip(*found, strict=True))
     if not w.sum():
         return
-    d = Distribution.of(values, better, len(lost), singular=1, weights=w, unreached_weights=lost)
-    again = Distribution.of(np.repeat(values, w.astype(int)), better, sum(lost), singular=1)
+    d = Distribution.from_values(values, better, len(lost), singular=1, weights=w, unreached_weights=lost)
+    again = Distribution.from_values(np.repeat(values, w.astype(int)), better, sum(lost), singular=1)
     h = np.r_[0, values[np.isfinite(values)], 0.15, 0.7]
     np.testing.assert_array_equal(d.cdf(h, only), again.cdf(h, only))
     p = np.r_[0, 1, data.draw(st.lists(st.floats(0, 1), max_size=6)), np.arange(1, 8) / 8]
@@ -64,8 +64,10 @@ def test_whole_weights_are_repetitions(found, lost, better, only, data):
 @pytest.mark.parametrize("weight", [1.0, 0.3, 7e5])
 def test_equal_weights_are_none(rng, weight):
     values = np.r_[rng.random(500), np.zeros(20)]
-    plain = Distribution.of(values, "larger", unreached=80)
-    d = Distribution.of(values, "larger", 80, singular=0, weights=np.full(520, weight), unreached_weights=np.full(80, weight))
+    plain = Distribution.from_values(values, "larger", unreached=80)
+    d = Distribution.from_values(
+        values, "larger", 80, singular=0, weights=np.full(520, weight), unreached_weights=np.full(80, weight)
+    )
     h, p = rng.random(50), np.r_[np.arange(1, 601) / 600, rng.random(50)]
     for only in (False, True):
         np.testing.assert_allclose(d.cdf(h, only), plain.cdf(h, only), rtol=1e-12)
@@ -81,23 +83,23 @@ def test_equal_weights_are_none(rng, weight):
 
 @pytest.mark.parametrize(("hits", "size"), [(0, 30), (30, 30), (7, 30), (400, 1000)])
 def test_interval_of_a_share_is_that_of_a_count(hits, size):
-    a, b = Interval.of_share(hits / size, size, 0.9), Interval.of(hits, size, 0.9)
+    a, b = Interval.of_share(hits / size, size, 0.9), Interval.from_counts(hits, size, 0.9)
     np.testing.assert_allclose([a.value, a.low, a.high], [b.value, b.low, b.high], rtol=1e-10, atol=1e-15)
 
 
 def test_effective_sample_size():
     """The total over the largest: half the weight on one of many samples leaves two."""
-    d = Distribution.of(np.zeros(1001), "larger", weights=np.r_[1000.0, np.ones(1000)])
+    d = Distribution.from_values(np.zeros(1001), "larger", weights=np.r_[1000.0, np.ones(1000)])
     assert d.effective() == pytest.approx(2)
     assert d.band() == pytest.approx(np.sqrt(np.log(40) / (2 * d.effective())))
-    assert Distribution.of(np.zeros(5), "larger", unreached=2).effective() == 7
+    assert Distribution.from_values(np.zeros(5), "larger", unreached=2).effective() == 7
 
 
 def test_weighted_intervals_cover_the_true_probability():
     generator, inside = np.random.default_rng(1965), 0
     for _ in range(400):
         x = generator.random(300)
-        found = Distribution.of(x, "larger", weights=1 + 2 * x).interval(at_least=0.5)
+        found = Distribution.from_values(x, "larger", weights=1 + 2 * x).interval(at_least=0.5)
         inside += found.low <= 5 / 8 <= found.high  # weight 1 + 2x: the upper half has 5/8 of it
     assert 0.915 <= inside / 400 <= 0.995
 
@@ -113,7 +115,7 @@ def test_bins_hold_weights_too(rng, bound):
             c.add(part, 50, 0, weights, others)
     d, exact = few.finish(), many.finish()
     assert d.values is None
-    assert d.weighted
+    assert d.has_weights
     np.testing.assert_array_equal(np.sort(values), exact.values)
     h, p = np.linspace(0, 1, 101), np.linspace(0.01, 0.98, 50)
     for only in (False, True):
@@ -130,7 +132,7 @@ def test_bins_hold_weights_too(rng, bound):
 
 
 def test_nothing_has_a_weight():
-    d = Distribution.of([0.1, 0.2], "larger", weights=[0, 0])
+    d = Distribution.from_values([0.1, 0.2], "larger", weights=[0, 0])
     for ask in (lambda: d.cdf(0.1), d.band, lambda: d.quantile(0.5), d.effective):
         with pytest.raises(InputError, match="weights of these samples are all 0"):
             ask()
@@ -169,9 +171,9 @@ def test_repeating_poses_is_weighting_them(arm, rng):
     b = Region.from_poses(np.repeat(poses, w, axis=0))
     once, again = next(a.blocks(0, 0, count=40)), next(b.blocks(0, 0, count=int(w.sum())))
     np.testing.assert_array_equal(np.repeat(a.poses(once), a.weights(once).astype(int), axis=0), b.poses(again))
-    assert a.weighted(40)
-    assert not a.weighted(41)
-    assert not b.weighted(int(w.sum()))
+    assert a.has_weights(40)
+    assert not a.has_weights(41)
+    assert not b.has_weights(int(w.sum()))
 
 
 @pytest.mark.parametrize("sampling", ["random", "sobol"])
@@ -179,7 +181,7 @@ def test_more_poses_than_the_list_has_are_drawn_by_weight(arm, rng, sampling):
     poses, w = random_poses(rng, 5), np.array([0.0, 1.0, 2.0, 5.0, 0.0])
     run = hf.assess(arm, Region.from_poses(poses, w), task="planar", poses=2048, sampling=sampling, seed=4)
     assert "weight" not in run.dataset
-    assert not run.distribution.weighted
+    assert not run.distribution.has_weights
     place = np.abs(run.dataset["position"].values[:, None] - poses[None, :, :3, 3]).sum(axis=2).argmin(axis=1)
     counts = np.bincount(place, minlength=5)
     assert counts[0] == counts[4] == 0
@@ -408,7 +410,7 @@ def test_a_bad_weight_function_is_a_sentence(arm, weight):
 def test_optimised_and_stored_runs_carry_weights(arm, tmp_path):
     region = Region.box([1.2, 0.3, 0.0], [2.4, 2.4, 0.0], weight={"x": [(0, 1), (2.4, 3)]})
     run = hf.assess(arm, region, task="planar", poses=300, optimise=True, store=tmp_path / "run")
-    assert run.distribution_of(True).weighted
+    assert run.distribution_of(True).has_weights
     assert (run.cdf(0.3, optimised=True) <= run.cdf(0.3)).all()
     again = hf.load(tmp_path / "run")
     np.testing.assert_array_equal(again.optimised_worst_counts, run.optimised_worst_counts)

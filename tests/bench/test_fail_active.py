@@ -108,7 +108,7 @@ def test_where_every_case_is_proved_infeasible_there_is_no_share_of_the_others()
     score = hf.bench.Score(task="line", method="recover", in_cell=False, cases=4, contradictions=0, **times, **counts)
     assert score.success_of_feasible is None
     assert score.success.value == 0
-    assert score.decided.value == 1
+    assert score.decided_fraction.value == 1
 
 
 @pytest.mark.parametrize(

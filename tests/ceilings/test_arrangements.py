@@ -38,7 +38,7 @@ def test_certificates_prove_the_ceiling(n, best):
     assert len(bounds) == pseudolines.CLASS_COUNTS[n]
     assert best <= max(bounds) <= best * (1 + 1e-9)
     assert hf.ceilings.upper_bound(n=n, m=n - 3, k=3).bound >= best
-    assert hf.ceilings.upper_bound(n=n, m=n - 3, k=3).verify(proof=True).attained
+    assert hf.ceilings.upper_bound(n=n, m=n - 3, k=3).verify(proof=True).is_attained
 
 
 def test_each_class_bounds_the_lines_of_its_own(rng):

@@ -42,18 +42,18 @@ def test_the_orthogonal_complement_of_a_stored_null_space_is_known_as_well(n, m,
     assert c.null_space.shape == (n, m)
     assert least(c.null_space, m) == pytest.approx(c.best_known, abs=1e-12)
     assert c.best_known >= least(stored, k) * (1 - 1e-12)
-    assert c.attained == hf.ceilings.upper_bound(n=n, m=m, k=k).attained
+    assert c.is_attained == hf.ceilings.upper_bound(n=n, m=m, k=k).is_attained
     assert c.verify() is c
 
 
 def test_seven_joints_three_rows_four_failures():
     c = hf.ceilings.upper_bound(n=7, m=3, k=4)
     assert c.best_known == pytest.approx(0.0867754, abs=5e-8)
-    assert c.attained
+    assert c.is_attained
 
 
 def test_the_known_ceilings_are_attained():
-    found = [f"{c.n},{c.m},{c.k}" for c in hf.ceilings.bound_table().ceilings if c.attained]
+    found = [f"{c.n},{c.m},{c.k}" for c in hf.ceilings.bound_table().ceilings if c.is_attained]
     assert sorted(found) == sorted(KNOWN)
     for name in KNOWN:
         c = hf.ceilings.upper_bound(**dict(zip("nmk", map(int, name.split(",")), strict=True)))
@@ -63,7 +63,7 @@ def test_the_known_ceilings_are_attained():
 @pytest.mark.parametrize(("n", "m"), [(7, 6), (9, 6), (11, 4), (6, 5), (12, 3)])
 def test_one_failure_and_tasks_of_one_row_are_attained_for_any_number_of_joints(n, m):
     c = hf.ceilings.upper_bound(n=n, m=m)
-    assert c.attained
+    assert c.is_attained
     assert least(c.null_space, 1) == pytest.approx(sqrt((n - m) / n), rel=1e-12)
     one = hf.ceilings.upper_bound(n=n, m=1, k=3)
     assert least(one.null_space, 3) == pytest.approx(one.bound, rel=1e-12) == pytest.approx(sqrt((n - 3) / n), rel=1e-12)
@@ -74,7 +74,7 @@ def test_two_of_two_are_the_regular_star_and_its_complement(n):
     best = 2 / n * sin(pi / n)
     for m, k in ((n - 2, 2), (2, n - 2)):
         c = hf.ceilings.upper_bound(n=n, m=m, k=k)
-        assert c.attained
+        assert c.is_attained
         assert c.bound == pytest.approx(best, rel=1e-14)
         assert least(c.null_space, k) == pytest.approx(best, rel=1e-9)
 
@@ -124,7 +124,7 @@ def test_a_ceiling_of_an_index(pa10):
     two = hf.indices.relative_manipulability(pa10, "pose", 2)
     c = hf.ceilings.bound_of_index(two)
     assert (c.n, c.m, c.k) == (9, 6, 2)
-    assert (two.bound, two.best_known, two.attained) == (c.bound, c.best_known, False)
+    assert (two.bound, two.best_known, two.is_attained) == (c.bound, c.best_known, False)
     assert c.bound == pytest.approx(sqrt(1 / 15))
     assert c.best_known == pytest.approx(sqrt(3) / 7)
     assert c.compare_value(0.1717) == "69.4 % of the best known 0.2474; no arm can beat 0.2582"
@@ -132,7 +132,7 @@ def test_a_ceiling_of_an_index(pa10):
     assert hf.ceilings.bound_of_index(mixed).bound == c.bound
     assert hf.ceilings.bound_of_index(hf.indices.relative_manipulability(pa10, "pose", [0, 1])) is None
     one = hf.indices.relative_manipulability(pa10)
-    assert one.attained
+    assert one.is_attained
     assert one.bound_note == ""
 
 

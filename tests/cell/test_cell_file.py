@@ -189,7 +189,7 @@ def test_surfaces_without_an_inside():
     shape = ring()
     with pytest.raises(hf.InputError, match=r"not closed, so it has no inside; close it, or say solid: hull"):
         Mesh("jig", (shape.vertices, shape.faces[1:]))
-    assert Mesh("jig", (shape.vertices, shape.faces[1:]), solid="hull").surface.closed
+    assert Mesh("jig", (shape.vertices, shape.faces[1:]), solid="hull").surface.is_closed
     broken = shape.vertices.copy()
     broken[3, 1] = np.nan
     with pytest.raises(hf.InputError, match="NaN"):
@@ -231,7 +231,7 @@ def test_stl_files_are_read_without_a_package(tmp_path, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     for name in ("ring.stl", "text.stl"):
         surface, _ = mesh.read_mesh(tmp_path / name)
-        assert surface.closed
+        assert surface.is_closed
         assert len(surface.vertices) == len(theirs.vertices)
         assert surface.volume == pytest.approx(theirs.volume, rel=1e-6)
     text = (tmp_path / "text.stl").read_text()

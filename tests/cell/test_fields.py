@@ -170,7 +170,7 @@ def test_objects_of_both_kinds_are_merged_in_their_order(rng, scene):
     from tests.clearance.test_obstacles import covered
 
     arm, cell = scene
-    capsules = hf.Capsules.along(arm)
+    capsules = hf.Capsules.along_links(arm)
     clearance = hf.Clearance(arm, capsules, cell, itself=False)
     q = rng.uniform(arm.lower, arm.upper, (200, arm.n))
     expected = covered(arm, capsules, cell, q)
@@ -212,7 +212,7 @@ def test_only_objects_with_a_grid(rng, scene):
 def test_no_penetration_that_coal_sees_is_missed(rng, scene):
     arm, cell = scene
     meshes = [cell.objects[1], cell.objects[5]]
-    capsules = hf.Capsules.along(arm)
+    capsules = hf.Capsules.along_links(arm)
     clearance = hf.Clearance(arm, capsules, hf.Cell(meshes, may_touch=[("part", "base")]), itself=False)
     q = rng.uniform(arm.lower, arm.upper, (200, arm.n))
     bound = clearance.by_pair(q).reshape(len(q), -1, 2)
@@ -262,7 +262,7 @@ def test_the_hull_is_that_of_scipy(rng):
     hull = ConvexHull(points)
     made = Mesh("stone", (points, hull.simplices), solid="hull")
     np.testing.assert_allclose(made.surface.volume, hull.volume, rtol=1e-12)
-    assert made.surface.closed
+    assert made.surface.is_closed
 
 
 # ---- from outside ----------------------------------------------------------------------------------------------------
@@ -365,7 +365,7 @@ def test_the_bound_has_no_step(rng):
 
 
 def test_of_many_points_few_are_looked_at_and_the_bound_holds(rng, monkeypatch):
-    monkeypatch.setattr(outside, "_MAX_SAMPLES", 500)
+    monkeypatch.setattr(outside, "_MAX_SURFACE_POINTS", 500)
     cloud = on_cube(rng, 3000) * [0.5, 0.3, 0.2]
     made = Points("scan", cloud, radius=0.01)
     points = rng.uniform(-1, 1, (2000, 3)) * 2

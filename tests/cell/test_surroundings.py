@@ -99,7 +99,7 @@ def test_the_same_cell_from_three_files_gives_the_same_clearances(folder, rng):
     q = rng.uniform(-2, 2, (200, 2))
     primitives = [hf.Cell([by[name] for name in names[:3]], may_touch=[("table", "base")]) for by in by_name]
     clear = [
-        hf.Clearance(arm, hf.Capsules.along(arm, 0.03), cell, itself=False)(q)
+        hf.Clearance(arm, hf.Capsules.along_links(arm, 0.03), cell, itself=False)(q)
         for arm, cell in zip(arms, primitives, strict=True)
     ]
     np.testing.assert_allclose(clear[1], clear[0], atol=1e-7)

@@ -59,7 +59,7 @@ def test_what_is_undecided_counts_in_the_worst_part(three, tmp_path):
     assert found.finished
     assert not found.ok
     assert claim.locks == (0, 1)
-    assert [found.named(part) for part in found.parts] == ["healthy", "joint1", "joint2"]
+    assert [found.part_label(part) for part in found.parts] == ["healthy", "joint1", "joint2"]
     assert found.undecided == max(part.undecided for part in found.parts) == 1 - found.proved
     assert 0 <= found.tolerant <= found.proved
     check = hf.check_certificate(found.write(tmp_path / "a b.certificate"))

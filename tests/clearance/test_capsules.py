@@ -11,7 +11,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import Capsules, arms
-from holdfast.clearance import Capsule, Clearance, capsules
+from holdfast.clearance import Clearance, LinkCapsule, capsules
 from holdfast.errors import ArmError
 
 
@@ -31,7 +31,7 @@ def file(tmp_path):
 
 
 def test_default_capsules_of_the_panda(arm):
-    made = Capsules.along(arm)
+    made = Capsules.along_links(arm)
     by_link = {part.link: part for part in made}
     assert set(by_link) == {-1, 1, 2, 3, 5, 6}  # the shoulder's, elbow's and wrist's links of no length have none
     np.testing.assert_allclose(by_link[-1].end, [0, 0, 0.333])
@@ -39,13 +39,13 @@ def test_default_capsules_of_the_panda(arm):
     assert len({part.radius for part in made}) == 1
     assert by_link[1].radius == pytest.approx(sum(part.length for part in made) / 20)
     assert 0.06 < by_link[1].radius < 0.08
-    assert {part.radius for part in Capsules.along(arm, 0.05)} == {0.05}
+    assert {part.radius for part in Capsules.along_links(arm, 0.05)} == {0.05}
 
 
 def test_default_capsules_join_the_origins_of_the_moving_frames(mixed7, rng):
     q = rng.uniform(-2, 2, (5, 7))
     made = oracles.frames(mixed7, q)
-    for part in Capsules.along(mixed7):
+    for part in Capsules.along_links(mixed7):
         here = made[part.link + 1]
         start, end = (here[:, :3, :3] @ np.array(x) + here[:, :3, 3] for x in (part.start, part.end))
         np.testing.assert_allclose(start, here[:, :3, 3])
@@ -62,38 +62,38 @@ def test_a_sliding_link_of_no_length_is_a_sphere():
         joints=tuple(hf.Joint(f"slide{k}", "prismatic", np.eye(4), axis=np.eye(3)[k]) for k in range(3)),
         tool=oracles.pose(None, [0, 0, -0.4]),
     )
-    assert [(p.link, p.length) for p in Capsules.along(gantry)] == [(0, 0), (1, 0), (2, pytest.approx(0.4))]
+    assert [(p.link, p.length) for p in Capsules.along_links(gantry)] == [(0, 0), (1, 0), (2, pytest.approx(0.4))]
 
 
 def test_an_arm_of_no_length_has_no_default_capsules():
     point = hf.Arm(name="point", joints=(hf.Joint("j", "revolute", np.eye(4), axis=np.array([0, 0, 1.0])),))
     with pytest.raises(ArmError, match="the links of 'point' have no length"):
-        Capsules.along(point)
+        Capsules.along_links(point)
 
 
 def test_the_example_of_the_format(arm, file):
     lines = capsules.__doc__.split("::\n\n", 1)[1].split("\n\n")[0].splitlines()
     made = Capsules.load(file("\n".join(line[4:] for line in lines)), arm)
-    default = {part.link: part for part in Capsules.along(arm, 0.06)}
+    default = {part.link: part for part in Capsules.along_links(arm, 0.06)}
     assert [part for part in made if part.link not in (-1, 3)] == [default[k] for k in (1, 2, 6)]
     assert [part for part in made if part.link in (-1, 3)] == [
-        Capsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1),
-        Capsule(3, (0, 0, 0), (-0.08, 0.1, 0), radius=0.06),
-        Capsule(3, (-0.08, 0.12, 0), (-0.08, 0.12, 0), radius=0.07),
+        LinkCapsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1),
+        LinkCapsule(3, (0, 0, 0), (-0.08, 0.1, 0), radius=0.06),
+        LinkCapsule(3, (-0.08, 0.12, 0), (-0.08, 0.12, 0), radius=0.07),
     ]
     assert made.ignore == ((4, 6),)
 
 
 def test_links_that_are_not_named_have_none_without_a_radius(arm, file):
     made = Capsules.load(file("links: {base: [{from: [0, 0, 0], to: [0, 0, 1e-1], radius: 1e-1}]}"), arm)
-    assert list(made) == [Capsule(-1, (0, 0, 0), (0, 0, 0.1), radius=0.1)]
-    assert list(Capsules.load(file("radius: 0.06"), arm)) == list(Capsules.along(arm, 0.06))
+    assert list(made) == [LinkCapsule(-1, (0, 0, 0), (0, 0, 0.1), radius=0.1)]
+    assert list(Capsules.load(file("radius: 0.06"), arm)) == list(Capsules.along_links(arm, 0.06))
     assert len(Capsules.load(file("links: {}"), arm)) == 0
 
 
 def test_there_and_back_through_json(mixed7, rng):
     parts = [
-        Capsule(int(k), rng.normal(size=3), rng.normal(size=3), radius=rng.uniform(0.01, 1)) for k in rng.integers(-1, 7, 9)
+        LinkCapsule(int(k), rng.normal(size=3), rng.normal(size=3), radius=rng.uniform(0.01, 1)) for k in rng.integers(-1, 7, 9)
     ]
     made = Capsules(tuple(sorted(parts, key=lambda part: part.link)), ((5, 2), (-1, 3), (2, 5)))
     assert made.ignore == ((-1, 3), (2, 5))
@@ -161,9 +161,9 @@ def test_a_joint_called_base_is_not_mistaken_for_the_base(arm, file):
 )
 def test_a_capsule_that_is_none(values, sentence):
     with pytest.raises(ArmError, match=sentence):
-        Capsule(*values[:3], **dict(zip(("radius", "assumed"), values[3:], strict=False)))
+        LinkCapsule(*values[:3], **dict(zip(("radius", "assumed"), values[3:], strict=False)))
 
 
 def test_a_link_that_the_arm_does_not_have(arm):
     with pytest.raises(ArmError, match=r"a capsule names link 7, but 'panda' has links -1 \(base\) to 6"):
-        Clearance(arm, Capsules((Capsule(7, (0, 0, 0), (0, 0, 1), radius=0.1),)))
+        Clearance(arm, Capsules((LinkCapsule(7, (0, 0, 0), (0, 0, 1), radius=0.1),)))

@@ -10,7 +10,7 @@ import holdfast as hf
 import oracles
 from holdfast import Capsules, Clearance, arms
 from holdfast.arm import kinematics
-from holdfast.clearance import Capsule
+from holdfast.clearance import LinkCapsule
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
 
@@ -22,7 +22,7 @@ def random_capsules(arm, rng, count=7):
     parts = []
     for link in sorted(rng.integers(-1, arm.n, count)):
         start, step = rng.uniform(-0.3, 0.3, 3), rng.uniform(-0.3, 0.3, 3) * (rng.random() > 0.25)
-        parts.append(Capsule(int(link), start, start + step, radius=rng.uniform(0.01, 0.1)))
+        parts.append(LinkCapsule(int(link), start, start + step, radius=rng.uniform(0.01, 0.1)))
     return Capsules(tuple(parts))
 
 
@@ -65,7 +65,7 @@ def clearance(request, generator):
 @pytest.fixture(scope="module")
 def panda():
     arm = arms.load("panda")
-    return Clearance(arm, Capsules.along(arm))
+    return Clearance(arm, Capsules.along_links(arm))
 
 
 def test_pinocchio_and_coal_agree_on_random_arms(clearance, rng):
@@ -105,7 +105,7 @@ def test_closed_form_of_a_folded_chain(tmp_path):
     path = tmp_path / "chain.urdf"
     path.write_text(f'<robot name="chain">{links}{joints}{joint.format(3, "fixed", 4, 1.0, "")}</robot>')
     arm = hf.Arm.from_urdf(path)
-    ours = Clearance(arm, Capsules.along(arm, 0.1))
+    ours = Clearance(arm, Capsules.along_links(arm, 0.1))
     assert ours.pair_names == ["j0 & j2"]
     right = np.pi / 2
     q = [[0, 0, 0], [0.3, right, right], [1, right, 0], [0, right, 3 * right], [0, 2 * right, 2 * right]]
@@ -179,7 +179,7 @@ def test_where_the_arm_stands_and_how_thick_it_is(panda, rng):
     elsewhere = Clearance(panda.arm.with_base(oracles.random_pose(rng)), panda.capsules)
     np.testing.assert_array_equal(elsewhere(q), panda(q))
     radius = panda.capsules.parts[0].radius
-    thin = Clearance(panda.arm, Capsules.along(panda.arm, radius / 2))
+    thin = Clearance(panda.arm, Capsules.along_links(panda.arm, radius / 2))
     shared = [thin.pair_names.index(name) for name in panda.pair_names]
     np.testing.assert_allclose(thin.by_pair(q)[:, shared], panda.by_pair(q) + radius, atol=1e-14)
 
@@ -222,9 +222,9 @@ def test_what_a_person_ignores(panda):
 def test_capsules_of_one_link_are_numbered():
     arm = arms.load("planar-3r")
     parts = (
-        Capsule(0, (0, 0, 0), (0.4, 0, 0), radius=0.1),
-        Capsule(0, (0.5, 0, 0), (1, 0, 0), radius=0.1),
-        Capsule(2, (0, 0, 0), (1, 0, 0), radius=0.1),
+        LinkCapsule(0, (0, 0, 0), (0.4, 0, 0), radius=0.1),
+        LinkCapsule(0, (0.5, 0, 0), (1, 0, 0), radius=0.1),
+        LinkCapsule(2, (0, 0, 0), (1, 0, 0), radius=0.1),
     )
     made = Clearance(arm, Capsules(parts))
     assert made.pair_names == ["joint1 (1) & joint3", "joint1 (2) & joint3"]
@@ -252,7 +252,7 @@ def test_nan_stays_in_its_row(panda, rng):
         assert len(ask(q[:0])) == 0
 
 
-@pytest.mark.parametrize("parts", [(), (Capsule(0, (0, 0, 0), (0, 0, 1), radius=0.1),)])
+@pytest.mark.parametrize("parts", [(), (LinkCapsule(0, (0, 0, 0), (0, 0, 1), radius=0.1),)])
 def test_an_arm_without_a_pair_is_never_in_its_own_way(panda, parts):
     ours = Clearance(panda.arm, Capsules(parts))
     q = np.zeros((3, 7))

@@ -258,7 +258,7 @@ def test_a_missing_mesh_gives_that_link_its_assumed_capsule_and_says_so(tmp_path
 
 def test_an_arm_from_no_file_has_assumed_capsules(flat4):
     assert len(CollisionModel.from_arm(flat4)) == 0
-    assert choose_capsules(flat4) == hf.Capsules.along(flat4)
+    assert choose_capsules(flat4) == hf.Capsules.along_links(flat4)
 
 
 def test_an_arm_that_is_not_that_of_its_file_is_refused(three):
@@ -322,7 +322,7 @@ def test_what_is_held_moves_with_the_last_link(panda, rng):
     cell = hf.Cell([Sphere("ball", 0.1, pose=np.eye(4))], held=held, may_touch=[("ball", "base")])
     clearance = hf.Clearance(arm, capsules, cell)
     extra = clearance.capsules.parts[len(capsules) :]
-    assert clearance.capsules.own == capsules
+    assert clearance.capsules.without_held == capsules
     assert clearance.capsules.held == len(extra)
     assert {part.link for part in extra} == {arm.n - 1}
     q = rng.uniform(arm.lower, arm.upper, (20, arm.n))
@@ -343,8 +343,8 @@ def test_what_is_held_moves_with_the_last_link(panda, rng):
     assert free.capsules == capsules
     assert free.pair_names == hf.Clearance(arm, capsules, free.cell).pair_names
     assert clearance.with_cell(cell.with_poses({"ball": random_pose(rng)})).capsules is clearance.capsules
-    assumed = hf.Capsules.along(arm)
-    assert hf.Clearance(arm, assumed, cell).capsules.assumed(arm)
+    assumed = hf.Capsules.along_links(arm)
+    assert hf.Clearance(arm, assumed, cell).capsules.is_assumed(arm)
 
 
 def test_a_cell_says_which_shape_an_arm_has_in_it(panda, tmp_path):
@@ -354,11 +354,11 @@ def test_a_cell_says_which_shape_an_arm_has_in_it(panda, tmp_path):
         return hf.Clearance(arm, cell=hf.Cell([Sphere("ball", 0.1, pose=FAR)], **options), itself=False).capsules
 
     assert shape() == capsules
-    assert shape(shape="assumed") == hf.Capsules.along(arm)
+    assert shape(shape="assumed") == hf.Capsules.along_links(arm)
     assert len(shape(spheres_to=0.025)) < len(capsules)
     assert shape(hold={"panda_finger_joint1": 0.04}) != capsules
     (tmp_path / "own.yaml").write_text("radius: 0.05")
-    assert shape(shape=str(tmp_path / "own.yaml")) == hf.Capsules.along(arm, 0.05)
+    assert shape(shape=str(tmp_path / "own.yaml")) == hf.Capsules.along_links(arm, 0.05)
     other = arms.load("xarm7")
     with pytest.raises(
         InputError, match="asks for the meshes of 'xarm7', and no file gives it collision shapes; give their fol"

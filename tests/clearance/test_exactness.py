@@ -7,7 +7,7 @@ from tests.clearance.geometry import pose
 
 import holdfast as hf
 from holdfast.cell import Box, Mesh, Points, Sphere
-from holdfast.clearance.capsules import Capsule
+from holdfast.clearance.capsules import LinkCapsule
 from holdfast.clearance.cover import choose_capsules
 from holdfast.clearance.exact import engines
 from holdfast.clearance.exact.bodies import body_from_capsule, body_from_solid
@@ -102,7 +102,7 @@ def bar():
     joint = hf.Joint("turn", "revolute", np.eye(4), axis=[0, 0, 1], lower=-np.pi, upper=np.pi)
     tool = pose(1, 0, 0)
     arm = hf.Arm(name="bar", joints=(joint,), tool=tool)
-    return arm, hf.Capsules((Capsule(0, (0.3, 0, 0), (1, 0, 0), radius=0.05),))
+    return arm, hf.Capsules((LinkCapsule(0, (0.3, 0, 0), (1, 0, 0), radius=0.05),))
 
 
 def test_capsules_without_a_mesh_are_the_shape(bar):
@@ -152,7 +152,7 @@ def test_spheres_within_a_body_are_within_it(panda):
     from holdfast.clearance.exact.meetings import arm_bodies
 
     bodies = [part.body for part in arm_bodies(arm, capsules)] + [
-        body_from_capsule(Capsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))
+        body_from_capsule(LinkCapsule(0, (0, 0, 0), (0.1, 0.2, 0.3), radius=0.05))
     ]
     kinds = set()
     for body in bodies:

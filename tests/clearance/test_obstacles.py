@@ -52,7 +52,7 @@ def covered(arm, capsules, cell, q):
 def scene(generator):
     rng = generator("obstacles")
     arm = oracles.random_arm(rng, types="RPRR", limits=2.0, base=False)
-    return arm, hf.Capsules.along(arm, 0.03), random_cell(rng)
+    return arm, hf.Capsules.along_links(arm, 0.03), random_cell(rng)
 
 
 def test_distances_are_those_of_the_spheres(rng, scene):
@@ -89,7 +89,7 @@ def test_gradient_agrees_with_differences(rng, scene):
 @pytest.mark.parametrize("types", ["RPRR", "RRRR"])
 def test_no_distance_from_an_object_changes_faster_than_its_bound(rng, types):
     arm = oracles.random_arm(rng, types=types, limits=2.0)
-    clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))
+    clearance = hf.Clearance(arm, hf.Capsules.along_links(arm, 0.03), random_cell(rng))
     low, high = (np.where(arm.prismatic, np.clip(x, -1, 1), x) for x in (arm.lower, arm.upper))
     bound = clearance.lipschitz_bounds(low, high)
     a, b = (rng.uniform(low, high, (2000, arm.n)) for _ in range(2))
@@ -130,7 +130,7 @@ def test_a_changed_cell_compiles_nothing(rng, scene):
 def test_one_row_after_the_other_has_the_same_bits(rng):
     arm = oracles.random_arm(rng, types="RPR", limits=2.0, base=False)  # few joints: this code is compiled on level 1
     q = rng.uniform(arm.lower, arm.upper, (30, arm.n))
-    clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))
+    clearance = hf.Clearance(arm, hf.Capsules.along_links(arm, 0.03), random_cell(rng))
     rooms, slopes = clearance.nearest(q)
     one = SingleConfigurationClearance(clearance)
     for row, room, slope in zip(q, rooms, slopes, strict=True):
@@ -159,7 +159,7 @@ def test_a_pose_that_is_never_clear_is_so_wherever_its_last_joint_is(rng, types)
     arm, cell = oracles.random_arm(rng, types=types, limits=2.0), random_cell(rng)
     mounted = [(solid.name, "base") for solid in cell]
     cell = hf.Cell(cell.objects, may_touch=[("o0", arm.joint_names[-1]), *mounted])
-    clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.1), cell, itself=False)
+    clearance = hf.Clearance(arm, hf.Capsules.along_links(arm, 0.1), cell, itself=False)
     poses = np.array([oracles.random_pose(rng, 1.0) for _ in range(120)])
     low, high = max(arm.lower[-1], -np.pi), min(arm.upper[-1], np.pi)
     best = room_of_the_end(clearance, poses, np.linspace(low, high, 60)).max(axis=1)
@@ -174,10 +174,10 @@ def test_a_pose_that_is_never_clear_is_so_wherever_its_last_joint_is(rng, types)
 
 def test_nothing_is_said_of_a_pose_where_there_is_nothing_to_say_it_by(rng):
     arm = oracles.random_arm(rng, types="RRRR", limits=2.0)
-    first = hf.Capsules((hf.clearance.Capsule(0, (0, 0, 0), (0.1, 0, 0), radius=0.05),))
+    first = hf.Capsules((hf.clearance.LinkCapsule(0, (0, 0, 0), (0.1, 0, 0), radius=0.05),))
     poses = arm.forward_kinematics(rng.normal(size=(3, 4)))
     cloud = hf.cell.Points("scan", points=rng.normal(size=(20, 3)) + 4, radius=0.01)
-    for capsules, cell in ((first, random_cell(rng)), (hf.Capsules.along(arm, 0.1), hf.Cell([cloud]))):
+    for capsules, cell in ((first, random_cell(rng)), (hf.Capsules.along_links(arm, 0.1), hf.Cell([cloud]))):
         seen = hf.Clearance(arm, capsules, cell, itself=False).obstacles
         assert not seen.never_collision_free(poses, 10.0).any()
         assert seen.never_collision_free(poses[:0], 10.0).shape == (0,)

@@ -148,9 +148,9 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
     code, _, err = cli("study", "new", file, "--arm", PANDA, "--arm", "iiwa14", *options, "--poses", 10, "--chunk", 10)
     assert code == 0, err
     assert "tip: panda_link8" in file.read_text()
-    from holdfast.studies.study_file import read
+    from holdfast.studies.study_file import read_study_file
 
-    cut, whole = read(file).cells
+    cut, whole = read_study_file(file).cells
     assert cut.labels["arm"] == "cut"
     assert cut.plan["arm"]["chain"] == ["panda_link0", "panda_link8", {"panda_finger_joint1": 0.04}]
     assert whole.labels["arm"] == "iiwa14"

@@ -32,7 +32,7 @@ def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tm
     arm = arms.load("planar-3r")
     common = ("assess", "planar-3r", "--region", close, "--poses", 200, "--optimise")
     data = ask(*common, "--radius", 0.13, "--margin", 0.01)["clearance"]
-    thick = Clearance(arm, Capsules.along(arm, 0.13))
+    thick = Clearance(arm, Capsules.along_links(arm, 0.13))
     region = hf.Region.load(close)
     run = hf.assess(arm, region, task="planar", poses=200, optimise=True, clearance=thick, margin=0.01)
     found = run.collisions
@@ -70,7 +70,7 @@ def test_a_run_that_is_not_optimised_looks_if_told_to(ask, close):
 
 def test_optimise_keeps_the_arm_clear_of_itself(cli, ask):
     arm = arms.load("planar-3r")
-    thick = Clearance(arm, Capsules.along(arm, 0.13))
+    thick = Clearance(arm, Capsules.along_links(arm, 0.13))
     data = ask(*BEST, "--radius", 0.13, "--margin", 0.02)
     row = data["poses"][0]
     pose = np.eye(4)
@@ -157,7 +157,7 @@ def test_assess_and_optimise_keep_clear_of_a_cell(cli, ask, close, bench):
     common = ("assess", "planar-3r", "--region", close, "--poses", 40, "--after-lock", "--cell", bench, "--no-clearance")
     data = ask(*common, "--radius", 0.02)["clearance"]
     arm, cell = arms.load("planar-3r"), hf.Cell.load(bench)
-    slim = Clearance(arm, Capsules.along(arm, 0.02), cell, itself=False)
+    slim = Clearance(arm, Capsules.along_links(arm, 0.02), cell, itself=False)
     run = hf.assess(arm, hf.Region.load(close), task="planar", poses=40, after_lock=True, clearance=slim)
     assert data["found_with"] == run.collisions.with_each == {"post": run.collisions.found, "far": 0}
     assert data["reached_clear"]["value"] == run.reached_clear().value

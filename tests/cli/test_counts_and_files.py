@@ -19,12 +19,12 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
     path.write_text(
         "{poses: 1100, chunk: 1024, seed: 5, arms: [planar-3r], assess: {restarts: 5, keep: counts, optimise: true}}"
     )
-    asked = study_file.read(path)
+    asked = study_file.read_study_file(path)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells)
     study.run(asked.cells, ThreadRunner(1))
     counted = hf.load(tmp_path / "out")
     rows = hf.assess(counted.arm, counted.region, counted.index, poses=1100, seed=5, restarts=5, optimise=True)
-    assert (counted.poses, counted.complete, counted.kept) == (1100, True, False)
+    assert (counted.poses, counted.complete, counted.has_rows) == (1100, True, False)
     np.testing.assert_array_equal(counted.worst_counts, rows.worst_counts)
     np.testing.assert_array_equal(counted.optimised_worst_counts, rows.optimised_worst_counts)
     for optimised in (False, True):
@@ -44,7 +44,7 @@ def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
 def test_a_study_with_counts_of_few_poses_has_that_many(tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text("{poses: 40, chunk: 1024, arms: [planar-3r], assess: {restarts: 2, keep: counts}}")
-    asked = study_file.read(path)
+    asked = study_file.read_study_file(path)
     Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells).run(asked.cells, ThreadRunner(1))
     counted = hf.load(tmp_path / "out")
     assert (counted.poses, counted.distribution.samples, counted.complete) == (40, 40, True)
@@ -91,6 +91,6 @@ def test_an_arm_describes_itself_as_the_command_does(cli):
 def test_a_large_study_has_at_most_a_thousand_chunks(tmp_path, cli):
     code, _, err = cli("study", "new", str(tmp_path / "s.yaml"), "--arm", "planar-3r", "--poses", "1e7")
     assert code == 0, err
-    (cell,) = study_file.read(tmp_path / "s.yaml").cells
+    (cell,) = study_file.read_study_file(tmp_path / "s.yaml").cells
     assert (cell.rows, cell.chunk % 1024, cell.count <= 1000) == (10**7, 0, True)
     assert choose_chunk(2000) == 500

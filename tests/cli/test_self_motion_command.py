@@ -107,7 +107,7 @@ def test_the_command_cuts_curves_where_they_meet_a_cell(cli, ask, tmp_path):
     call = ("self-motion", "planar-3r", "--target", "1.2,0.4", "--cell", cell, "--radius", 0.03, "--no-clearance")
     data = ask(*call, "--bounds")
     arm = hf.arms.load("planar-3r")
-    slim = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), hf.Cell.load(cell), itself=False)
+    slim = hf.Clearance(arm, hf.Capsules.along_links(arm, 0.03), hf.Cell.load(cell), itself=False)
     found = hf.self_motion(arm, [1.2, 0.4], "planar", clearance=slim)
     assert [c["barred_by"] for c in data["components"]] == [list(c.barred_by) for c in found.components]
     assert data["bounds"] == {name: [list(x) for x in arcs] for name, arcs in zip(arm.joint_names, found.arcs(), strict=True)}

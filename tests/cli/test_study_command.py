@@ -20,7 +20,7 @@ from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import InputError
 from holdfast.kernels import set_threads, shared_pool
 from holdfast.regions.region import Region, default_region
-from holdfast.studies import read
+from holdfast.studies import read_study_file
 from holdfast.studies.results import read_assessment
 from sealing import read_unsealed_study
 
@@ -48,7 +48,7 @@ def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("study")
     path = place / "small.yaml"
     path.write_text(TEXT)
-    asked = read(path)
+    asked = read_study_file(path)
     study = Study.create(place / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     set_threads(2)
     try:
@@ -106,7 +106,7 @@ def test_new_with_laws_and_an_arm_file_elsewhere(cli, tmp_path, monkeypatch):
     ]
     code, _, err = cli("study", "new", "studies/s.yaml", *options)
     assert code == 0, err
-    cells = read("studies/s.yaml").cells
+    cells = read_study_file("studies/s.yaml").cells
     assert [c.labels.get("law", c.labels.get("index")) for c in cells] == ["manipulability", "pseudoinverse", "damped:0.1"]
 
 
@@ -114,7 +114,7 @@ def test_a_cell_is_the_assessment_of_the_same_options(folder, tmp_path):
     """Where chunks are whole blocks of 1024 poses, bit by bit."""
     path = tmp_path / "s.yaml"
     path.write_text("{poses: 1100, chunk: 1024, seed: 5, arms: [planar-3r], assess: {restarts: 5}}")
-    asked = read(path)
+    asked = read_study_file(path)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     study.run(asked.cells, ThreadRunner(1))
     arm = hf.arms.load("planar-3r")
@@ -155,7 +155,7 @@ def both_ways(folder, size, block):
     for keep in ("rows", "counts"):
         path = folder / f"{keep}.yaml"
         path.write_text(f"{{{size}, seed: 5, arms: [planar-3r], assess: {{{block}, keep: {keep}}}}}")
-        asked = read(path)
+        asked = read_study_file(path)
         study = Study.create(folder / keep, asked.name, asked.seed, cells=asked.cells, source=asked.text)
         study.run(asked.cells, ThreadRunner(1))
         found.append([read_assessment(study, k) for k in range(len(asked.cells))])
@@ -316,7 +316,7 @@ def test_other_thresholds_need_no_new_chunk(ask, file, folder, tmp_path):
 
 
 def test_an_unfinished_study_reports_what_is_there(ask, refused, file, tmp_path):
-    asked = read(file)
+    asked = read_study_file(file)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert "nothing of" in refused("study", "report", study.path)
     study.run(asked.cells, ThreadRunner(1), stop=lambda: len(bits(study.path)) > 1)
@@ -356,7 +356,7 @@ def test_a_wrong_study_file_is_a_sentence(change, words, tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text(yaml.safe_dump(data))
     with pytest.raises(InputError) as caught:
-        read(path)
+        read_study_file(path)
     message = str(caught.value)
     assert words in message
     assert str(path) in message

@@ -10,13 +10,15 @@ import pytest
 import cells
 import holdfast as hf
 from holdfast.cell import Box, Cell, Sphere
-from holdfast.clearance import Capsule, Capsules, Clearance
+from holdfast.clearance import Capsules, Clearance, LinkCapsule
 from holdfast.motion import tracking
 from holdfast.motion.integration import _step_kernel, enforce_limits
 
 MARGIN = 0.01  # m
 # Few capsules, and the same for every test of an arm: what they compile takes the time here.
-ENDS = Capsules(tuple(Capsule(link, (1, 0, 0), (1, 0, 0), radius=0.05) for link in (1, 2)))  # of the planar arm's outer links
+ENDS = Capsules(
+    tuple(LinkCapsule(link, (1, 0, 0), (1, 0, 0), radius=0.05) for link in (1, 2))
+)  # of the planar arm's outer links
 START = np.array([-0.6, -0.5, 0, -2.2, 0, 1.7, 0.8])
 
 
@@ -59,7 +61,7 @@ def plain(panda, path, wish):
 
 @pytest.fixture(scope="module")
 def forearm(panda):
-    along = Capsules.along(panda, 0.06)
+    along = Capsules.along_links(panda, 0.06)
     return Clearance(panda, Capsules(tuple(part for part in along if part.link in (3, 4))), itself=False)
 
 

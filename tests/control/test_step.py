@@ -57,6 +57,6 @@ def test_a_step_never_compiles(kind, rng, monkeypatch, tmp_path):
         raise AssertionError("compiled in a control loop")
 
     monkeypatch.setattr(machine_code, "compile_program", never)
-    monkeypatch.setattr(machine_code, "Code", never)
+    monkeypatch.setattr(machine_code, "MachineCode", never)
     for k in range(200):
         assert np.isfinite(law.step(q + 1e-3 * k, v)).all()

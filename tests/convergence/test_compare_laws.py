@@ -202,14 +202,14 @@ def test_nothing_failed_and_control_cycles(laws, motions):
     found = hf.compare_laws([limited], motions.q0[:4], motions.target[:4], failures=None, cycles=True)
     case = found.case("pseudoinverse")
     assert found.joints == ()
-    assert case.ended("converged").all()
+    assert case.has_outcome("converged").all()
     # Straight on at 0.05 m per cycle until within 0.1 m, give or take a cycle for the Euler steps.
     expected = np.ceil((found.way - 0.1) / 0.05)
     assert (np.abs(found.healthy[0].time - expected) <= 1.5).all()
     assert found.healthy[0].deviation.max() < 0.02
     check(compare_html(found))
     with pytest.raises(hf.InputError, match="no joint was locked"):
-        found.pooled("pseudoinverse", "error")
+        found.pool_values("pseudoinverse", "error")
 
 
 def compare_html(found):
@@ -221,7 +221,7 @@ def test_bad_rows_stay_theirs(laws, motions):
     q0[1, 0] = np.nan
     found = hf.compare_laws({"a": laws[0]}, q0, motions.target[0], failures=["joint2"], time_limit=LIMIT)
     case = found.case("a", "joint2")
-    assert case.ended("undecided")[1]
+    assert case.has_outcome("undecided")[1]
     assert np.isfinite(case.error[[0, 2]]).all()
     assert np.isnan(found.healthy[0].time[1])
     check(compare_html(found))
@@ -295,7 +295,7 @@ def test_what_runs_touch_is_what_plane_geometry_finds_in_their_replay(laws, moti
     """Runs sampled finely, and the distance of three segments from a disc in closed form."""
     at = (arm.forward_kinematics(motions.q0[0])[:2, 3] + motions.target[0, :2, 3]) / 2  # in the way of the first
     cell = hf.Cell([Sphere("post", DISC_RADIUS, pose=cells.placed(*at, 0))], name="disc")
-    clear = hf.Clearance(arm, hf.Capsules.along(arm, WIDTH), itself=False)
+    clear = hf.Clearance(arm, hf.Capsules.along_links(arm, WIDTH), itself=False)
     some = {"failures": ["joint2"], "time_limit": 100.0}
     count = 5
     c = hf.compare_laws(laws, motions.q0[:count], motions.target[:count], clearance=clear, cell=cell, **some)
@@ -308,14 +308,14 @@ def test_what_runs_touch_is_what_plane_geometry_finds_in_their_replay(laws, moti
                 path = runs.path(count * k + m, samples=3000, until=min(runs.time[count * k + m], 200.0))
                 gap = cells.from_disc([1, 1, 1], WIDTH, path.q, at, DISC_RADIUS).ravel()
                 if gap.min() < -1e-3 or gap.min() > BOUND:
-                    assert case.touched[m] == (gap.min() < 0)
+                    assert case.has_contact[m] == (gap.min() < 0)
                 contact = case.contacts[m]
                 if gap.min() < -1e-3:
                     assert contact.time <= path.time[int((gap < 0).argmax())] + 1e-6
                 if contact is not None:
                     assert contact.object == "post"
                     assert np.interp(contact.time, path.time, gap) < BOUND
-    touched = np.array([[case.touched for case in (c.case(n, f) for f in c.failures)] for n in c.names])
+    touched = np.array([[case.has_contact for case in (c.case(n, f) for f in c.failures)] for n in c.names])
     assert touched[:, 0, 0].all()
     row = next(r for r in c.table if (r["law"], r["failure"]) == (c.names[1], "joint2"))
     assert row["touched"] == touched[1, 1].mean()

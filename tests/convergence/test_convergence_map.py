@@ -12,7 +12,7 @@ import holdfast as hf
 import oracles
 from holdfast.cell import Sphere
 from holdfast.control import damped, pseudoinverse
-from holdfast.convergence.maps import shared
+from holdfast.convergence.maps import average_fraction
 from holdfast.present.convergence.law_choice import story
 from holdfast.probability.intervals import Interval
 
@@ -85,7 +85,7 @@ def test_the_interval_knows_that_the_motions_of_a_place_are_alike(rng):
         found = []
         for _ in range(200):
             values = (rng.random(60) < 0.7).astype(float) if alike else rng.binomial(20, 0.7, 60) / 20
-            found.append(shared(values, 20, 0.95))
+            found.append(average_fraction(values, 20, 0.95))
         assert sum(s.low <= 0.7 <= s.high for s in found) >= 180
         widths[alike] = np.mean([s.high - s.low for s in found])
         normal = 2 * 1.96 * np.sqrt(0.21 / (60 if alike else 1200))
@@ -94,7 +94,7 @@ def test_the_interval_knows_that_the_motions_of_a_place_are_alike(rng):
 
 
 def test_one_motion_of_each_place_is_a_count():
-    assert shared(np.array([1.0, 0, 1, np.nan, 1]), 1, 0.95) == Interval.of(3, 4)
+    assert average_fraction(np.array([1.0, 0, 1, np.nan, 1]), 1, 0.95) == Interval.from_counts(3, 4)
 
 
 def test_reach_with_a_joint_locked_is_that_of_two_links(flat):
@@ -121,7 +121,7 @@ def test_seeds(spatial):
 def test_one_spare_joint_takes_points_of_the_traced_curves(flat, rng):
     law = flat.law
     m = hf.convergence_map(law, [0.9, 0.4], [[1.0, 0.5], [0.2, 0.3]], configurations=6, time_limit=30.0)
-    assert m.known.all()
+    assert m.has_configuration.all()
     there = law.arm.forward_kinematics(m.q0.reshape(-1, 3))[:, :2, 3]
     assert there == pytest.approx(np.repeat([[1.0, 0.5], [0.2, 0.3]], 6, axis=0), abs=1e-8)
     assert len(np.unique(m.q0[0, :, 0])) == 6
@@ -130,7 +130,7 @@ def test_one_spare_joint_takes_points_of_the_traced_curves(flat, rng):
 def test_places_out_of_reach_are_left_out(spatial, goal):
     law = pseudoinverse(spatial, "position")
     m = hf.convergence_map(law, goal, np.stack([goal[:3, 3], [50.0, 0, 0]]), configurations=2, time_limit=20.0)
-    assert list(m.known.any(axis=1)) == [True, False]
+    assert list(m.has_configuration.any(axis=1)) == [True, False]
     assert (m.code[1] == 255).all()
     assert np.isnan(m.values()[1]).all()
     far = hf.convergence_map(law, goal, [[50.0, 0, 0]], configurations=2)
@@ -232,8 +232,8 @@ def test_the_best_law_in_a_cell_is_told_with_what_it_touches():
     plain = hf.best_law(laws, [1.5, 0.9], 2, **call)
     assert choice.ranking == plain.ranking
     alone = hf.convergence_map(laws["weak"], [1.5, 0.9], 2, cell=cell, **call)
-    touched = alone.touched[alone.known]
-    np.testing.assert_array_equal(choice.map_of("weak").touched[alone.known], touched)
+    touched = alone.touched[alone.has_configuration]
+    np.testing.assert_array_equal(choice.map_of("weak").touched[alone.has_configuration], touched)
     assert choice.share("weak", outcome="touched").value == pytest.approx(touched[:, :-1].mean())
     assert touched.any()
     with pytest.raises(hf.InputError, match="outcome 'touched' is not known"):
@@ -251,20 +251,20 @@ def test_what_runs_touch_is_what_plane_geometry_finds_in_their_replay(tmp_path):
     arm, at, radius, width = hf.arms.load("planar-3r"), (0.9, 1.1), 0.3, 0.03
     law = pseudoinverse(arm, "planar")
     cell = hf.Cell([Sphere("post", radius, pose=cells.placed(*at, 0))], name="disc")
-    clear = hf.Clearance(arm, hf.Capsules.along(arm, width), itself=False)
+    clear = hf.Clearance(arm, hf.Capsules.along_links(arm, width), itself=False)
     call = {"configurations": 2, "time_limit": 100.0, "seed": 4}
     m = hf.convergence_map(law, [1.5, 0.9], 3, clearance=clear, cell=cell, **call)
     plain = hf.convergence_map(law, [1.5, 0.9], 3, **call)
     np.testing.assert_array_equal(m.code, plain.code)
     seen = 0
-    for p, c, k in np.argwhere(np.repeat(m.known[..., None], 4, axis=2)):
+    for p, c, k in np.argwhere(np.repeat(m.has_configuration[..., None], 4, axis=2)):
         run = hf.simulate(law, m.q0[p, c], m.target[p, c], locked=[k] if k < 3 else [], time_limit=100.0, tolerance=1e-8)
         gap = cells.from_disc([1, 1, 1], width, run.path(samples=1500).q, at, radius).min()
         if gap < -1e-3 or gap > 0.01:  # spheres that cover a capsule reach a little beyond it
             assert m.touched[p, c, k] == (gap < 0)
             seen += 1
     assert seen > 12
-    assert 0 < m.touched[m.known].mean() < 1
+    assert 0 < m.touched[m.has_configuration].mean() < 1
     said = m.to_dict()
     assert said["fractions"]["touched"]["none"]["fraction"] == m.values("touched")[:, -1].mean()
     assert said["clearance"]["cell"]["sha256"] == cell.digest

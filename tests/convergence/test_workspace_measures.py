@@ -8,14 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from holdfast.convergence.measures import Measures, is_in_arcs, mean_by_row, select_spaced
-from holdfast.report.places import binned
+from holdfast.report.places import bin_positions
 
 
 def test_measures_beside_a_loop(rng):
     owner = np.sort(rng.integers(0, 9, 60))
     owner[owner == 4] = 5  # a start without configurations
     shares = rng.choice([0.0, 0.25, 1.0, np.nan], (60, 3))
-    found = Measures.of(shares, owner, 9)
+    found = Measures.from_fractions(shares, owner, 9)
     for i in range(9):
         for j in range(3):
             mine = [x for x in shares[owner == i, j] if not np.isnan(x)]
@@ -69,7 +69,7 @@ def test_averages_leave_nan_out():
 def test_cells_of_a_map_hold_the_mean(rng):
     points, values = rng.uniform(-1, 1, (200, 2)), rng.random((200, 2))
     values[::7, 0] = np.nan
-    plane, means = binned(points, values, 5)
+    plane, means = bin_positions(points, values, 5)
     low, size = points.min(axis=0), (points.max(axis=0) - points.min(axis=0)).max() / 5
     for (column, row), mean in zip(plane.cells, means, strict=True):
         at = np.minimum(((points - low) / size).astype(int), [4, 4])

@@ -33,7 +33,7 @@ def family3(space3) -> Family:
 @pytest.fixture(scope="session")
 def region3(planar3) -> hf.Region:
     """About the middle of its limits, where it is stretched: not all of it is in reach."""
-    return hf.Region.around(planar3, (planar3.lower + planar3.upper) / 2)
+    return hf.Region.around_tool(planar3, (planar3.lower + planar3.upper) / 2)
 
 
 @pytest.fixture(scope="session")

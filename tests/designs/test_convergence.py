@@ -42,7 +42,7 @@ def planar() -> hf.control.Pseudoinverse:
 def test_design_joints_are_the_designed_arm(name, vary, rng):
     arm = hf.arms.load(name)
     vary = {n: (min(low, x), max(high, x)) for (n, (low, high)), x in zip(vary.items(), _own(arm, vary), strict=True)}
-    joints = DesignJoints.of(design_space(arm, vary))
+    joints = DesignJoints.from_space(design_space(arm, vary))
     for _ in range(3):
         values = rng.uniform(joints.space.lower, joints.space.upper)
         q = rng.uniform(-3, 3, (4, arm.n))
@@ -56,7 +56,7 @@ def _own(arm, vary):
 
 
 def test_the_law_of_designs_is_the_law_of_each(rng):
-    joints = DesignJoints.of(design_space(hf.arms.load("planar-3r"), LENGTHS))
+    joints = DesignJoints.from_space(design_space(hf.arms.load("planar-3r"), LENGTHS))
     law = LawOfDesigns(planar(), joints)
     values, q, v = rng.uniform(0.3, 1.9, 3), rng.uniform(-3, 3, (5, 3)), rng.normal(size=(5, 2))
     rates = law.velocity(joints.configurations(values, q), v)
@@ -87,7 +87,7 @@ def test_sinks_are_those_that_tracing_finds_for_one_target():
 def test_what_is_predicted_to_be_free_arrives(lengths, rng):
     lengths = np.array(lengths)
     law = planar()
-    rest, joints = PlanarStationarySets(law), DesignJoints.of(design_space(law.arm, LENGTHS))
+    rest, joints = PlanarStationarySets(law), DesignJoints.from_space(design_space(law.arm, LENGTHS))
     r = 1.7
     rows = [
         (k, at, held)
@@ -232,7 +232,7 @@ def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
 def test_arrivals_of_designs_by_runs_of_scipy():
     """Every failure of two designs from an integrator and a law of its own, and what the measures make of them."""
     law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
-    joints = DesignJoints.of(design_space(law.arm, LENGTHS))
+    joints = DesignJoints.from_space(design_space(law.arm, LENGTHS))
     goals = np.array([[1.4, 0.6], [-0.5, 1.1], [9.0, 0.0]])
     failures = FailureTrials(
         LawOfDesigns(law, joints), read_places(law.arm, law.task, goals, np.random.default_rng(0)).poses, 2, 7

@@ -29,7 +29,7 @@ def checked(rng: np.random.Generator, shift: float, lost: int = 0) -> HeldOutRes
     values = np.sort(shift + 0.1 * rng.random(200 - lost))
     low = float(values[10 - lost]) if lost < 10 else 0.0
     return HeldOutResult(
-        Distribution.of(values, "larger", lost), Interval(value=low, low=0.9 * low, high=1.1 * low, confidence=0.95)
+        Distribution.from_values(values, "larger", lost), Interval(value=low, low=0.9 * low, high=1.1 * low, confidence=0.95)
     )
 
 
@@ -104,7 +104,7 @@ def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
     assert same.headline.startswith("No design was found that keeps more than the given arm: at 95 % of the poses")
     assert "Before and after" not in [s.title for _, s in report.build(same).parts]
-    none = HeldOutResult(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
+    none = HeldOutResult(Distribution.from_values([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
     lost = replace(found, checked=HeldOutCheck(none, none, 0.0))
     assert "keeps any relative manipulability" in lost.headline
     page = render(report.build(lost)).replace("\u00a0", " ")

@@ -29,8 +29,8 @@ def test_guaranteed_is_the_quantile_of_the_distribution(rng, level):
     for row, plain, weighted in zip(
         value, compute_lower_quantile(value, level), compute_lower_quantile(value, level, weights), strict=True
     ):
-        assert plain == Distribution.of(row, "larger").quantile(1 - level)
-        assert weighted == Distribution.of(row, "larger", weights=weights).quantile(1 - level)
+        assert plain == Distribution.from_values(row, "larger").quantile(1 - level)
+        assert weighted == Distribution.from_values(row, "larger", weights=weights).quantile(1 - level)
 
 
 def test_smooth_quantile_is_that_of_harrell_and_davis(rng):

@@ -16,7 +16,7 @@ from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import InputError
 from holdfast.indices import by_name
 from holdfast.present.studies import page as report
-from holdfast.studies import read
+from holdfast.studies import read_study_file
 from holdfast.studies.results import read_design_sweep
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
@@ -40,7 +40,7 @@ def study(tmp_path_factory):
     place = tmp_path_factory.mktemp("study")
     (place / "bench.yaml").write_text(REGION)
     (place / "links.yaml").write_text(TEXT)
-    asked = read(place / "links.yaml")
+    asked = read_study_file(place / "links.yaml")
     made = Study.create(place / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert made.run(asked.cells, ThreadRunner(1)) == {}
     return made
@@ -73,7 +73,7 @@ def test_rows_are_what_optimise_finds(study):
 def test_chunks_are_the_same_bits_however_they_are_computed(study, tmp_path):
     (tmp_path / "bench.yaml").write_text(REGION)
     (tmp_path / "links.yaml").write_text(TEXT)
-    asked = read(tmp_path / "links.yaml")
+    asked = read_study_file(tmp_path / "links.yaml")
     cell = asked.cells[1]
     cell.job.prepare(False)
     again = cell.job.run(cell.chunk_at(1, asked.seed))
@@ -113,6 +113,6 @@ def test_refusals(tmp_path, old, new, words):
     (tmp_path / "bench.yaml").write_text(REGION)
     (tmp_path / "links.yaml").write_text(TEXT.replace(old, new))
     with pytest.raises(InputError) as error:
-        read(tmp_path / "links.yaml")
+        read_study_file(tmp_path / "links.yaml")
     assert words in str(error.value)
     assert "\n" not in str(error.value)

@@ -113,7 +113,7 @@ def test_the_motion_follows_the_path_and_survives_what_it_says(narrow):
     assert (best.survives != want).mean() <= 0.02
     given = hf.evaluate_motion(machine, best.q, path, samples=21)
     assert given.survival == pytest.approx(best.survival, abs=1e-12)
-    assert given.bound is given.gap is given.found is None
+    assert given.survival_bound is given.gap is given.found is None
 
 
 @pytest.mark.interpreted
@@ -123,7 +123,7 @@ def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow)
     centre, ball, width, samples = np.array([0.75, 0.55]), 0.12, 0.03, 11
     clearance = hf.Clearance(
         machine,
-        hf.Capsules.along(machine, width),
+        hf.Capsules.along_links(machine, width),
         hf.Cell([Sphere("ball", ball, pose=placed(*centre, 0))]),
         itself=False,
     )
@@ -164,12 +164,12 @@ def test_a_ball_in_the_way_is_kept_clear_of_before_the_lock_and_after_it(narrow)
 def test_a_guarantee_is_given_where_there_is_one():
     """Without limits every lock of unit links can be survived on a short line; with limits somewhere no configuration can."""
     free = hf.plan_motion(arm(), timed([1.2, 0.3], [1.2, 0.7]), samples=11, spacing=0.1)
-    assert free.guaranteed
+    assert free.survives_all_locks
     assert free.survival == 1
     assert free.never is None
     assert (free.safe_from, free.safe_until) == (0, 2)
     bound = hf.plan_motion(arm(LIMITS), timed([1.6, -0.9], [1.1, 1.3]), samples=11, spacing=0.1)
-    assert not bound.guaranteed
+    assert not bound.survives_all_locks
     when, joint = bound.never
     survived = bound.found.survives[int(np.searchsorted(bound.time, when - 1e-9))]
     assert not survived.all(axis=1).any()
@@ -184,7 +184,7 @@ def test_rates_weigh_joints_and_time(narrow):
     fast = hf.evaluate_motion(machine, best.q, path, rates=[1.0, 1.0, 1.0], per_second=True, samples=21)
     weight = np.exp(-3 * fast.time)
     lost = np.trapezoid(weight * 3 * (1 - best.curve()), fast.time)
-    assert fast.lost == pytest.approx(lost, rel=1e-9)
+    assert fast.loss_probability == pytest.approx(lost, rel=1e-9)
     assert fast.survival == pytest.approx(np.trapezoid(weight * best.curve(), fast.time) / np.trapezoid(weight, fast.time))
     assert best.lost is None
 
@@ -192,7 +192,7 @@ def test_rates_weigh_joints_and_time(narrow):
 def test_detours_survive_what_the_ranges_of_the_joints_say(narrow):
     machine, path, best = narrow
     wide = hf.plan_motion(machine, path, samples=21, spacing=0.1, mode="detour")
-    assert wide.bound >= best.bound - 1e-9
+    assert wide.survival_bound >= best.bound - 1e-9
     # A lock is survived if at every pose to come some configuration has the joint there: a scan of closed forms.
     points = places(path, 21)
     wrong = total = 0
@@ -224,7 +224,7 @@ def test_other_motions_beside_it(narrow):
     off = by_hand.position_error > 1e-3
     assert 0 < least.off == off.mean() < 1
     assert not least.curve[off].any()
-    assert all(other.survival <= got.bound + 1e-9 for other in got.comparisons)
+    assert all(other.survival <= got.survival_bound + 1e-9 for other in got.comparisons)
     free = arm()
     got = hf.plan_motion(free, path, samples=11, spacing=0.2, compare=["least-norm"])
     index = hf.indices.relative_manipulability(free, "planar")
@@ -277,7 +277,7 @@ def test_an_elbow_is_set_by_the_pose():
     best = hf.plan_motion(machine, TimedPath(line(begin, end), Constant(10.0)), samples=16, spacing=0.15)
     assert best.found.moved[3] == pytest.approx(0.0, abs=1e-6)
     assert best.by_joint[machine.joint_names[3]] <= 0.05
-    assert 0.5 < best.survival <= best.bound + 1e-9 < 0.87
+    assert 0.5 < best.survival <= best.survival_bound + 1e-9 < 0.87
     assert f"no self-motion moves {machine.joint_names[3]}" in " ".join(best.describe())
     assert best.speed <= 1
 

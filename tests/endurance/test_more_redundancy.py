@@ -63,7 +63,7 @@ def test_a_joint_that_cannot_move_is_no_redundancy():
     assert stiff.kind == "exact"
     assert 0 < long.survival < 1
     assert stiff.survival == pytest.approx(long.survival, abs=0.01)
-    assert stiff.bound == pytest.approx(long.bound, abs=0.01)
+    assert stiff.survival_bound == pytest.approx(long.survival_bound, abs=0.01)
     np.testing.assert_array_equal(stiff.q[:, 3], 0)
 
 
@@ -103,4 +103,4 @@ def test_no_joint_is_held_that_the_task_holds_anyway():
     path = hf.paths.TimedPath(hf.paths.line(down, end), hf.paths.Constant(6.0))
     best = hf.plan_motion(crane, path, task="pointing", samples=4, spacing=0.3, starts=16)
     assert "roll" not in best.found.held
-    assert best.guaranteed  # along the rail, or with the other joints if the slide locks
+    assert best.survives_all_locks  # along the rail, or with the other joints if the slide locks

@@ -41,8 +41,8 @@ def test_exposure_is_the_least_of_brute_force(rng):
         assert got.exposure == pytest.approx(want, rel=5e-3, abs=8e-3)
         positive += got.exposure > 0.05
         assert np.abs(machine.forward_kinematics(got.goal)[:2, 3] - point).max() < 1e-8
-        assert np.allclose(got.at(0.0), start)
-        assert np.allclose(got.at(got.duration + 1), got.goal)
+        assert np.allclose(got.positions_at(0.0), start)
+        assert np.allclose(got.positions_at(got.duration + 1), got.goal)
     assert positive >= 2
 
 
@@ -52,7 +52,7 @@ def test_no_lock_inside_the_ranges_loses_the_goal_and_every_other_does(rng):
     way = hf.plan_motion_to(machine, start, point, task="planar", velocity=1.0)
     time = rng.uniform(0, way.duration, 100)
     outside = np.zeros(3)
-    for q in way.at(time):
+    for q in way.positions_at(time):
         for k in range(3):
             inside = any(low + 1e-3 <= q[k] <= high - 1e-3 for low, high in way.ranges[k])
             if inside:

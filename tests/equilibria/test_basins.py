@@ -15,7 +15,7 @@ RAD = np.deg2rad
 
 def test_figure_8(three):
     found = hf.basins(three, [1.5, 1.5], {1: RAD(45)}, starts=200)
-    assert found.converged.value == 1
+    assert found.convergence.value == 1
     shares = dict(found.shares)
     assert sorted(shares) == ["solution 1", "solution 2"]
     assert all(s.low < 0.51 and s.high > 0.49 for s in shares.values())
@@ -55,7 +55,7 @@ def test_a_grid_where_no_start_arrives(three):
     found = hf.basins(three, [1.5, 1.5], {1: RAD(140)}, grid=8)
     assert found.shape == (8, 8)
     assert found.healthy == (0, 2)
-    assert found.converged.value == 0
+    assert found.convergence.value == 0
     (name, share), *_ = found.shares
     assert (name, share.value) == ("sink 1", 1.0)
     assert len(found.describe()) == 2

@@ -75,7 +75,7 @@ def test_window_of_sinks_between_a_fold_and_a_hopf_point(three, radius, window):
     ends = arcs(found.sink_arcs)
     k = int(np.argmin(np.abs(ends[:, 0] - window[0])))
     np.testing.assert_allclose(ends[k], window, atol=1.1e-3)
-    hopf = np.concatenate([c.locked[c.hopf_points] for c in found.curves])
+    hopf = np.concatenate([c.locked_values[c.hopf_points] for c in found.curves])
     assert np.abs(np.cos(hopf) - np.cos(RAD(window[1]))).min() < 1e-4
 
 
@@ -100,7 +100,7 @@ def test_every_point_of_the_search_is_on_a_curve_and_the_other_way_round(three, 
         joint, at = int(rng.integers(3)), rng.uniform(-np.pi, np.pi)
         points = hf.stationary_points(law, x, {joint: at})
         found = hf.stationary_points(law, x, {joint: None})
-        searched, traced = points.q[points.kind != Kind.SOLUTION], found.at(at)
+        searched, traced = points.q[points.kind != Kind.SOLUTION], found.points_at(at)
         assert len(searched) == len(traced)
         for q in searched:
             assert np.abs(np.exp(1j * traced) - np.exp(1j * q)).max(axis=1).min() < 1e-5

@@ -63,7 +63,7 @@ def test_draws_are_those_of_the_reference():
     for episode in [*range(40), 2**47]:
         want = expected(episode, 5.0)
         events = MODEL.draw(JOINTS, episode=episode, horizon=5.0)
-        assert [event.stored() for event in events] == want
+        assert [event.to_stored() for event in events] == want
         text = json.dumps(want, sort_keys=True, separators=(",", ":"))
         assert events.id == hashlib.sha256(text.encode()).hexdigest()
         some[len(want) > 2] += 1

@@ -167,16 +167,18 @@ def test_sensors_and_commands(plant):
     ]
     injector = FaultInjector(model, data, None, faults=events)
     run(injector, 50)
-    assert injector.read(data.qpos).tolist() == data.qpos.tolist()
+    assert injector.read_sensors(data.qpos).tolist() == data.qpos.tolist()
     frozen = data.qpos[2]
     run(injector, 1)
     run(injector, 50, (-3.0, 0.0))
     assert data.ctrl[0] == 5.0
     injector.before_step(data.time)
-    assert injector.read(data.qpos) == pytest.approx([data.qpos[0] - 0.2, data.qpos[1] + 0.5 * (data.time - 0.1), frozen])
+    assert injector.read_sensors(data.qpos) == pytest.approx(
+        [data.qpos[0] - 0.2, data.qpos[1] + 0.5 * (data.time - 0.1), frozen]
+    )
     injector = FaultInjector(model, data, ["c", "a"], faults=[FaultEvent("slipping_clutch", "c", 0.0)])
     injector.before_step(0.0)
-    assert injector.read(data.qpos[[2, 0]], reference=[7.0, 8.0]).tolist() == [7.0, data.qpos[0]]
+    assert injector.read_sensors(data.qpos[[2, 0]], reference=[7.0, 8.0]).tolist() == [7.0, data.qpos[0]]
 
 
 @pytest.mark.parametrize(

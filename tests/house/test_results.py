@@ -79,7 +79,8 @@ VALUES = named(
         "simulation": "Path",
         "solvers": "Component FibrePath",
         "teleop": "Binning CPM TrialRecord NextTrial RecordedCycles Subject TaskBank Trials",
-        "teleop.analysis": "Anova CellMeans Condition Correlation Effect TaskGroups MixedModel TrialTable PairedComparison WaldTest",
+        "teleop.analysis": "Anova CellMeans Condition Correlation Effect TaskGroups MixedModel TrialTable PairedComparison "
+        "WaldTest",
     }
 )
 THAWED = {"probability.Distribution"}  # values that are not frozen yet

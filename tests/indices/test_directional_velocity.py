@@ -92,13 +92,13 @@ def test_it_can_be_optimised():
 
 
 def test_a_study_holds_the_setting(tmp_path):
-    from holdfast.studies import read
+    from holdfast.studies import read_study_file
 
     file = tmp_path / "study.yaml"
     file.write_text(
         "seed: 1\nposes: 4\nchunk: 4\narms: [planar-3r]\n"
         "assess: {indices: ['directional-velocity:direction=1,0,0', manipulability]}\n"
     )
-    one, other = read(file).cells
+    one, other = read_study_file(file).cells
     assert one.plan["index"] == LABEL
     assert other.plan["index"] == "manipulability"

@@ -199,7 +199,7 @@ def test_the_bound_of_two_of_two_is_that_of_a_regular_star(n, rng):
     index = indices.relative_manipulability(sliding(directions), ["vx", "vy", "vz"][:m], 2)
     assert index(np.zeros(n)) == pytest.approx(best, rel=1e-12)
     assert index.bound == pytest.approx(best, rel=1e-12)
-    assert index.attained
+    assert index.is_attained
     assert index.bound_note == ""
 
     def least(x):

@@ -276,7 +276,7 @@ def test_a_joint_with_its_axis_along_gravity_changes_nothing_behind_it(rng):
 
 def test_payload_is_a_body_of_the_last_link(loaded, rng):
     q = oracles.inside(loaded, rng, 10)
-    welded = replace(loaded, payload=None, links=(*loaded.links[:-1], hf.Link.joined([loaded.links[-1], loaded.payload])))
+    welded = replace(loaded, payload=None, links=(*loaded.links[:-1], hf.Link.merge([loaded.links[-1], loaded.payload])))
     for name in NAMES:
         np.testing.assert_allclose(sus.by_name(name, welded).by_joint(q), sus.by_name(name, loaded).by_joint(q), rtol=1e-12)
         assert (

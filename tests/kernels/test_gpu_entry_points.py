@@ -13,7 +13,7 @@ from holdfast import arms, control, indices, kernels
 from holdfast.cli.program import main
 from holdfast.engine import Study, ThreadRunner
 from holdfast.kernels import compiled
-from holdfast.studies import read as read_study
+from holdfast.studies import read_study_file as read_study
 
 Q = np.random.default_rng(1).uniform(-2, 2, (6, 3))
 COMMAND = "index planar-3r --index manipulability --task planar --q 0.3,0.4,0.5 --json"

@@ -11,7 +11,7 @@ from flint import arb, ctx
 
 from holdfast.kernels import Kernel, Program
 from holdfast.kernels.llvm.arithmetic import TargetMachine
-from holdfast.kernels.llvm.machine_code import Code, compile_program, detect_host
+from holdfast.kernels.llvm.machine_code import MachineCode, compile_program, detect_host
 
 MACHINES = [pytest.param(True, id="fused"), pytest.param(False, id="unfused")]
 
@@ -93,7 +93,7 @@ def columns(function, fused, *rows, lanes=None):
     machine = TargetMachine(lanes or detect_host().machine.lanes, fused)
     if fused and not detect_host().machine.fused:
         pytest.skip("this processor has no fused multiply-add")
-    code = Code(compile_program(Program("function", symbols, [function(*symbols)]), 0, machine))
+    code = MachineCode(compile_program(Program("function", symbols, [function(*symbols)]), 0, machine))
     width = -(-len(rows[0]) // machine.lanes) * machine.lanes
     inputs, outputs = np.ones((len(rows), width)), np.empty((1, width))
     inputs[:, : len(rows[0])] = rows

@@ -46,7 +46,7 @@ def test_levels_and_lanes_give_the_same_bits(rng):
     results = []
     for level in machine_code.COMPILE_LEVELS:
         for lanes in (1, 2, 4, 8, 16):
-            code = machine_code.Code(
+            code = machine_code.MachineCode(
                 machine_code.compile_program(program, level, TargetMachine(lanes, machine_code.detect_host().machine.fused))
             )
             out = np.empty((program.n_out, 64))
@@ -67,7 +67,7 @@ def test_without_fused_multiply_add_every_rounding_is_that_of_casadi(rng):
         x[0] * x[1] + x[2] * x[3] - x[4] * x[5], x[0] - x[1] * x[2], (x[3] * x[4] - x[5]) / x[0], ca.sqrt(x[1] ** 2 + 2)
     )
     program = Program("plain", [x], [y])
-    code = machine_code.Code(machine_code.compile_program(program, 0, TargetMachine(4, False)))
+    code = machine_code.MachineCode(machine_code.compile_program(program, 0, TargetMachine(4, False)))
     inputs, out = np.ascontiguousarray(rng.normal(size=(6, 400))), np.empty((4, 400))
     code.call(inputs.ctypes.data, out.ctypes.data, 400, 400)
     np.testing.assert_array_equal(out, np.asarray(program.function.map(400)(inputs)))
@@ -248,7 +248,7 @@ def test_a_child_process_has_threads_and_a_compiler_of_its_own(method, fresh, th
 
     def compile_all_the_time():
         while not stop.is_set():
-            machine_code.Code(machine_code.compile_program(program, 0))
+            machine_code.MachineCode(machine_code.compile_program(program, 0))
             compiled._submit_job(lambda: parent._compile_code(1, in_background=True))
             wait_for_compiler()
 

@@ -69,7 +69,7 @@ def test_twist_and_its_rate_are_derivatives_by_time(timing, stop, factor, rng):
     poses = [oracles.random_pose(rng) for _ in range(4)]
     for path in (sequence(poses), arc(*poses[:3])):
         timed = TimedPath(path, timing, stop)
-        timed = timed if factor is None else timed.slowed(factor)
+        timed = timed if factor is None else timed.stretch(factor)
         h = 1e-6
         t = rng.uniform(0.01, 0.99, 200) * timed.duration
         twist = timed.twist(t)
@@ -97,7 +97,7 @@ def test_stopping_at_corners(rng):
 
 def test_slowed(rng):
     timed = TimedPath(sequence(rng.normal(size=(4, 3))), Trapezoid(6.0))
-    slow = timed.slowed(3.0)
+    slow = timed.stretch(3.0)
     t = rng.uniform(0, 6, 10)
     assert slow.duration == 18.0
     np.testing.assert_allclose(slow.pose(3 * t), timed.pose(t), atol=1e-12)
@@ -122,7 +122,7 @@ def test_one_time_and_times_outside(rng):
         (lambda: Constant(-1.0), "duration is -1 s"),
         (lambda: Trapezoid(1.0, 0.7, 0.4), "accelerate is 0.7 and decelerate 0.4; they are shares"),
         (lambda: Trapezoid(1.0, -0.1), "accelerate is -0.1"),
-        (lambda: TimedPath(sequence(np.eye(3)), Constant(1.0)).slowed(0), "factor is 0; it must be above 0"),
+        (lambda: TimedPath(sequence(np.eye(3)), Constant(1.0)).stretch(0), "factor is 0; it must be above 0"),
         (lambda: TimedPath(sequence(np.eye(3)), Constant(1.0)).pose(np.zeros((2, 2))), r"t has shape \(2, 2\)"),
     ],
 )

@@ -37,7 +37,7 @@ def index():
 
 @cache
 def region():
-    return hf.Region.around(arm(), X)
+    return hf.Region.around_tool(arm(), X)
 
 
 @cache

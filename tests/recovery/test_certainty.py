@@ -76,7 +76,7 @@ def test_without_exact_shapes_nothing_is_proved_and_the_verdict_names_them(panda
     _, touching = between
     shape = hf.Clearance(panda).capsules
     named = {
-        "assumed": (hf.Capsules.along(panda), "the shape of the arm was not read: assumed radius 0.0"),
+        "assumed": (hf.Capsules.along_links(panda), "the shape of the arm was not read: assumed radius 0.0"),
         "stored cover": (replace(shape, shape=None), "the shapes that the capsules contain were not read: cover of"),
         "no library": (shape, "exact distances need python-fcl, which is not installed"),
     }
@@ -127,9 +127,9 @@ def test_an_arm_without_meshes_is_decided_by_a_radius_that_is_given(tmp_path):
         found = hf.recover(arm, ["hj1"], at, goal=to, samples=0)
         assert found.verdict.answer == "undecided"
         assert "package://h/shell0.stl was not read" in found.verdict.why
-        slim = hf.Clearance(arm, hf.Capsules.along(arm, 0.02))
+        slim = hf.Clearance(arm, hf.Capsules.along_links(arm, 0.02))
         assert hf.recover(arm, ["hj1"], at, goal=to, clearance=slim, samples=0).ok
-    thick = hf.Clearance(arm, hf.Capsules.along(arm, 0.07))
+    thick = hf.Clearance(arm, hf.Capsules.along_links(arm, 0.07))
     found = hf.recover(arm, ["hj1"], np.zeros(7), goal=goal, clearance=thick, samples=0)
     assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "start"), "a radius that is given is the shape"
 

@@ -37,7 +37,7 @@ def three_links(limit=np.inf):
 
 def among(arm, centres, radius=BALL):
     balls = [hf.cell.Sphere(f"ball{k}", radius, pose=[*c, 0]) for k, c in enumerate(centres)]
-    return hf.Clearance(arm, Capsules.along(arm, THICK), hf.Cell(balls), itself=False)
+    return hf.Clearance(arm, Capsules.along_links(arm, THICK), hf.Cell(balls), itself=False)
 
 
 def ends(q):
@@ -148,7 +148,7 @@ def test_rows_kept_close_ways_too(rng):
     """A tool that must stay near a line cannot bring its arm from one side of it to the other."""
     arm = three_links(2.8)
     start = np.array([-0.3, 0.5, 0.4])
-    keep = [hf.keep.plane([0, 1, 0], within=(0.04, 0.2)).anchored(arm.forward_kinematics(start))]
+    keep = [hf.keep.plane([0, 1, 0], within=(0.04, 0.2)).anchor(arm.forward_kinematics(start))]
     axis = -2.8 + (np.arange(COUNT) + 0.5) * 5.6 / COUNT
     grid = np.zeros((COUNT, COUNT, 3))
     grid[..., 0], grid[..., 2] = np.meshgrid(axis, axis, indexing="ij")

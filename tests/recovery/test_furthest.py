@@ -174,7 +174,7 @@ def test_only_branches_that_a_motion_leads_to_count(rng):
         seen += 1
         kept_apart += ends.max() > expected + 0.02
         balls = [hf.cell.Sphere(f"ball{k}", BALL, pose=[c.real, c.imag, 0]) for k, c in enumerate(centres)]
-        shape = hf.Clearance(arm, hf.Capsules.along(arm, THICK), hf.Cell(balls), itself=False)
+        shape = hf.Clearance(arm, hf.Capsules.along_links(arm, THICK), hf.Cell(balls), itself=False)
         found = hf.recover(arm, ["joint2"], at, goal=None, path=path_of(begin, end), clearance=shape, samples=0, tries=2)
         # The bound of the clearance lacks up to some mm.
         assert found.rest.furthest == pytest.approx(expected, abs=4e-3)

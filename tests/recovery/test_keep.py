@@ -77,13 +77,13 @@ def test_no_proved_piece_breaks_a_row(types, rng):
         axis = start[:3, :3].T @ kept[0].direction + rng.normal(0, 0.05, 3)
         kept[0] = keep.upright(0.3, axis=axis, direction=kept[0].direction)
         for one in kept:
-            one = one.anchored(start)
+            one = one.anchor(start)
             manifold = ConstraintManifold(arm, [one], np.ones(arm.n, dtype=bool), (arm.lower, arm.upper))
             first, last = np.repeat(a[k : k + 1], 60, axis=0), a[k] + (b - a) * rng.uniform(0, 1, (60, 1))
             proved = manifold.prove_edges(first, last)
             held = []
             for x, y in zip(first, last, strict=True):
-                away, turned = one.off(oracles.forward(arm, x + np.linspace(0, 1, 101)[:, None] * (y - x)))
+                away, turned = one.distances(oracles.forward(arm, x + np.linspace(0, 1, 101)[:, None] * (y - x)))
                 held.append(away.max() <= one.within[0] + 1e-8 and turned.max() <= one.widest + 1e-8)
             held = np.array(held)
             assert not (proved & ~held).any()
@@ -95,7 +95,7 @@ def test_no_proved_piece_breaks_a_row(types, rng):
 def test_the_curvature_is_a_bound(rng):
     arm = oracles.random_arm(rng, types="RRPRCP", limits=2.0)
     q, d, h = oracles.inside(arm, rng, 40), rng.normal(size=(40, arm.n)), 1e-3
-    one = keep.rail([0, 0, 1]).anchored(oracles.forward(arm, q[:1])[0])
+    one = keep.rail([0, 0, 1]).anchor(oracles.forward(arm, q[:1])[0])
     one = replace(one, normals=np.eye(3))
     limits = np.minimum(arm.lower, -10), np.maximum(arm.upper, 10)
     bound = ConstraintManifold(arm, [one], np.ones(arm.n, dtype=bool), limits).bound_curvature(d)
@@ -193,7 +193,7 @@ def test_upright_in_a_cell(panda):
     tool = poses_on_the_way(panda, plain.q)[:, :3, 3]
     ball = tool[len(tool) // 2]
     shape = hf.Clearance(
-        panda, hf.Capsules.along(panda, 0.02), hf.Cell([hf.cell.Sphere("ball", 0.06, pose=ball)]), itself=False
+        panda, hf.Capsules.along_links(panda, 0.02), hf.Cell([hf.cell.Sphere("ball", 0.06, pose=ball)]), itself=False
     )
     answer = hf.recover(panda, {"panda_joint3": a[2]}, a, **ask, clearance=shape)
     assert answer.ok

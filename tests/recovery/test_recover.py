@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
-from holdfast.clearance import Capsule, Capsules, Clearance
+from holdfast.clearance import Capsules, Clearance, LinkCapsule
 from holdfast.recovery import RecoveryOutcome, goals
 from holdfast.recovery.proofs.reach import prove_out_of_reach
 
@@ -67,7 +67,7 @@ def assert_sound(result: hf.Recovery, at: np.ndarray, locked: dict[str, float], 
 )
 def test_what_comes_back_is_sound_and_arrives(rng, types, locks, task):
     arm = oracles.random_arm(rng, types=types, limits=2.4)
-    clearance = Clearance(arm, Capsules.along(arm, 0.02))
+    clearance = Clearance(arm, Capsules.along_links(arm, 0.02))
     moved = 0
     for case in range(2):
         ends = oracles.inside(arm, rng, 400)
@@ -132,8 +132,8 @@ def test_a_configuration_that_the_lock_forbids_is_never_home():
 def maze(closed: bool = False) -> tuple[hf.Arm, Clearance]:
     """Three links, and a wall of the base along x: the last link must be drawn back to pass; closed, nothing passes."""
     arm = limited(three_links(), [-3.0, -2.6, -2.8], [3.0, 2.6, 2.8])
-    links = [Capsule(k, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), radius=0.05) for k in (1, 2)]
-    wall = Capsule(-1, (0.5 if closed else 2.2, 0.0, 0.0), (3.2, 0.0, 0.0), radius=0.08)
+    links = [LinkCapsule(k, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), radius=0.05) for k in (1, 2)]
+    wall = LinkCapsule(-1, (0.5 if closed else 2.2, 0.0, 0.0), (3.2, 0.0, 0.0), radius=0.08)
     return arm, Clearance(arm, Capsules((*links, wall)))
 
 

@@ -30,7 +30,7 @@ def bar(start: float, end: float) -> hf.Cell:
 
 @pytest.fixture(scope="module")
 def slim():
-    return hf.Capsules.along(three_links(), 0.05)
+    return hf.Capsules.along_links(three_links(), 0.05)
 
 
 def test_a_route_leads_round_a_bar_and_never_touches_it(slim):
@@ -51,7 +51,7 @@ def test_a_route_leads_round_a_bar_and_never_touches_it(slim):
 def test_the_first_link_meets_an_object_which_it_does_not_as_a_part_of_the_base(slim, monkeypatch):
     """A bar across the first link: as a capsule on the base it is adjacent to that link and is not looked at."""
     arm, cell = three_links(), bar(0.4, 0.7)
-    base = hf.clearance.Capsule(-1, (0.4, 0, 0), (0.7, 0, 0), radius=0.08)
+    base = hf.clearance.LinkCapsule(-1, (0.4, 0, 0), (0.7, 0, 0), radius=0.08)
     away = (np.array([0.4, 1.5, 0.5]), np.array([-0.4, 1.5, 0.5]))
     common = {"goal": away[1], "samples": 0, "tries": 1}
     loophole = hf.Clearance(arm, hf.Capsules((*slim, base)))

@@ -52,7 +52,7 @@ def test_names_of_rows():
 @pytest.mark.parametrize("types", ["RRPRR", "RRRRRR", "CPRRPR"])
 def test_no_distance_changes_faster_than_its_bound(rng, types):
     arm = oracles.random_arm(rng, types=types, limits=2.0)
-    clearance = Clearance(arm, Capsules.along(arm, 0.03))
+    clearance = Clearance(arm, Capsules.along_links(arm, 0.03))
     low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
     high = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
     low, high = (np.where(arm.prismatic, np.clip(x, -1, 1), x) for x in (low, high))
@@ -68,7 +68,7 @@ def test_no_distance_changes_faster_than_its_bound(rng, types):
 
 def test_a_piece_that_is_called_clear_is_clear_and_little_else_is_refused(rng):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.4)
-    clearance = Clearance(arm, Capsules.along(arm, 0.03))
+    clearance = Clearance(arm, Capsules.along_links(arm, 0.03))
     free = np.ones(6, dtype=bool)
     space = FreeSpace(arm, free, clearance, 0.01, np.zeros((1, 6)))
     q = rng.uniform(arm.lower, arm.upper, (600, 6))

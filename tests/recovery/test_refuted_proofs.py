@@ -42,7 +42,7 @@ def placed(point):
 
 def among_balls(arm, centres, radius=0.2):
     balls = [hf.cell.Sphere(f"ball{k}", radius, pose=[c.real, c.imag, 0]) for k, c in enumerate(centres)]
-    return hf.Clearance(arm, hf.Capsules.along(arm, THICK), hf.Cell(balls), itself=False)
+    return hf.Clearance(arm, hf.Capsules.along_links(arm, THICK), hf.Cell(balls), itself=False)
 
 
 def test_start_no_start_within_limits_and_locks_is_proved_infeasible(three, rng):
@@ -130,7 +130,7 @@ def test_rows_kept_no_goal_at_which_they_are_kept_is_called_broken(rng):
             (rail(direction), "position", oracles.pose(other[:3, :3], start[:3, 3] + rng.normal() * direction)),
         ]
         for keep, task, pose in cases:
-            assert not describe_goal_violation([keep.anchored(start)], make_row_solver(arm, as_task(arm, task)).rows, pose), (
+            assert not describe_goal_violation([keep.anchor(start)], make_row_solver(arm, as_task(arm, task)).rows, pose), (
                 str(keep),
                 task,
             )

@@ -29,7 +29,7 @@ def arm():
 
 @pytest.fixture(scope="module")
 def slim(arm):
-    return hf.Clearance(arm, hf.Capsules.along(arm, WIDTH), itself=False)
+    return hf.Clearance(arm, hf.Capsules.along_links(arm, WIDTH), itself=False)
 
 
 def beyond(gap: float) -> hf.Cell:
@@ -125,7 +125,9 @@ def test_every_pair_is_bounded_by_the_exact_distance_of_what_is_nearest(rng):
     np.testing.assert_array_equal(sharp.by_pair(q).min(axis=1), sharp(q))
     assert sharp(q[0]) == sharp(q[:1])[0]
     assert with_exact_distances(sharp) is None
-    assert with_exact_distances(hf.Clearance(arm, hf.Capsules.along(arm))) is None, "capsules that are the shape are exact"
+    assert with_exact_distances(hf.Clearance(arm, hf.Capsules.along_links(arm))) is None, (
+        "capsules that are the shape are exact"
+    )
     assert isinstance(with_exact_distances(hf.Clearance(arm)), ExactClearance)
     assert isinstance(sharp.with_cell(cells.bench()), ExactClearance)
     assert sharp.with_cell(None).cell is None

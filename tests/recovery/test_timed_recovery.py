@@ -153,7 +153,7 @@ def test_rounded_corners_are_quadratic_b_splines(rng):
 
 def test_everything_beside_a_proved_piece_is_clear_and_keeps_its_rows(rng):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.4)
-    clearance = hf.Clearance(arm, Capsules.along(arm, 0.03))
+    clearance = hf.Clearance(arm, Capsules.along_links(arm, 0.03))
     space = FreeSpace(arm, np.ones(6, dtype=bool), clearance, 0.01, np.zeros((1, 6)))
     q = rng.uniform(arm.lower, arm.upper, (400, 6))
     q = q[space.are_valid(q)][:80]
@@ -200,7 +200,7 @@ def among_balls():
     arm = replace(arm, joints=tuple(replace(j, velocity=2.0) for j in arm.joints))
     centres = np.array([[2.6, 0.4], [1.0, -2.3]])
     balls = [hf.cell.Sphere(f"ball{k}", 0.2, pose=[*c, 0]) for k, c in enumerate(centres)]
-    clearance = hf.Clearance(arm, Capsules.along(arm, 0.02), hf.Cell(balls), itself=False)
+    clearance = hf.Clearance(arm, Capsules.along_links(arm, 0.02), hf.Cell(balls), itself=False)
     start, goal = [-0.9, 0.4, 0.3], [0.5, 0.4, 0.3]
     return round_the_corner(arm, start, goal, clearance), centres
 
@@ -240,7 +240,7 @@ def test_two_close_waypoints_are_one_corner_where_that_is_free_and_faster():
             return super().are_segments_valid(a, b, deviations) & (np.abs(b - a).max(axis=1) < 0.2)
 
     free = np.ones(3, dtype=bool)
-    clearance = hf.Clearance(arm, Capsules.along(arm, 0.02), cell, itself=False)
+    clearance = hf.Clearance(arm, Capsules.along_links(arm, 0.02), cell, itself=False)
     one = timed(np.delete(near, 1, axis=0), FreeSpace(arm, free, clearance, 0.0, near[:1]))
     both = timed(near, FreeSpace(arm, free, clearance, 0.0, near[:1]))
     assert both.duration == pytest.approx(one.duration, rel=0.02)

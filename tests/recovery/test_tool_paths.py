@@ -112,7 +112,7 @@ def test_a_panda_with_narrow_ranges_keeps_its_pose_along_a_line():
         samples=0,
         clearance=False,
     )
-    assert result.verdict.solved
+    assert result.verdict.is_solved
     assert result.rest.graph > 0
     assert ((result.q >= low - 1e-12) & (result.q <= high + 1e-12)).all()
     along = result.legs[-1]

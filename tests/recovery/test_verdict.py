@@ -70,7 +70,7 @@ def test_a_spoilt_motion_is_refused(moved, three, spoil, fault):
 
 
 def slim(arm, thing):
-    return hf.Clearance(arm, hf.Capsules.along(arm, 0.02), hf.Cell([thing]), itself=False)
+    return hf.Clearance(arm, hf.Capsules.along_links(arm, 0.02), hf.Cell([thing]), itself=False)
 
 
 def test_a_motion_into_an_object_is_refused(moved, three):
@@ -87,7 +87,7 @@ def test_a_motion_that_touches_only_between_coarse_samples_is_refused(three):
     q = np.array([[0.0, 0.6, 0.9], [1.0, 0.6, 0.9]])
     tip = three.forward_kinematics([0.5, 0.6, 0.9])[:3, 3]
     thin = hf.Clearance(
-        three, hf.Capsules.along(three, 0.005), hf.Cell([hf.cell.Sphere("ball", 0.004, pose=tip)]), itself=False
+        three, hf.Capsules.along_links(three, 0.005), hf.Cell([hf.cell.Sphere("ball", 0.004, pose=tip)]), itself=False
     )
     coarse = q[0] + np.linspace(0, 1, 26)[:, None] * (q[1] - q[0])
     assert (thin.margin_left(coarse) > 0).all()

@@ -200,7 +200,7 @@ def test_where_the_axes_are_in_the_svg():
     axes = figure.add_subplot()
     axes.plot([0.3], [7.0], "o")
     axes.set(xlim=(0.1, 10), ylim=(5, 8), xscale="log")
-    frame = figures.locate_axes(figures.finished(figure).axes[0])
+    frame = figures.locate_axes(figures.settle_layout(figure).axes[0])
     markers = re.findall(r'<use [^>]*x="([\d.]+)" y="([\d.]+)"', str(figures.svg(figure, "a", "b")))
     left, top, right, bottom = frame["box"]
     part = np.log(0.3 / 0.1) / np.log(10 / 0.1)

@@ -81,12 +81,16 @@ def some_figures() -> list[Figure]:
         bar_figure([NASTY, "two"], [3, 0], "times"),
         bar_figure(["none"], [0], "times"),
         view_figure(
-            scene, views, Scale.of(values), label="value", legend=[("dot", "point"), ("slide", "slider"), ("cross", "none")]
+            scene,
+            views,
+            Scale.from_values(values),
+            label="value",
+            legend=[("dot", "point"), ("slide", "slider"), ("cross", "none")],
         ),
         view_figure(
             Scene(points[:0], values[:0], points[:0]),
             views[:1],
-            Scale.of(values[:0]),
+            Scale.from_values(values[:0]),
             label="value",
             legend=[("box", "box")],
         ),

@@ -15,14 +15,14 @@ def points(rng):
 
 def test_places_are_coordinates_along_both_directions(points):
     side, top = choose_side_and_top_views(points)
-    np.testing.assert_array_equal(side.of(points), points[:, [0, 2]])
-    np.testing.assert_array_equal(top.of(points), points[:, [0, 1]])
+    np.testing.assert_array_equal(side.project(points), points[:, [0, 2]])
+    np.testing.assert_array_equal(top.project(points), points[:, [0, 1]])
     assert (side.names, top.names) == (("x, m", "z, m"), ("x, m", "y, m"))
 
 
 def test_the_side_is_the_wider_one(points):
     side, _ = choose_side_and_top_views(points * [0.2, 1, 1])
-    np.testing.assert_array_equal(side.of(points), points[:, [1, 2]])
+    np.testing.assert_array_equal(side.project(points), points[:, [1, 2]])
 
 
 @pytest.mark.parametrize(("scale", "titles"), [((1, 1, 0), ["Top view"]), ((1, 0, 1), ["Side view"]), ((0, 0, 1), [])])

@@ -14,7 +14,7 @@ import cells
 import holdfast as hf
 import oracles
 from holdfast.cell import Box, Cell, Sphere
-from holdfast.clearance import Capsule, Capsules, Clearance
+from holdfast.clearance import Capsules, Clearance, LinkCapsule
 from holdfast.clearance.contacts import find_first_contacts
 from holdfast.simulation import Reason, RunOutcome
 
@@ -34,7 +34,7 @@ def panda():
 
 def tip(arm, cell):
     """The tip of the planar arm alone may touch, so that circles say when."""
-    return Clearance(arm, Capsules((Capsule(1, (1, 0, 0), (1, 0, 0), radius=TIP),)), cell, itself=False)
+    return Clearance(arm, Capsules((LinkCapsule(1, (1, 0, 0), (1, 0, 0), radius=TIP),)), cell, itself=False)
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +123,7 @@ def test_a_ball_that_is_only_brushed_between_two_instants_is_seen(two, depth, se
 def test_times_are_those_at_which_mujoco_sees_spheres_touch(panda):
     """Spheres on the links, so that the bound is the distance itself."""
     arm, cell = panda.arm, cells.bench()
-    parts = tuple(Capsule(k, (0, 0, 0), (0, 0, 0), radius=0.08) for k in (3, 5, 6))
+    parts = tuple(LinkCapsule(k, (0, 0, 0), (0, 0, 0), radius=0.08) for k in (3, 5, 6))
     clearance = Clearance(arm, Capsules(parts), cell, itself=False)
     rng = np.random.default_rng(2)
     q0 = rng.uniform(0.6 * arm.lower, 0.6 * arm.upper, (8, 7))

@@ -122,7 +122,7 @@ def test_a_lock_that_is_noticed_stops_the_arm_on_its_way(arm, run):
     held = stopped.q[30:, 1]
     np.testing.assert_array_equal(held, held[0])
     assert stopped.degraded.locked == {"lift": held[0]}
-    np.testing.assert_array_equal(stopped.locked[:, 1], np.arange(len(stopped.time)) >= 30)
+    np.testing.assert_array_equal(stopped.is_locked[:, 1], np.arange(len(stopped.time)) >= 30)
     # It slows down evenly in 0.1 s: half as far as it would have gone.
     expected = [np.interp(0.38, TIME, x) for x in WAY.T]
     np.testing.assert_allclose(stopped.reference[-1, [0, 2, 3]], np.array(expected)[[0, 2, 3]], atol=1e-12)
@@ -142,11 +142,11 @@ def test_from_the_lock_to_the_task_finished():
     first = hf.execute(arm, way, time, locked=["joint2"], lock_time=0.8, notice=0.02, servos=servos)
     pose = np.eye(4)
     pose[:3, 3] = goal
-    answer = hf.recover(arm, first.degraded, first.at, goal=pose, task="planar", samples=0).require_ok()
+    answer = hf.recover(arm, first.degraded, first.q_final, goal=pose, task="planar", samples=0).require_ok()
     slowly = np.r_[0, np.linalg.norm(np.diff(answer.q, axis=0), axis=1).cumsum()] / 0.5
     last = hf.execute(arm, answer.q, slowly, locked=answer.degraded, goal=goal, servos=servos).require_ok()
     assert last.goal_distance < 1e-4
-    np.testing.assert_array_equal(last.q[:, 1], first.at[1])
+    np.testing.assert_array_equal(last.q[:, 1], first.q_final[1])
     assert "the joints kept within their limits and speeds" in last.describe()
 
 
@@ -162,7 +162,7 @@ def test_limits_speeds_and_objects_are_looked_at(arm):
     left = hf.execute(panda, way, [0, 0.1], locked=slow, servos=hf.Servos(rate=250.0))
     assert left.too_fast["panda_joint7"] == pytest.approx(np.abs(left.rates[:, 6]).max())
     wall = hf.Cell([hf.cell.Box("wall", [0.2, 2, 2], pose=panda.forward_kinematics(home)[:3, 3] + [0.3, 0, 0])])
-    shape = hf.Clearance(panda, hf.Capsules.along(panda, radius=0.03), itself=False)
+    shape = hf.Clearance(panda, hf.Capsules.along_links(panda, radius=0.03), itself=False)
     reaching = home + np.linspace(0, 1, 3)[:, None] * np.array([0, 0.9, 0, 0.6, 0, 0, 0])
     hit = hf.execute(panda, reaching, [0, 0.6, 1.2], clearance=shape, cell=wall, servos=hf.Servos(rate=250.0), settle=0.1)
     assert hit.contacts[0].object == "wall"

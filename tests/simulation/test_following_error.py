@@ -29,22 +29,22 @@ def test_the_first_joint_beyond_the_limit_and_the_tool_error_are_those_of_the_ta
     off = np.abs(run.q - planned)
     np.testing.assert_allclose(run.following_error, off, atol=1e-12)
     first = int((off > limit).any(axis=1).argmax())
-    assert run.exceeded == (panda.joint_names[int(off[first].argmax())], run.time[first])
-    assert run.exceeded[0] == "panda_joint2"
-    assert 0.2 < run.exceeded[1] < 0.3
+    assert run.first_excess == (panda.joint_names[int(off[first].argmax())], run.time[first])
+    assert run.first_excess[0] == "panda_joint2"
+    assert 0.2 < run.first_excess[1] < 0.3
     assert not run.ok
     measured, wanted = oracles.forward(panda, run.q), oracles.forward(panda, planned)
     np.testing.assert_allclose(run.tool_error[0], np.linalg.norm((measured - wanted)[:, :3, 3], axis=1), atol=1e-9)
     turn = Rotation.from_matrix(measured[:, :3, :3]) * Rotation.from_matrix(wanted[:, :3, :3]).inv()
     np.testing.assert_allclose(run.tool_error[1], turn.magnitude(), atol=1e-7)
     said = " ".join(run.describe())
-    assert f"first exceeds 2 deg at {run.exceeded[1]:.4g} s, in panda_joint2" in said
+    assert f"first exceeds 2 deg at {run.first_excess[1]:.4g} s, in panda_joint2" in said
     assert f"{1000 * run.tool_error[0][-1]:.3g} mm" in said
 
 
 def test_a_healthy_arm_keeps_the_limit(panda):
     run = hf.execute(panda, WAY, TIME, error_limit=(np.deg2rad(2.0), 0.01), servos=SERVOS)
-    assert run.exceeded is None
+    assert run.first_excess is None
     assert run.ok
     assert "the following error keeps its limit in every joint" in run.describe()
     with pytest.raises(hf.HoldfastError, match="two numbers above 0"):

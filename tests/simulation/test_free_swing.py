@@ -48,7 +48,7 @@ def test_a_pendulum_starts_with_g_over_l_and_ends_hanging(q):
     assert swing.initial_acceleration == pytest.approx(-G / LENGTH * np.cos(q), rel=1e-9)
     hanging = np.arctan2(np.sin(-np.pi / 2 - q), np.cos(-np.pi / 2 - q))
     assert swing.rest_angle == pytest.approx(hanging, abs=2e-4)
-    assert (swing.outcome, swing.settled, swing.stopped) == ("rest", True, False)
+    assert (swing.outcome, swing.is_settled, swing.is_at_stop) == ("rest", True, False)
     assert swing.peak >= abs(swing.rest_angle) - 1e-9
     np.testing.assert_allclose(swing.tool_position[-1], [0, 0, -LENGTH], atol=2e-4)
 
@@ -59,7 +59,7 @@ def test_without_friction_the_energy_stays_and_it_does_not_settle():
     np.testing.assert_allclose(energy, 0, atol=1e-6)
     assert swing.outcome == "moving"
     assert np.isnan(swing.rest_angle)
-    assert not swing.settled
+    assert not swing.is_settled
     assert swing.time[-1] == pytest.approx(5.0)
     assert swing.peak == pytest.approx(np.pi, abs=1e-4)
 
@@ -96,16 +96,16 @@ def test_a_limit_stops_it_without_rebound_when_asked_for():
     arm = pendulum()
     arm = replace(arm, joints=(replace(arm.joints[0], type="revolute", lower=-1.0, upper=1.0),))
     stopped = hf.free_swing(arm, [0.5], 0, limits=True)
-    assert stopped.stopped
+    assert stopped.is_at_stop
     assert stopped.rest_angle == pytest.approx(-1.5, abs=1e-3)
     assert stopped.peak < 1.53
-    assert not hf.free_swing(arm, [0.5], 0, damping=2.0).stopped
+    assert not hf.free_swing(arm, [0.5], 0, damping=2.0).is_at_stop
 
 
 @pytest.mark.parametrize(("axis", "end"), [((0.0, 0, 1), -0.3), ((0.0, 0, -1), 0.6), ((0.0, 0.6, 0.8), -0.3)])
 def test_a_sliding_joint_falls_to_its_stop(axis, end):
     swing = hf.free_swing(slide(-0.2, 0.7, axis), [0.1], "lift")
-    assert swing.stopped
+    assert swing.is_at_stop
     assert swing.rest_angle == pytest.approx(end, abs=1e-4)
     assert swing.initial_acceleration == pytest.approx(-G * axis[2])
     assert swing.damping == 0
@@ -123,7 +123,7 @@ def test_a_sliding_joint_falls_to_its_stop(axis, end):
 def test_what_gravity_does_not_move_is_balanced(arm, why):
     swing = hf.free_swing(arm, [0.2], 0)
     assert swing.outcome == "balanced", why
-    assert swing.settled
+    assert swing.is_settled
     assert swing.initial_acceleration == 0
     assert swing.rest_angle == pytest.approx(0, abs=1e-6)
     assert all(abs(d.drop) < 1e-6 for d in swing.drops)
@@ -141,7 +141,7 @@ def test_random_arms_rest_where_the_centre_of_mass_is_lowest_and_start_as_static
     swing = hf.free_swing(arm, q, k, damping=None if arm.prismatic[k] else np.sqrt(inertia * heaviness))
     assert swing.initial_acceleration == pytest.approx(-dynamics.gravity_torque(arm, q)[k] / inertia, rel=1e-9)
     if arm.prismatic[k]:
-        assert swing.stopped
+        assert swing.is_at_stop
         end = arm.upper[k] if swing.initial_acceleration > 0 else arm.lower[k]
         assert swing.rest_angle == pytest.approx(end - q[k], abs=1e-4)
     else:

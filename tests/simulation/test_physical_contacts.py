@@ -9,7 +9,7 @@ import cells
 import holdfast as hf
 import oracles
 from holdfast.cell import Box, Cell, HalfSpace, Mesh, Points, Sphere
-from holdfast.clearance import Capsule, Capsules, Clearance
+from holdfast.clearance import Capsules, Clearance, LinkCapsule
 from holdfast.errors import InputError
 
 LENGTH, BALL, DROP = 0.7, 0.05, 0.4  # m: of the pendulum, its bob, how far below the hinge the floor is
@@ -28,7 +28,7 @@ def pendulum() -> hf.Arm:
 
 
 def bob(arm: hf.Arm, cell: Cell) -> Clearance:
-    return Clearance(arm, Capsules((Capsule(0, (LENGTH, 0, 0), (LENGTH, 0, 0), radius=BALL),)), cell, itself=False)
+    return Clearance(arm, Capsules((LinkCapsule(0, (LENGTH, 0, 0), (LENGTH, 0, 0), radius=BALL),)), cell, itself=False)
 
 
 FLOOR = HalfSpace("floor", pose=cells.placed(0, 0, -DROP))
@@ -51,7 +51,7 @@ def test_a_pendulum_falls_until_its_bob_lies_on_the_floor(floor):
         clearance = bob(arm, Cell([floor]))
     free = hf.free_swing(arm, [0.0], 0, damping=0.3)
     swing = hf.free_swing(arm, [0.0], 0, damping=0.3, clearance=clearance)
-    assert (swing.outcome, swing.settled, swing.stopped) == ("contact", True, False)
+    assert (swing.outcome, swing.is_settled, swing.is_at_stop) == ("contact", True, False)
     (contact,) = swing.contacts
     assert (contact.link, contact.object) == ("hinge", "floor")
     # Until then it is the free swing to the bit, and it is there when that passes the angle.
@@ -93,7 +93,7 @@ def test_a_driven_arm_is_held_by_a_wall_that_the_kinematic_run_goes_through():
     """The arm of :func:`test_contacts.wall`: its tip touches where it is as high as the wall, then lies against it."""
     law = hf.control.pseudoinverse(hf.arms.load("planar-2r"), "planar")
     tip, wall = 0.05, Cell([Box("wall", [4, 1, 1], pose=cells.placed(1, 1.3, 0))])
-    clearance = Clearance(law.arm, Capsules((Capsule(1, (1, 0, 0), (1, 0, 0), radius=tip),)), wall, itself=False)
+    clearance = Clearance(law.arm, Capsules((LinkCapsule(1, (1, 0, 0), (1, 0, 0), radius=tip),)), wall, itself=False)
     run = hf.simulate_physics(law, [0, 0.2], [1.2, 1.2], locked=[0], clearance=clearance, time_limit=20)
     at = np.arcsin(0.8 - tip)
     (kinematic,), (physical,) = run.kinematic.contacts, run.contacts

@@ -176,7 +176,7 @@ def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, k, at):
     np.testing.assert_array_equal(standing, standing[0])
     assert abs(standing[0] - run.kinematic.q_final[k]) < 1e-3
     assert run.tracking_error.max() < 2e-3
-    assert (run.saturated == 0).all()
+    assert (run.saturated_fraction == 0).all()
 
 
 def test_softer_servos_go_farther_astray(law, home, goal):
@@ -221,7 +221,7 @@ def test_the_published_two_link_arm_that_never_rests_keeps_turning(two):
 def test_where_nothing_moves(two):
     run = hf.simulate_physics(two, RAD([0.0, -30.0]), [1.0, 1.0], locked=[0, 1])
     assert (run.outcome, run.agrees, run.path_distance) == ("stuck", True, 0.0)
-    assert run.tracking_error.tolist() == run.saturated.tolist() == [0, 0]
+    assert run.tracking_error.tolist() == run.saturated_fraction.tolist() == [0, 0]
 
 
 # ---- where it does not hold ----------------------------------------------------------------------------------------
@@ -234,8 +234,8 @@ def test_weak_motors_saturate_within_their_effort_and_lag(panda, home, goal):
     run = hf.simulate_physics(law, home, goal, locked=[4], time_limit=1.5)
     effort = np.array([j.effort for j in weak.joints])
     assert (np.abs(run.torque) <= effort * (1 + 1e-12)).all()
-    assert run.saturated.max() > 0.02
-    assert run.saturated[4] == 0
+    assert run.saturated_fraction.max() > 0.02
+    assert run.saturated_fraction[4] == 0
     assert (np.abs(run.reference - run.q) <= effort / run.stiffness + 1e-9).all()
     assert run.path_distance > 2e-3
     assert any("at their effort" in line for line in run.describe())

@@ -27,7 +27,7 @@ def index():
 def clearance(index):
     """Discs in the plane of the arm, whose links pass through each other but not through them."""
     discs = [Sphere(f"disc{k}", r, pose=cells.placed(*at, 0), margin=0.01 * k) for k, (at, r) in enumerate(DISCS)]
-    return hf.Clearance(index.arm, hf.Capsules.along(index.arm, WIDTH), hf.Cell(discs), itself=False)
+    return hf.Clearance(index.arm, hf.Capsules.along_links(index.arm, WIDTH), hf.Cell(discs), itself=False)
 
 
 def room(q):

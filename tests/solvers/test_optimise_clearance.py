@@ -54,7 +54,7 @@ def index():
 @pytest.fixture(scope="module")
 def thick(index):
     """The base, the upper arm and the hand, twice as thick as assumed: few pairs, so that it compiles soon."""
-    every = Capsules.along(index.arm, 0.14)
+    every = Capsules.along_links(index.arm, 0.14)
     return Clearance(index.arm, Capsules(tuple(p for p in every if p.link in (-1, 1, 6))))
 
 
@@ -150,7 +150,7 @@ def test_exhaustive_search_in_the_plane(rng):
     """First and third of three links as capsules in one plane: the best of all clear configurations, or none."""
     arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0) for _ in range(3)], name="planar")
     index = hf.indices.manipulability(arm, "planar")
-    clearance = Clearance(arm, Capsules.along(arm, 0.2))
+    clearance = Clearance(arm, Capsules.along_links(arm, 0.2))
     assert len(clearance.pairs) == 1
     radius, angle = rng.uniform(0.02, 2.8, 60), rng.uniform(-np.pi, np.pi, 60)
     poses = np.tile(np.eye(4), (60, 1, 1))

@@ -23,7 +23,7 @@ def arm():
 def among(arm, *discs, **options):
     """A clearance of the arm from discs in its plane; its own links pass each other."""
     solids = [Sphere(f"disc{k}", r, pose=cells.placed(*at, 0), **options) for k, (at, r) in enumerate(discs)]
-    return hf.Clearance(arm, hf.Capsules.along(arm, WIDTH), hf.Cell(solids), itself=False)
+    return hf.Clearance(arm, hf.Capsules.along_links(arm, WIDTH), hf.Cell(solids), itself=False)
 
 
 def room(q, *discs):

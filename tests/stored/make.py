@@ -21,7 +21,7 @@ import holdfast as hf
 from holdfast import arms, control
 from holdfast.engine import Study, ThreadRunner
 from holdfast.recovery import write_waypoints
-from holdfast.studies import read
+from holdfast.studies import read_study_file
 from holdfast.studies.results import read_assessment, read_convergence
 from holdfast.teleop import simulate_experiment
 from holdfast.teleop.protocol import Training, read_protocol
@@ -69,7 +69,7 @@ def write() -> dict[str, Any]:
 
     Path("bench.yaml").write_text("name: bench\nbox: {center: [1.5, 0.6, 0], size: [0.8, 0.8, 0]}\n")
     Path("small.yaml").write_text(STUDY)
-    asked = read("small.yaml")
+    asked = read_study_file("small.yaml")
     study = Study.create("study", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     problems = study.run(asked.cells, ThreadRunner(1))
     assert not problems

@@ -12,7 +12,7 @@ import cells
 import holdfast as hf
 from holdfast.engine import Study, ThreadRunner
 from holdfast.errors import InputError
-from holdfast.studies import read
+from holdfast.studies import read_study_file
 from holdfast.studies.results import read_convergence
 
 AT, RADIUS, WIDTH = (0.9, 0.9), 0.3, 0.04
@@ -41,7 +41,7 @@ def folder(tmp_path):
 
 
 def test_a_study_counts_what_hits_its_cell_and_resumes_with_its_files_elsewhere(folder):
-    asked = read(folder / "study" / "study.yaml")
+    asked = read_study_file(folder / "study" / "study.yaml")
     study = Study.create(folder / "results", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert study.run(asked.cells, ThreadRunner(1)) == {}
     store = study.cell_store(0)
@@ -54,12 +54,12 @@ def test_a_study_counts_what_hits_its_cell_and_resumes_with_its_files_elsewhere(
     np.testing.assert_array_equal(said[sure], gap[sure] < 0)
     assert 0 < said.mean() < 1
     shutil.move(folder / "study", folder / "moved")
-    again = read(folder / "moved" / "study.yaml")
+    again = read_study_file(folder / "moved" / "study.yaml")
     assert [cell.digest for cell in again.cells] == [cell.digest for cell in asked.cells]
     assert json.dumps(again.cells[0].plan) != json.dumps(asked.cells[0].plan)
     assert Study.open(folder / "results").run(again.cells, ThreadRunner(1)) == {}
     np.save(folder / "moved" / "around" / "scan.npy", np.array([[9.0, 9.0, 8.0]]))
-    assert read(folder / "moved" / "study.yaml").cells[0].digest != asked.cells[0].digest
+    assert read_study_file(folder / "moved" / "study.yaml").cells[0].digest != asked.cells[0].digest
 
 
 def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
@@ -67,7 +67,7 @@ def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
     file = folder / "study" / "study.yaml"
     block = "convergence: {laws: [pseudoinverse], tasks: [planar], time_limit: 30, cell: around/discs.yaml}"
     file.write_text(f"seed: 7\nposes: 4\nchunk: 2\narms: [planar-3r]\n{block}\n")
-    asked = read(file)
+    asked = read_study_file(file)
     study = Study.create(folder / "results", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert study.run(asked.cells, ThreadRunner(1)) == {}
     rows = [study.cell_store(0).read_chunk(k, ("q0", "target", "touched", "code")) for k in range(2)]
@@ -84,11 +84,11 @@ def test_motions_of_a_study_are_looked_at_in_its_cell(folder):
     found = read_convergence(study, 0)
     assert found.touched == touched[:, :3].mean()
     shutil.move(folder / "study", folder / "moved")
-    again = read(folder / "moved" / "study.yaml")
+    again = read_study_file(folder / "moved" / "study.yaml")
     assert again.cells[0].digest == asked.cells[0].digest
     file = folder / "moved" / "study.yaml"
     file.write_text(file.read_text().replace(", cell: around/discs.yaml", ""))
-    plain = read(file)
+    plain = read_study_file(file)
     assert plain.cells[0].digest != asked.cells[0].digest
     other = Study.create(folder / "plain", plain.name, plain.seed, cells=plain.cells, source=plain.text)
     assert other.run(plain.cells, ThreadRunner(1)) == {}
@@ -101,7 +101,7 @@ def test_a_cell_that_cannot_be_used_is_said(folder):
     file = folder / "study" / "study.yaml"
     file.write_text(FILE.replace("discs.yaml", "none.yaml"))
     with pytest.raises(InputError, match=r"study file .*none\.yaml"):
-        read(file)
+        read_study_file(file)
     file.write_text(FILE.replace("[planar-3r]", "[{arm: planar-3r, vary: {a1: [0.6, 1.4]}, designs: 4}]"))
     with pytest.raises(InputError, match=r"assess\.cell: designs of 'planar-3r' are not looked at in a cell"):
-        read(file)
+        read_study_file(file)

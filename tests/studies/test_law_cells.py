@@ -11,7 +11,7 @@ from holdfast.convergence.places import read_places
 from holdfast.engine import Chunk, Study, ThreadRunner
 from holdfast.errors import InputError
 from holdfast.present.studies.page import write
-from holdfast.studies import read
+from holdfast.studies import read_study_file
 from holdfast.teleop.bank.tasks import make_task_bank
 from holdfast.teleop.trials.scenarios import Scenario
 
@@ -30,7 +30,7 @@ ARM = hf.arms.load("planar-3r")
 def asked(tmp_path, text=FILE):
     path = tmp_path / "laws.yaml"
     path.write_text(text)
-    return read(path)
+    return read_study_file(path)
 
 
 def begun(folder, file) -> Study:

@@ -23,12 +23,17 @@ def assessed(arm: str, values, better: str = "larger", unit: str = "1", best=Non
     labels = {"arm": arm, "index": "manipulability", "task": "pose"}
     plan = SimpleNamespace(index=SimpleNamespace(name="manipulability", better=better, unit=unit))
     return AssessedCell(
-        labels, plan, Distribution.of(values, better), None if best is None else Distribution.of(best, better), None, None
+        labels,
+        plan,
+        Distribution.from_values(values, better),
+        None if best is None else Distribution.from_values(best, better),
+        None,
+        None,
     )
 
 
 def driven(arm: str, share: float, law: str = "pseudoinverse") -> DrivenCell:
-    p = Interval.of(round(400 * share), 400)
+    p = Interval.from_counts(round(400 * share), 400)
     labels = {"arm": arm, "law": law, "task": "pose"}
     return DrivenCell(labels, ("a", "b"), 200, np.zeros((3, 4)), (p, p, p), np.zeros(200), p, 1.0)
 

@@ -38,7 +38,7 @@ def shots() -> Iterator[Shot]:
     lock = {"locked": [JOINT], "lock_time": WHEN * way.time[-1], "goal": goal, "cell": cell}
     gone = hf.execute(arm, way.q, way.time, **lock)
     first = hf.execute(arm, way.q, way.time, notice=NOTICE, **lock)
-    answer = hf.recover(arm, first.degraded, first.at, goal=goal, accelerations=ACCELERATION, **asked).require_ok()
+    answer = hf.recover(arm, first.degraded, first.q_final, goal=goal, accelerations=ACCELERATION, **asked).require_ok()
     last = hf.execute(arm, answer.timed.q, answer.timed.time, locked=answer.degraded, goal=goal, cell=cell).require_ok()
 
     def state(run: hf.Execution, row: int) -> str:

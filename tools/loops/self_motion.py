@@ -22,7 +22,7 @@ def shots(count: int = 40) -> Iterator[Shot]:
     way = np.r_[0, np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))]
     left = hf.indices.relative_manipulability(arm)(q)
     at = way[-1] * (0.5 - 0.5 * np.cos(np.linspace(0, np.pi, count)))
-    chains = OBLIQUE.of(arm.frames(np.stack([np.interp(at, way, x) for x in q.T], axis=1))[..., :3, 3])
+    chains = OBLIQUE.project(arm.frames(np.stack([np.interp(at, way, x) for x in q.T], axis=1))[..., :3, 3])
 
     drawn = figure()
     for n in [*range(count), *range(count - 2, 0, -1)]:

@@ -73,5 +73,5 @@ def draw(axes: Axes, view: View, bodies: Sequence[tuple[Triangles, str]]) -> Non
     every, shades = np.concatenate(triangles), np.concatenate(colors)
     order = np.argsort(every.mean(axis=1) @ toward)
     axes.add_collection(
-        PolyCollection(view.of(every[order]), facecolors=shades[order], edgecolors=shades[order], linewidths=0.6)
+        PolyCollection(view.project(every[order]), facecolors=shades[order], edgecolors=shades[order], linewidths=0.6)
     )

@@ -118,7 +118,7 @@ class Stage:
                     line = {"arrowstyle": "-", "color": ORANGE, "linewidth": 2, "relpos": (0.2, 0.0)}
                     options = {"xytext": self.label, "textcoords": "axes fraction", "ha": "right", "arrowprops": line}
                     words = {"fontsize": 16, "color": ORANGE, "weight": "bold"}
-                    axes.annotate(f"joint {k + 1} {self.fault}", self.view.of(shown.mean(axis=(0, 1))), **options, **words)
+                    axes.annotate(f"joint {k + 1} {self.fault}", self.view.project(shown.mean(axis=(0, 1))), **options, **words)
                 axes.set(xlim=self.limits[:2], ylim=self.limits[2:], aspect="equal")
                 axes.axis("off")
                 name = side.name if failed else "healthy"
@@ -129,7 +129,7 @@ class Stage:
     def _marks(self, axes: Axes, ways: Sequence[Array]) -> None:
         """The way of the tool so far, and where it should get to."""
         for way in ways:
-            axes.plot(*self.view.of(way).T, color=BLUE, linewidth=3)
-        ring = self.view.of(self.goal)
+            axes.plot(*self.view.project(way).T, color=BLUE, linewidth=3)
+        ring = self.view.project(self.goal)
         axes.plot(*ring, "o", fillstyle="none", color=INK, markersize=24, markeredgewidth=3)
-        axes.plot(*self.view.of(ways[-1][-1]), "D", color=BLUE, markersize=9, markeredgecolor="white")
+        axes.plot(*self.view.project(ways[-1][-1]), "D", color=BLUE, markersize=9, markeredgecolor="white")

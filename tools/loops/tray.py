@@ -31,12 +31,12 @@ def shots() -> Iterator[Shot]:
     first = hf.execute(arm, way.q, way.time, locked=[JOINT], lock_time=WHEN * way.time[-1], notice=NOTICE, **done)
     lasts = []
     for keep in (None, planned):
-        found = hf.recover(arm, first.degraded, first.at, keep=keep, **asked).require_ok().timed
+        found = hf.recover(arm, first.degraded, first.q_final, keep=keep, **asked).require_ok().timed
         lasts.append(hf.execute(arm, found.q, found.time, locked=first.degraded, **done))
     lasts[1].require_ok()
 
     def tilt(run: hf.Execution, row: int) -> float:
-        return float(np.rad2deg(borne.anchored(run.poses[0]).farthest(run.poses[: row + 1])[1]))
+        return float(np.rad2deg(borne.anchor(run.poses[0]).farthest(run.poses[: row + 1])[1]))
 
     def state(run: hf.Execution, row: int) -> str:
         most = max(tilt(run, row), 0.0 if run is first else tilt(first, -2))

@@ -9,7 +9,7 @@ finds. Which keeps more, whichever joint locks?
 import holdfast as hf
 
 panda, xarm = hf.arms.load("panda"), hf.arms.load("xarm7")
-region = hf.Region.around(panda, hf.arms.about("panda").home)
+region = hf.Region.around_tool(panda, hf.arms.about("panda").home)
 runs = [hf.assess(arm, region, poses=300, seed=1) for arm in (panda, xarm)]
 compared = hf.compare_assessments(runs, threshold=0.05)
 for row in compared.table:

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import holdfast as hf
 
 arm = hf.arms.load("panda")
-region = hf.Region.around(arm, hf.arms.about("panda").home)
+region = hf.Region.around_tool(arm, hf.arms.about("panda").home)
 run = hf.assess(arm, region, poses=300, seed=1, after_lock=True, task="pointing")
 survival = run.survival()
 

@@ -27,7 +27,7 @@ figure, panels = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True)
 with tempfile.TemporaryDirectory() as folder:
     file, out = Path(folder, "arms.yaml"), Path(folder, "arms")
     file.write_text(ASKED)
-    asked = studies.read(file)
+    asked = studies.read_study_file(file)
     study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
     study.run(asked.cells, ThreadRunner(2))
     for number in range(len(study.cells)):

@@ -15,7 +15,7 @@ import numpy as np
 import holdfast as hf
 
 arm = hf.arms.load("panda")
-region = hf.Region.around(arm, hf.arms.about("panda").home)
+region = hf.Region.around_tool(arm, hf.arms.about("panda").home)
 
 
 def stop(done, total):

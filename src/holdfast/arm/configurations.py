@@ -7,11 +7,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.machine import ArmData
 from holdfast.errors import InputError
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 
-
-def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[Array, bool]:
+def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
     """Return ``q`` as (N, n), and whether it was a single configuration, which must then be finite.
 
     Raises:
@@ -24,14 +23,14 @@ def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[Array, bool]:
     return np.atleast_2d(checked_q), single
 
 
-def finite_limits(arm: ArmData) -> tuple[Array, Array]:
+def finite_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
     """Return (n,) lower and upper limits to sample between; a missing limit is +-pi rad or +-1 m, or lies that far beyond the
     other limit.
     """
     return make_limits_finite(arm.lower, arm.upper, arm.prismatic)
 
 
-def make_limits_finite(lower: Array, upper: Array, prismatic: NDArray[np.bool_]) -> tuple[Array, Array]:
+def make_limits_finite(lower: FloatArray, upper: FloatArray, prismatic: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """Replace infinite limits (..., n), which need not belong to one arm, as :func:`finite_limits` does."""
     default_bound = np.where(prismatic, 1.0, np.pi)
     finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_constructor
 from holdfast.arm.machine import ArmData, Joint, JointType, Link, check_transform, snap_exact_values
 from holdfast.errors import ArmError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_constructor
@@ -47,17 +46,17 @@ class DH:
     armature: float = 0.0
 
 
-def _rotation_about_x(angle: float) -> Array:
+def _rotation_about_x(angle: float) -> FloatArray:
     cosine, sine = np.cos(angle), np.sin(angle)
     return snap_exact_values(np.array([[1, 0, 0, 0], [0, cosine, -sine, 0], [0, sine, cosine, 0], [0, 0, 0, 1.0]]))
 
 
-def _rotation_about_z(angle: float) -> Array:
+def _rotation_about_z(angle: float) -> FloatArray:
     cosine, sine = np.cos(angle), np.sin(angle)
     return snap_exact_values(np.array([[cosine, -sine, 0, 0], [sine, cosine, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
 
 
-def _translation(x: float, z: float) -> Array:
+def _translation(x: float, z: float) -> FloatArray:
     pose = np.eye(4)
     pose[0, 3], pose[2, 3] = x, z
     return pose
@@ -122,7 +121,7 @@ def build_from_rows(
             )
         )
         link = links[row_index] if links is not None else None
-        bodies.append(None if link is None else link.moved(row_frame))
+        bodies.append(None if link is None else link.in_frame(row_frame))
         pending = row_frame
     tool_frame = row_frame if tool is None else row_frame @ check_transform(tool, f"tool of arm '{name}'")
     return ArmData(
@@ -132,7 +131,7 @@ def build_from_rows(
         base=np.eye(4) if base is None else np.asarray(base, dtype=np.float64),
         tool=tool_frame,
         gravity=np.asarray(gravity, dtype=np.float64),
-        payload=None if payload is None else payload.moved(row_frame),
+        payload=None if payload is None else payload.in_frame(row_frame),
         source=source,
         flange=row_frame,
     )

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arm import statics
 from holdfast.arm.kinematics import Frame, constant_matrix, joint_motions, joint_symbols, split_transform
@@ -21,8 +21,7 @@ from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def inverse_dynamics(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
@@ -51,7 +50,7 @@ def torque_kernel(arm: ArmData) -> Kernel:
     return Kernel("inverse dynamics", [q, qd, qdd], _torque_terms(arm, q, qd, qdd))
 
 
-def check_states(arm: ArmData, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[list[Array], bool]:
+def check_states(arm: ArmData, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[list[FloatArray], bool]:
     """Return configurations, rates, and accelerations, each (N, n) float64, and whether all of them were single.
 
     What is single, (n,), is used for every row of the others.
@@ -59,7 +58,7 @@ def check_states(arm: ArmData, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> t
     Raises:
         InputError: Shapes that do not fit the arm or one another; NaN or infinity in a single one.
     """
-    states: list[Array] = []
+    states: list[FloatArray] = []
     row_count: int | None = None
     for name, value in (("q", q), ("qd", qd), ("qdd", qdd)):
         try:

@@ -10,12 +10,11 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.machine import ArmData
 from holdfast.kernels.program import SX
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Frame = tuple[SX, SX]
 
 
@@ -157,12 +156,12 @@ def identity_matrix() -> SX:
     return ca.SX(ca.Sparsity.diag(3), 1)
 
 
-def constant_matrix(a: Array) -> SX:
+def constant_matrix(a: FloatArray) -> SX:
     """Return numbers as a sparse symbolic matrix."""
     return ca.sparsify(ca.SX(ca.DM(a)))
 
 
-def split_transform(transform: Array | SX) -> Frame:
+def split_transform(transform: FloatArray | SX) -> Frame:
     """Return rotation (3, 3) and position (3,) of a transform (4, 4), in numbers or in symbols."""
     if isinstance(transform, ca.SX):
         return transform[:3, :3], transform[:3, 3]
@@ -183,7 +182,7 @@ def _invert_frame(a: Frame) -> Frame:
     return a[0].T, -(a[0].T @ a[1])
 
 
-def _rotate_axis(rotation: SX, axis: Array) -> SX:
+def _rotate_axis(rotation: SX, axis: FloatArray) -> SX:
     return rotation @ constant_matrix(axis)
 
 

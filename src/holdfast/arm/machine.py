@@ -16,8 +16,8 @@ from holdfast.arm.poses import joint_motion
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
 from holdfast.files.reading import is_unicode
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
@@ -46,9 +46,9 @@ class Joint:
 
     name: str
     type: JointType
-    origin: Array
+    origin: FloatArray
     _: KW_ONLY
-    axis: Array
+    axis: FloatArray
     lower: float = -np.inf
     upper: float = np.inf
     velocity: float = np.inf
@@ -95,11 +95,11 @@ class Joint:
         return "m" if self.prismatic else "rad"
 
     @property
-    def shown(self) -> tuple[float, str]:
+    def display_unit(self) -> tuple[float, str]:
         """Factor and unit for printing the joint variable: (1, "m") or (180/pi, "deg")."""
         return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
 
-    def motion(self, value: float) -> Array:
+    def motion(self, value: float) -> FloatArray:
         """Return the pose (4, 4) of the moving link in the joint's own frame; ``value`` in rad or m."""
         return joint_motion(self.type, self.axis, value)
 
@@ -118,8 +118,8 @@ class Link:
     """
 
     mass: float
-    com: Array
-    inertia: Array
+    com: FloatArray
+    inertia: FloatArray
     _: KW_ONLY
     name: str | None = None
 
@@ -140,14 +140,14 @@ class Link:
         object.__setattr__(self, "com", _as_read_only(com))
         object.__setattr__(self, "inertia", _as_read_only((inertia + inertia.T) / 2))
 
-    def moved(self, transform: ArrayLike) -> Link:
+    def in_frame(self, transform: ArrayLike) -> Link:
         """Return the same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new frame."""
         pose = np.asarray(transform, dtype=np.float64)
         rotation = pose[:3, :3]
         return Link(self.mass, rotation @ self.com + pose[:3, 3], rotation @ self.inertia @ rotation.T, name=self.name)
 
     @staticmethod
-    def joined(bodies: Sequence[Link], name: str | None = None) -> Link:
+    def merge(bodies: Sequence[Link], name: str | None = None) -> Link:
         """Return rigidly connected bodies, all in one frame, as one body (parallel axis theorem)."""
         mass = sum(body.mass for body in bodies)
         if mass <= 0:
@@ -211,14 +211,14 @@ class ArmData:
     joints: tuple[Joint, ...]
     links: tuple[Link | None, ...] = ()
     _: KW_ONLY
-    base: Array = field(default_factory=lambda: np.eye(4))
-    tool: Array = field(default_factory=lambda: np.eye(4))
-    gravity: Array = field(default_factory=lambda: np.array(GRAVITY))
+    base: FloatArray = field(default_factory=lambda: np.eye(4))
+    tool: FloatArray = field(default_factory=lambda: np.eye(4))
+    gravity: FloatArray = field(default_factory=lambda: np.array(GRAVITY))
     payload: Link | None = None
     source: str = ""
-    flange: Array = field(default_factory=lambda: np.eye(4))
+    flange: FloatArray = field(default_factory=lambda: np.eye(4))
     chain: Chain | None = None
-    states: Mapping[str, Array] = field(default_factory=dict)
+    states: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not is_unicode(self.name):
@@ -256,12 +256,12 @@ class ArmData:
         return len(self.joints)
 
     @cached_property
-    def lower(self) -> Array:
+    def lower(self) -> FloatArray:
         """Lower limits (n,), rad or m; -inf where there is none."""
         return _as_read_only(np.array([j.lower for j in self.joints]))
 
     @cached_property
-    def upper(self) -> Array:
+    def upper(self) -> FloatArray:
         """Upper limits (n,), rad or m; inf where there is none."""
         return _as_read_only(np.array([j.upper for j in self.joints]))
 
@@ -296,7 +296,7 @@ class ArmData:
         return tuple(sorted(self.joint_index(joint) for joint in joints))
 
     @cached_property
-    def frames_at_zero(self) -> Array:
+    def frames_at_zero(self) -> FloatArray:
         """World poses (n + 1, 4, 4) of the joint frames and of the tool with all joints at 0."""
         frames, pose = [], self.base
         for joint in self.joints:
@@ -305,7 +305,7 @@ class ArmData:
         return _as_read_only(np.array([*frames, pose @ self.tool]))
 
     @cached_property
-    def axes_at_zero(self) -> Array:
+    def axes_at_zero(self) -> FloatArray:
         """World unit vectors (n, 3) of the joint axes with all joints at 0."""
         return _as_read_only(np.array([t[:3, :3] @ j.axis for t, j in zip(self.frames_at_zero, self.joints, strict=False)]))
 
@@ -342,7 +342,7 @@ class ArmData:
         }
         return hashlib.sha256(json.dumps(data).encode()).hexdigest()
 
-    def check_configurations(self, q: ArrayLike) -> Array:
+    def check_configurations(self, q: ArrayLike) -> FloatArray:
         """Return ``q`` as float64, ``(n,)`` or ``(N, n)``.
 
         Raises:
@@ -366,20 +366,20 @@ class ArmData:
         return f"{type(self).__name__}({self.name!r}, {self.n} joints)"
 
 
-def _as_read_only(a: Array) -> Array:
+def _as_read_only(a: FloatArray) -> FloatArray:
     copied = np.array(a, dtype=np.float64)
     copied.setflags(write=False)
     return copied
 
 
-def _as_float_array(value: ArrayLike, label: str) -> Array:
+def _as_float_array(value: ArrayLike, label: str) -> FloatArray:
     try:
         return np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise ArmError(f"{label} must be numbers in an array of the right shape") from error
 
 
-def snap_exact_values(a: Array) -> Array:
+def snap_exact_values(a: FloatArray) -> FloatArray:
     """Replace rounding noise such as cos(pi/2) by exactly 0, 1, or -1, so that symbolic products vanish."""
     exact = a.copy()
     for value in (-1.0, 0.0, 1.0):
@@ -387,7 +387,7 @@ def snap_exact_values(a: Array) -> Array:
     return exact
 
 
-def check_transform(value: ArrayLike, label: str) -> Array:
+def check_transform(value: ArrayLike, label: str) -> FloatArray:
     """Return a checked pose (4, 4) from a caller; ``label`` names it in error messages."""
     pose = _as_float_array(value, label)
     if pose.shape != (4, 4) or not np.isfinite(pose).all():

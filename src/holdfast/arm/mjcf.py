@@ -13,16 +13,16 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm import mjcf_limits
 from holdfast.arm.machine import ArmData, Link, snap_exact_values
 from holdfast.arm.tree import LinkTree, LockedJoints, TreeJoint, build_chain, resolve_ends
 from holdfast.errors import ArmError, HoldfastError
+from holdfast.typing import FloatArray
 from holdfast.words import list_names
 
-Array = NDArray[np.float64]
 UNNAMED_MODEL = "MuJoCo Model"
 
 
@@ -140,7 +140,7 @@ def _compile_model(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
 # ---- the tree ----------------------------------------------------------------------------------------------------
 
 
-def pose_from_wxyz(position: ArrayLike, wxyz: ArrayLike) -> Array:
+def pose_from_wxyz(position: ArrayLike, wxyz: ArrayLike) -> FloatArray:
     """Return the pose (4, 4) of a position, m, and a unit quaternion, w first."""
     w, x, y, z = np.asarray(wxyz, dtype=np.float64)
     pose = np.eye(4)
@@ -208,7 +208,7 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
     return LinkTree(label, links, joints, limits_required=False, tied=tied)
 
 
-def _fixed_joint(child: str, parent: str, origin: Array) -> TreeJoint:
+def _fixed_joint(child: str, parent: str, origin: FloatArray) -> TreeJoint:
     no_limit = np.inf
     return TreeJoint(
         f"{child} (fixed)", "fixed", parent, child, origin, np.zeros(3), -no_limit, no_limit, no_limit, no_limit, 0.0
@@ -219,7 +219,7 @@ def _read_body(model: Any, body_index: int, name: str) -> Link | None:
     mass, moments = float(model.body_mass[body_index]), np.array(model.body_inertia[body_index])
     if mass == 0 and not moments.any():
         return None
-    return Link(mass, np.zeros(3), np.diag(moments), name=name).moved(
+    return Link(mass, np.zeros(3), np.diag(moments), name=name).in_frame(
         pose_from_wxyz(model.body_ipos[body_index], model.body_iquat[body_index])
     )
 

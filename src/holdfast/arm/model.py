@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, check_constructor
 from holdfast.arm.dh import DH, build_from_rows
@@ -19,8 +19,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.result import Presentable
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_constructor
@@ -101,7 +100,7 @@ class Arm(Presentable, ArmData):
     @check_arguments
     def with_payload(self, payload: Link | None) -> Arm:
         """Return the arm with another payload, given in the last link's own frame; None removes the payload."""
-        return replace(self, payload=None if payload is None else payload.moved(self.flange))
+        return replace(self, payload=None if payload is None else payload.in_frame(self.flange))
 
     @check_arguments
     def with_base(self, base: ArrayLike) -> Arm:
@@ -251,7 +250,7 @@ class Arm(Presentable, ArmData):
 
         return self._compile_kernel("frames of the arm", kinematics.body_poses)
 
-    def frames(self, q: ArrayLike) -> Array:
+    def frames(self, q: ArrayLike) -> FloatArray:
         """Return the world poses of the base, of the link that moves with each joint, and of the tool, rad, m.
 
         The origin of frame k + 1 is where joint k, from 0, is; a prismatic joint is where its slide is. So
@@ -271,12 +270,12 @@ class Arm(Presentable, ArmData):
         poses[..., 3, 3] = 1.0
         return poses
 
-    def forward_kinematics(self, q: ArrayLike) -> Array:
+    def forward_kinematics(self, q: ArrayLike) -> FloatArray:
         """Return the tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
         a = self.check_configurations(q)
         return self._pose_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], 4, 4))
 
-    def jacobian(self, q: ArrayLike) -> Array:
+    def jacobian(self, q: ArrayLike) -> FloatArray:
         """Return the geometric Jacobian at the tool point, (6, n) or (N, 6, n).
 
         Rows: linear velocity, then angular velocity, both in the world frame; m/rad and rad/rad for revolute columns.
@@ -284,12 +283,12 @@ class Arm(Presentable, ArmData):
         checked_q = self.check_configurations(q)
         return self._jacobian_kernel.rows(np.atleast_2d(checked_q)).reshape((*checked_q.shape[:-1], 6, self.n))
 
-    def jacobian_derivative(self, q: ArrayLike) -> Array:
+    def jacobian_derivative(self, q: ArrayLike) -> FloatArray:
         """Return the derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
         a = self.check_configurations(q)
         return self._jacobian_derivative_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n, 6, self.n))
 
-    def gravity_torque(self, q: ArrayLike) -> Array:
+    def gravity_torque(self, q: ArrayLike) -> FloatArray:
         """Return torques and forces, N m and N, that hold the arm and its payload still against gravity, (n,) or (N, n).
 
         Raises:
@@ -298,7 +297,7 @@ class Arm(Presentable, ArmData):
         checked_q = self.check_configurations(q)
         return self._gravity_torque_kernel.rows(np.atleast_2d(checked_q)).reshape(checked_q.shape)
 
-    def inertia_diagonal(self, q: ArrayLike) -> Array:
+    def inertia_diagonal(self, q: ArrayLike) -> FloatArray:
         """Return the diagonal of the joint-space inertia matrix, payload and armature included, (n,) or (N, n); kg m^2 and kg.
 
         Raises:
@@ -307,7 +306,7 @@ class Arm(Presentable, ArmData):
         checked_q = self.check_configurations(q)
         return self._inertia_diagonal_kernel.rows(np.atleast_2d(checked_q)).reshape(checked_q.shape)
 
-    def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> FloatArray:
         """Return torques and forces of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, (n,) or (N, n); N m and N.
 
         Payload, armature and viscous friction included.
@@ -326,7 +325,7 @@ class Arm(Presentable, ArmData):
         inertial, viscous, gravity = self.torque_terms(q, qd, qdd)
         return inertial + viscous + gravity
 
-    def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[Array, Array, Array]:
+    def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd``, and ``g``, each (n,) or (N, n);
         N m and N.
         """

@@ -6,13 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _QUARTER_TURN_TOLERANCE_RAD = 1e-9  # rad; files write pi/2 with 11 or more digits
 
 
-def check_poses(poses: ArrayLike) -> Array:
+def check_poses(poses: ArrayLike) -> FloatArray:
     """Return poses as (N, 4, 4) float64.
 
     Raises:
@@ -33,7 +32,7 @@ def check_poses(poses: ArrayLike) -> Array:
     return checked
 
 
-def pose_from_quaternion(position: ArrayLike, quaternion: ArrayLike) -> Array:
+def pose_from_quaternion(position: ArrayLike, quaternion: ArrayLike) -> FloatArray:
     """Return the pose (4, 4) of a position (3,), m, and a quaternion x, y, z, w of any length but 0."""
     from scipy.spatial.transform import Rotation
 
@@ -42,7 +41,7 @@ def pose_from_quaternion(position: ArrayLike, quaternion: ArrayLike) -> Array:
     return pose
 
 
-def pose_numbers(pose: Array) -> tuple[float, ...]:
+def pose_numbers(pose: FloatArray) -> tuple[float, ...]:
     """Return position x, y, z in m and unit quaternion x, y, z, w of a pose (4, 4)."""
     from scipy.spatial.transform import Rotation
 
@@ -52,7 +51,7 @@ def pose_numbers(pose: Array) -> tuple[float, ...]:
 # ---- rotations: what every command needs without loading scipy.spatial ---------------------------------------------
 
 
-def rotations_of_quaternions(quaternions: ArrayLike) -> Array:
+def rotations_of_quaternions(quaternions: ArrayLike) -> FloatArray:
     """Return rotations (..., 3, 3) of quaternions (..., 4), x, y, z, w, of any length but 0."""
     q = np.asarray(quaternions, dtype=np.float64)
     x, y, z, w = np.moveaxis(q / np.linalg.norm(q, axis=-1, keepdims=True), -1, 0)
@@ -64,7 +63,7 @@ def rotations_of_quaternions(quaternions: ArrayLike) -> Array:
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def rotations_of_vectors(vectors: ArrayLike) -> Array:
+def rotations_of_vectors(vectors: ArrayLike) -> FloatArray:
     """Return rotations (..., 3, 3) of rotation vectors (..., 3): axes as long as their angles, rad."""
     rotation_vector = np.asarray(vectors, dtype=np.float64)
     half_angle = np.linalg.norm(rotation_vector, axis=-1, keepdims=True) / 2
@@ -73,7 +72,7 @@ def rotations_of_vectors(vectors: ArrayLike) -> Array:
     )
 
 
-def rotation_vectors(rotations: ArrayLike) -> Array:
+def rotation_vectors(rotations: ArrayLike) -> FloatArray:
     """Return rotation vectors (..., 3) of rotations (..., 3, 3), angles from 0 to pi, rad."""
     matrices = np.asarray(rotations, dtype=np.float64)
     trace = np.trace(matrices, axis1=-2, axis2=-1)[..., None]
@@ -100,7 +99,7 @@ def rotation_vectors(rotations: ArrayLike) -> Array:
     return np.asarray(quaternion[..., :3] * 2 / np.sinc(half_angle / np.pi))
 
 
-def zyx_angles(rotations: ArrayLike) -> Array:
+def zyx_angles(rotations: ArrayLike) -> FloatArray:
     """Return angles (..., 3) a, b, c, rad, of rotations ``Rz(a) Ry(b) Rx(c)``, b within +-90 degrees; at b = +-90 degrees c is
     0.
     """
@@ -116,7 +115,7 @@ def zyx_angles(rotations: ArrayLike) -> Array:
 
 
 # ---- motions of joints -----------------------------------------------------------------------------------------------
-def joint_motion(kind: str, axis: Array, value: float) -> Array:
+def joint_motion(kind: str, axis: FloatArray, value: float) -> FloatArray:
     """Return the motion (4, 4) of a joint by itself, rad or m; the identity for types without one axis."""
     pose = np.eye(4)
     if kind == "prismatic":
@@ -135,7 +134,7 @@ def cos_sin(angle: float) -> tuple[float, float]:
     return float(np.cos(angle)), float(np.sin(angle))
 
 
-def _rotation_about(axis: Array, angle: float) -> Array:
+def _rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     """Return the rotation (3, 3) about a unit axis (Rodrigues)."""
     cosine, sine = cos_sin(angle)
     x, y, z = axis

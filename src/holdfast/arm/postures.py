@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _CANDIDATE_COUNT = 96
 _SUFFICIENT_SCORE_FRACTION = 0.25  # of the best score among those tried: an earlier one that has it is taken
@@ -17,7 +15,7 @@ _STRUCTURAL_LOSS_TOLERANCE = 1e-9  # a joint without which less than this is lef
 
 
 @check_arguments
-def generic_configuration(arm: Arm) -> Array:
+def generic_configuration(arm: Arm) -> FloatArray:
     """Return a generic configuration (n,), rad and m: inside the limits, not singular, and without an accidental loss of
     dexterity.
 
@@ -45,7 +43,7 @@ def generic_configuration(arm: Arm) -> Array:
     return np.asarray(candidates[np.argmax(scores >= _SUFFICIENT_SCORE_FRACTION * scores.max())])
 
 
-def _score_configurations(arm: Arm, q: Array) -> Array:
+def _score_configurations(arm: Arm, q: FloatArray) -> FloatArray:
     """Return scores (N,), 0 or more, of configurations (N, n) from their conditioning and the manipulability that remains after
     any lock.
     """

@@ -16,14 +16,12 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.kinematics import body_and_joint_frames, constant_matrix, identity_matrix, joint_motions, split_transform
 from holdfast.arm.machine import ArmData, Link
 from holdfast.arm.soundness import require_masses, require_possible_inertia
 from holdfast.kernels.program import SX
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -89,7 +87,7 @@ def links_with_payload(arm: ArmData) -> list[Link]:
     """Return the links of an arm whose links are all known, with the payload joined to the last link."""
     links = [link for link in arm.links if link is not None]
     if arm.payload is not None:
-        links[-1] = Link.joined([links[-1], arm.payload])
+        links[-1] = Link.merge([links[-1], arm.payload])
     return links
 
 
@@ -175,7 +173,7 @@ def inertia_derivative(arm: ArmData, w: CompositeBodies, i: int, j: int) -> SX:
     return 2 * turning + 2 * ca.dot(ca.cross(z, distance), ca.cross(z, first_moment_rate(arm, w, j)))
 
 
-def unit_second_moment(r: Array) -> Array:
+def unit_second_moment(r: FloatArray) -> FloatArray:
     """Return ``-[r][r]``, the second moment of a unit mass at r."""
     return np.asarray(r @ r * np.eye(3) - np.outer(r, r))
 

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_constructor
 from holdfast.arm import kinematics
@@ -20,8 +20,7 @@ from holdfast.errors import InputError, TaskError
 from holdfast.grammar import TASK_ROW_NAMES, TASK_SIZES
 from holdfast.kernels.program import SX
 from holdfast.result import Presentable
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_constructor
@@ -40,7 +39,7 @@ class Task(Presentable):
     """
 
     name: str
-    rows: Array
+    rows: FloatArray
     frame: Literal["base", "tool"] = "base"
     _: KW_ONLY
     length: float = 1.0
@@ -85,7 +84,7 @@ class Task(Presentable):
             twist = ca.vertcat(tool_rotation.T @ twist[:3], tool_rotation.T @ twist[3:])
         return ca.sparsify(ca.SX(ca.DM(self.rows))) @ twist
 
-    def scale(self, length: float) -> Array:
+    def scale(self, length: float) -> FloatArray:
         """Return the matrix (m, m) that divides the linear rows of a twist by a length, m, in terms of the task's rows."""
         return np.asarray(self.rows @ np.diag([1 / length] * 3 + [1.0] * 3) @ self.rows.T)
 
@@ -113,6 +112,9 @@ class Task(Presentable):
         return f"Task({self.name!r}, m={self.m}, frame={self.frame!r}, length={self.length:g})"
 
 
+TaskSpec = str | Task | Sequence[str]
+
+
 def task_from_rows(
     rows: Sequence[str], frame: Literal["base", "tool"] = "base", length: float = 1.0, name: str | None = None
 ) -> Task:
@@ -132,7 +134,7 @@ def task_from_rows(
     return Task(name or "+".join(rows), selection, frame, length=length)
 
 
-def plane_normal(arm: ArmData) -> Array | None:
+def plane_normal(arm: ArmData) -> FloatArray | None:
     """Return the unit normal (3,), world frame, of the plane in which the arm moves; None if it does not move in a plane.
 
     All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
@@ -194,7 +196,7 @@ def as_task(arm: ArmData, task: str | Task | Sequence[str], length: float | None
 # ---- targets -----------------------------------------------------------------------------------------------------
 
 
-def target_poses(task: Task, target: ArrayLike) -> tuple[Array, Array | None]:
+def target_poses(task: Task, target: ArrayLike) -> tuple[FloatArray, FloatArray | None]:
     """Return targets as poses (M, 4, 4), and as task rows (M, m) where they were given as rows.
 
     Args:
@@ -220,7 +222,7 @@ def target_poses(task: Task, target: ArrayLike) -> tuple[Array, Array | None]:
     return poses, rows
 
 
-def target_pose(task: Task, target: ArrayLike) -> Array:
+def target_pose(task: Task, target: ArrayLike) -> FloatArray:
     """Return one target, (m,) or (4, 4), as a pose (4, 4); see :func:`target_poses`.
 
     Raises:

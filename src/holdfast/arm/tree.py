@@ -8,14 +8,13 @@ from dataclasses import dataclass, field
 from typing import get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.machine import GRAVITY, ArmData, Chain, Joint, JointType, Link
 from holdfast.arm.poses import joint_motion
 from holdfast.errors import ArmError
+from holdfast.typing import FloatArray
 from holdfast.words import list_names, suggest_name
 
-Array = NDArray[np.float64]
 MOVING_TYPES = get_args(JointType)
 LIMITED_TYPES = ("revolute", "prismatic")
 FINGER_PATTERN = re.compile("finger|thumb|knuckle|jaw|claw", re.IGNORECASE)
@@ -32,8 +31,8 @@ class TreeJoint:
     type: str
     parent: str
     child: str
-    origin: Array
-    axis: Array
+    origin: FloatArray
+    axis: FloatArray
     lower: float
     upper: float
     velocity: float
@@ -48,7 +47,7 @@ class TreeJoint:
         """False for a fixed joint."""
         return self.type != "fixed"
 
-    def child_pose(self, value: float) -> Array:
+    def child_pose(self, value: float) -> FloatArray:
         """Return the pose (4, 4) of the child link in the parent link at a joint value, rad or m."""
         return self.origin @ joint_motion(self.type, self.axis, value)
 
@@ -273,7 +272,7 @@ def build_chain(
     name: str,
     gravity: Sequence[float] | None,
     source: str,
-    base_pose: Array | None = None,
+    base_pose: FloatArray | None = None,
 ) -> ArmData:
     """Build the arm from link ``base`` down to link ``tip``, and merge every body that does not move relative to a link into
     that link.
@@ -370,7 +369,7 @@ def _reject_followers(tree: LinkTree, base: str, locked_joints: LockedJoints) ->
         )
 
 
-def _model_joint(joint: TreeJoint, origin: Array) -> Joint:
+def _model_joint(joint: TreeJoint, origin: FloatArray) -> Joint:
     joint_type: JointType = (
         "prismatic" if joint.type == "prismatic" else "revolute" if joint.type == "revolute" else "continuous"
     )
@@ -396,7 +395,7 @@ def _merge_link(tree: LinkTree, link: str, on_path: set[str], locked_joints: Loc
         current, pose = pending.pop()
         body = tree.bodies[current]
         if body is not None:
-            bodies.append(body.moved(pose))
+            bodies.append(body.in_frame(pose))
         pending += [
             (joint.child, pose @ joint.child_pose(locked_joints.joint_value(joint)))
             for joint in tree.joints_below[current]
@@ -404,7 +403,7 @@ def _merge_link(tree: LinkTree, link: str, on_path: set[str], locked_joints: Loc
         ]
     if len(bodies) == 1 and tree.bodies[link] is not None:
         return tree.bodies[link]  # untouched, also where a mass of 0 would make the centre of mass meaningless
-    return Link.joined(bodies, link) if bodies else None
+    return Link.merge(bodies, link) if bodies else None
 
 
 class LockedJoints:
@@ -425,7 +424,7 @@ class LockedJoints:
                 )
         self.tree, self.on_path, self.hold = tree, on_path, hold
 
-    def link_pose(self, link: str) -> Array:
+    def link_pose(self, link: str) -> FloatArray:
         """Return the pose (4, 4) of a link in the root of the file."""
         pose = np.eye(4)
         for joint in self.tree.joint_path(self.tree.root, link):

@@ -15,7 +15,6 @@ from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.machine import ArmData, Link
@@ -23,8 +22,8 @@ from holdfast.arm.poses import cos_sin
 from holdfast.arm.tree import LIMITED_TYPES, MOVING_TYPES, LinkTree, TreeJoint, build_chain
 from holdfast.errors import ArmError
 from holdfast.files import reading
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 _MAX_FILE_BYTES = 64 << 20  # bytes
 JOINT_TYPES = (*MOVING_TYPES, "fixed", "floating", "planar")
 XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself, so that a leftover does no harm
@@ -170,9 +169,9 @@ def read_disabled_pairs(path: Path) -> frozenset[tuple[str, str]]:
     return frozenset((first_link, second_link) for first_link, second_link in pairs)
 
 
-def _read_states(path: Path, arm: ArmData) -> dict[str, Array]:
+def _read_states(path: Path, arm: ArmData) -> dict[str, FloatArray]:
     """Return the configurations of an SRDF file that name every joint of the arm."""
-    configurations: dict[str, Array] = {}
+    configurations: dict[str, FloatArray] = {}
     for state in _parse_robot(path, "SRDF").iter("group_state"):
         label = f"{path.name}: state '{state.get('name', '')}'"
         values = {joint.get("name"): joint.get("value", "") for joint in state.findall("joint")}
@@ -218,7 +217,7 @@ def _read_body(element: ElementTree.Element, label: str) -> Link | None:
     )
     kilograms = _parse_numbers(_require_attribute(mass, "value", f"{link_label}: <mass>"), 1, f"{link_label}: mass")[0]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(kilograms, np.zeros(3), inertia, name=label).moved(read_origin(inertial, link_label))
+    return Link(kilograms, np.zeros(3), inertia, name=label).in_frame(read_origin(inertial, link_label))
 
 
 def _read_joint(element: ElementTree.Element) -> TreeJoint:
@@ -290,7 +289,7 @@ def _read_nonnegative(element: ElementTree.Element, key: str, label: str) -> flo
     return value
 
 
-def read_origin(element: ElementTree.Element, label: str) -> Array:
+def read_origin(element: ElementTree.Element, label: str) -> FloatArray:
     """Return the pose (4, 4) of the ``<origin xyz rpy>`` of an element; ``label`` names it in error messages."""
     pose = np.eye(4)
     origin = element.find("origin")
@@ -301,7 +300,7 @@ def read_origin(element: ElementTree.Element, label: str) -> Array:
     return pose
 
 
-def rpy_rotation(rpy: Sequence[float]) -> Array:
+def rpy_rotation(rpy: Sequence[float]) -> FloatArray:
     """Return the rotation (3, 3) from roll, pitch, yaw (3,), rad, about the fixed x, y, z axes in turn: ``Rz(yaw) Ry(pitch)
     Rx(roll)``.
     """

@@ -32,7 +32,7 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 import yaml
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.arguments import check_arguments
@@ -44,8 +44,8 @@ from holdfast.arms.dh_rows import DHTable
 from holdfast.errors import ArmError, InputError
 from holdfast.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
 from holdfast.notice import warn_now
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 _MAX_PLAUSIBLE_ANGLE_RAD = 2 * np.pi  # rad: an angle of more than a turn is probably in degrees
 
 
@@ -277,7 +277,7 @@ def _build_link(body: _BodyEntry, label: str) -> Link:
     return Link(body.mass, np.array(body.com), np.array(body.inertia), name=body.name or label)
 
 
-def _build_pose(pose: list[list[float]] | _PlacementEntry | None, unit: float) -> Array | None:
+def _build_pose(pose: list[list[float]] | _PlacementEntry | None, unit: float) -> FloatArray | None:
     if not isinstance(pose, _PlacementEntry):
         return None if pose is None else np.array(pose)
     matrix = np.eye(4)

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.dh import DH
 from holdfast.arm.machine import Link, snap_exact_values
 from holdfast.arm.model import Arm
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 # Axes this near to parallel, rad, count as parallel: where a file says 3.14159 for pi their common normal is kilometres away.
 _PARALLEL_SINE = 1e-5
@@ -30,8 +28,8 @@ class DHTable:
     """
 
     rows: tuple[DH, ...]
-    base: Array
-    tool: Array
+    base: FloatArray
+    tool: FloatArray
 
     def arm(self, **options: Any) -> Arm:
         """Return the arm of the table; ``options`` (``name``, ``gravity``, ``source``) go to :meth:`holdfast.Arm.from_dh`."""
@@ -90,11 +88,13 @@ def table_bodies(arm: Arm, table: DHTable) -> tuple[list[Link | None], Link | No
     row_frames = [row_motions[index + 1] @ Arm.from_dh([row]).flange for index, row in enumerate(table.rows)]
     link_poses = [_invert_pose(row) @ link_frames[index + 1] for index, row in enumerate(row_frames)]
     links = arm.links or (None,) * arm.n
-    row_links = [None if link is None else link.moved(_clean_pose(pose)) for link, pose in zip(links, link_poses, strict=True)]
-    return row_links, None if arm.payload is None else arm.payload.moved(_clean_pose(link_poses[-1]))
+    row_links = [
+        None if link is None else link.in_frame(_clean_pose(pose)) for link, pose in zip(links, link_poses, strict=True)
+    ]
+    return row_links, None if arm.payload is None else arm.payload.in_frame(_clean_pose(link_poses[-1]))
 
 
-def _first_frame(z: Array, p: Array) -> Array:
+def _first_frame(z: FloatArray, p: FloatArray) -> FloatArray:
     if z[2] > 1 - 1e-15 and np.hypot(p[0], p[1]) < _EQUALITY_TOLERANCE:
         return np.eye(4)
     # The base's x, or its y if the axis points along x, as far as it is across the axis.
@@ -102,7 +102,9 @@ def _first_frame(z: Array, p: Array) -> Array:
     return _frame_from_axes(reference_axis, z, p)
 
 
-def _next_frame(frame: Array, p: Array, z_next: Array, p_next: Array, own_x_axis: Array | None) -> Array:
+def _next_frame(
+    frame: FloatArray, p: FloatArray, z_next: FloatArray, p_next: FloatArray, own_x_axis: FloatArray | None
+) -> FloatArray:
     """Return the frame on the next axis, after a joint with the given frame and a point on the axis."""
     x, z, displacement = frame[:3, 0], frame[:3, 2], p_next - p
     normal = np.cross(z, z_next)
@@ -121,7 +123,7 @@ def _next_frame(frame: Array, p: Array, z_next: Array, p_next: Array, own_x_axis
     return _frame_from_axes(_orient_normal(x_axis, float(displacement @ x_axis), x, own_x_axis), z_next, origin)
 
 
-def _orient_normal(normal: Array, signed_length: float, x: Array, own_x_axis: Array | None) -> Array:
+def _orient_normal(normal: FloatArray, signed_length: float, x: FloatArray, own_x_axis: FloatArray | None) -> FloatArray:
     """Return the common normal with the sign that :func:`dh_table` defines."""
     if own_x_axis is not None and abs(own_x_axis @ normal) > 1 - _EQUALITY_TOLERANCE:
         keeps_sign = bool(own_x_axis @ normal > 0)
@@ -132,7 +134,7 @@ def _orient_normal(normal: Array, signed_length: float, x: Array, own_x_axis: Ar
     return normal if keeps_sign else -normal
 
 
-def _last_frame(arm: Arm, frame: Array, joint: Array, z: Array) -> Array:
+def _last_frame(arm: Arm, frame: FloatArray, joint: FloatArray, z: FloatArray) -> FloatArray:
     if arm.joints[-1].axis[2] != 1.0:
         return _frame_from_axes(frame[:3, 0], z, joint[:3, 3])
     # Of the form Tz(d) Tx(a) Rx(alpha), or no part of the table.
@@ -140,7 +142,7 @@ def _last_frame(arm: Arm, frame: Array, joint: Array, z: Array) -> Array:
     return joint @ arm.flange if has_row_form else joint
 
 
-def _make_row(arm: Arm, k: int, frame: Array, next_frame: Array) -> DH:
+def _make_row(arm: Arm, k: int, frame: FloatArray, next_frame: FloatArray) -> DH:
     joint, displacement = arm.joints[k], next_frame[:3, 3] - frame[:3, 3]
     return DH(
         a=_clean_length(float(displacement @ next_frame[:3, 0])),
@@ -158,22 +160,22 @@ def _make_row(arm: Arm, k: int, frame: Array, next_frame: Array) -> DH:
     )
 
 
-def _frame_from_axes(x: Array, z: Array, origin: Array) -> Array:
+def _frame_from_axes(x: FloatArray, z: FloatArray, origin: FloatArray) -> FloatArray:
     """Return the frame with the given z axis and with the component of x perpendicular to z."""
     frame = np.eye(4)
-    x_axis: Array = x - (x @ z) * z
+    x_axis: FloatArray = x - (x @ z) * z
     x_axis /= np.linalg.norm(x_axis)
     frame[:3, 0], frame[:3, 1], frame[:3, 2], frame[:3, 3] = x_axis, np.cross(z, x_axis), z, origin
     return frame
 
 
-def _invert_pose(pose: Array) -> Array:
+def _invert_pose(pose: FloatArray) -> FloatArray:
     inverse = np.eye(4)
     inverse[:3, :3], inverse[:3, 3] = pose[:3, :3].T, -pose[:3, :3].T @ pose[:3, 3]
     return inverse
 
 
-def _signed_angle(a: Array, b: Array, axis: Array) -> float:
+def _signed_angle(a: FloatArray, b: FloatArray, axis: FloatArray) -> float:
     """Return the angle, rad, from a to b about an axis perpendicular to both; multiples of 90 degrees carry no
     rounding noise.
     """
@@ -188,7 +190,7 @@ def _clean_length(value: float) -> float:
     return rounded if abs(value - rounded) < 1e-14 else value
 
 
-def _clean_pose(transform: Array) -> Array:
+def _clean_pose(transform: FloatArray) -> FloatArray:
     clean = transform.copy()
     clean[:3, :3] = snap_exact_values(clean[:3, :3])
     clean[:3, 3] = [_clean_length(coordinate) for coordinate in clean[:3, 3]]

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arm.model import Arm
 from holdfast.arm.urdf import rpy_rotation
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 
-
-def tool_pose_from_numbers(numbers: ArrayLike) -> Array:
+def tool_pose_from_numbers(numbers: ArrayLike) -> FloatArray:
     """Return the pose (4, 4) of six numbers, m and degrees; ``R = Rz(yaw) Ry(pitch) Rx(roll)``."""
     values = np.asarray(numbers, dtype=np.float64)
     pose = np.eye(4)

@@ -5,12 +5,10 @@ from __future__ import annotations
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.machine import Joint, Link
 from holdfast.arm.model import Arm
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _ROD_RADIUS_FRACTION = 0.02  # radius of a link that is drawn, of the arm's length
 
@@ -65,7 +63,7 @@ def _joint_lines(joint: Joint, parent: str, child: str) -> list[str]:
     ]
 
 
-def _fixed_joint_lines(name: str, parent: str, child: str, pose: Array) -> list[str]:
+def _fixed_joint_lines(name: str, parent: str, child: str, pose: FloatArray) -> list[str]:
     return [
         f'  <joint name="{name}" type="fixed">',
         f"    <parent link={quoteattr(parent)}/>",
@@ -89,7 +87,7 @@ def _inertial_lines(link: Link | None) -> list[str]:
     ]
 
 
-def _rod_lines(end: Array, radius: float, solid: bool) -> list[str]:
+def _rod_lines(end: FloatArray, radius: float, solid: bool) -> list[str]:
     """Return a cylinder from the joint's frame to a point in that frame, or a sphere if the point is its origin."""
     length, frame = float(np.linalg.norm(end)), np.eye(4)
     shape = f'<sphere radius="{radius!r}"/>'
@@ -104,7 +102,7 @@ def _rod_lines(end: Array, radius: float, solid: bool) -> list[str]:
     return [f"    <{element}>{geometry}</{element}>" for element in (("visual", "collision") if solid else ("visual",))]
 
 
-def _origin_element(pose: Array) -> str:
+def _origin_element(pose: FloatArray) -> str:
     rotation = pose[:3, :3]
     cosine_of_pitch = float(np.hypot(rotation[0, 0], rotation[1, 0]))
     pitch = np.arctan2(-rotation[2, 0], cosine_of_pitch)
@@ -115,5 +113,5 @@ def _origin_element(pose: Array) -> str:
     return f'<origin xyz="{_join_numbers(pose[:3, 3])}" rpy="{_join_numbers(np.array([roll, pitch, yaw]))}"/>'
 
 
-def _join_numbers(numbers: Array) -> str:
+def _join_numbers(numbers: FloatArray) -> str:
     return " ".join(repr(float(number)) for number in numbers)

@@ -35,7 +35,7 @@ class AnswerSource(Protocol):
     def plan(self) -> AssessmentPlan: ...  # noqa: D102
 
     @property
-    def kept(self) -> bool: ...  # noqa: D102
+    def has_rows(self) -> bool: ...  # noqa: D102
     @property
     def distribution(self) -> Distribution: ...  # noqa: D102
     @property
@@ -187,7 +187,7 @@ class ThresholdAnswer:
                 f"every configuration."
             )
             is_avoidable = any(fatal_joints[0] not in failed for failed in index.failures)
-            if len(fatal_joints) == 1 and is_avoidable and assessment.kept and self.distribution.reached:
+            if len(fatal_joints) == 1 and is_avoidable and assessment.has_rows and self.distribution.reached:
                 median = format_number(float(assessment.if_never_fails(fatal_joints[0]).quantile(0.5)))
                 reason += f" If it never failed, the median of the {self.reached_noun} would be {median}."
             return reason
@@ -221,7 +221,7 @@ class ThresholdAnswer:
         distribution = self.distribution
         return (
             f"{count:,} of {distribution.samples:,} {self.noun}s, not weighted"
-            if distribution.weighted
+            if distribution.has_weights
             else format_share(count, distribution.samples)
         )
 

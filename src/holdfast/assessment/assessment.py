@@ -26,13 +26,12 @@ from holdfast.probability.distribution import Distribution, Interval
 from holdfast.probability.intervals import check_confidence
 from holdfast.regions.region import Region, Sampling
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from holdfast.certificates import ReachClaim
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,7 +115,7 @@ class Assessment(Result):
         return self.optimised
 
     @check_arguments
-    def cdf(self, h: ArrayLike, optimised: bool = False, reachable_only: bool = False) -> Array:
+    def cdf(self, h: ArrayLike, optimised: bool = False, reachable_only: bool = False) -> FloatArray:
         """Return ``F(h)``: the fraction of poses whose index is below h; a pose without a configuration counts as 0 unless
         ``reachable_only``.
         """
@@ -180,9 +179,9 @@ class Assessment(Result):
     def _compute_interval(self, hits: float, confidence: float) -> Interval:
         """Return the fraction of all poses with its interval, by weight if poses have weights."""
         distribution = self.distribution
-        if distribution.weighted:
+        if distribution.has_weights:
             return Interval.of_share(min(hits / distribution.total_weight(), 1.0), distribution.effective(), confidence)
-        return Interval.of(int(hits), distribution.samples, confidence)
+        return Interval.from_counts(int(hits), distribution.samples, confidence)
 
     @check_arguments
     def reached_clear(self, confidence: float = 0.95) -> Interval:
@@ -285,9 +284,9 @@ class Assessment(Result):
         run_sample = select_sample(self.index, self.columns, optimised)
         return run_sample.first_poses if optimised else run_sample
 
-    def _compute_values_without(self, joint: int, run_sample: RunSample, optimised: bool) -> Array:
+    def _compute_values_without(self, joint: int, run_sample: RunSample, optimised: bool) -> FloatArray:
         """Return the values (N,) of a sample if a joint, from 0, never failed; optimised values are computed once."""
-        cached: dict[int, Array] = self.__dict__.setdefault("_optimised_without", {})
+        cached: dict[int, FloatArray] = self.__dict__.setdefault("_optimised_without", {})
         if optimised and joint not in cached:
             cached[joint] = upgrade.optimise_value_without(self.plan, self.columns, joint, run_sample)
         return cached[joint] if optimised else upgrade.compute_value_without(self.index, joint, run_sample)
@@ -295,7 +294,7 @@ class Assessment(Result):
     # ---- rows, files -----------------------------------------------------------------------------------------------
 
     @property
-    def kept(self) -> bool:
+    def has_rows(self) -> bool:
         """True if the rows were kept, in memory or in a folder, and not only counted in bins."""
         return self._rows is not None or self.store is not None
 

@@ -10,19 +10,20 @@ from numpy.typing import NDArray
 
 from holdfast.indices.index import Index
 from holdfast.probability.distribution import Distribution
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 BOUNDED_BINS = 4096  # bins of equal width up to the bound of the index
-_BINS_PER_OCTAVE, _OCTAVE_COUNT = 64, 40  # without a bound: 1.1 % wide, from 2^-40 to 2^40
+# _BINS_PER_OCTAVE and _OCTAVE_COUNT: without a bound: 1.1 % wide, from 2^-40 to 2^40
+_BINS_PER_OCTAVE = 64
+_OCTAVE_COUNT = 40
 FACT_NAMES = ("unreached", "reached", "singular", "infinite", "total", "lowest", "highest")
 
 
-def compute_bin_edges(index: Index) -> Array:
+def compute_bin_edges(index: Index) -> FloatArray:
     """Return the edges (B + 1,) of the bins of an index; the last is infinity, and the one before is beyond its bound."""
     if index.bound is not None:
         return np.concatenate([np.arange(BOUNDED_BINS + 2) * (index.bound / BOUNDED_BINS), [np.inf]])
-    octave_edges: Array = np.r_[
+    octave_edges: FloatArray = np.r_[
         0.0,
         2.0 ** (np.arange(-_BINS_PER_OCTAVE * _OCTAVE_COUNT, _BINS_PER_OCTAVE * _OCTAVE_COUNT + 1) / _BINS_PER_OCTAVE),
         np.inf,
@@ -43,7 +44,7 @@ class IndexCounts:
         self.bins = np.zeros(len(self._edges) - 1, dtype=np.int64)
         self.facts = np.array([0, 0, 0, 0, 0.0, np.inf, -np.inf])
 
-    def add(self, values: Array, unreached: int, singular: int) -> None:
+    def add(self, values: FloatArray, unreached: int, singular: int) -> None:
         """Add values at reached poses, the number of unreached poses, and the number of singular values."""
         last = len(self.bins) - 1
         if self._index.bound is not None:
@@ -56,7 +57,7 @@ class IndexCounts:
         facts = np.array([unreached, len(values), singular, len(values) - len(finite), finite.sum(), lowest, highest])
         self.add_counts(np.bincount(bin_numbers.clip(0, last), minlength=last + 1), facts)
 
-    def add_counts(self, bins: NDArray[Any], facts: Array) -> None:
+    def add_counts(self, bins: NDArray[Any], facts: FloatArray) -> None:
         """Add another part that was counted elsewhere."""
         self.bins += bins
         self.facts[:5] += facts[:5]

@@ -10,8 +10,7 @@ from holdfast.indices.index import IndexEvaluation, WorstCase
 from holdfast.solvers.inverse_kinematics import Accept, solver
 from holdfast.solvers.optimum import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 POSE_TOLERANCE = 1e-6  # of the pose, m and rad
 
@@ -31,7 +30,7 @@ def _make_ascent(plan: AssessmentPlan) -> Ascent:
     return objective_ascent(plan.index, None, plan.clearance, plan.margin)
 
 
-def evaluate_block(plan: AssessmentPlan, samples: Array, number: int) -> Rows:
+def evaluate_block(plan: AssessmentPlan, samples: FloatArray, number: int) -> Rows:
     """Return the rows of block ``number``."""
     from scipy.spatial.transform import Rotation
 
@@ -104,7 +103,7 @@ def evaluate_block(plan: AssessmentPlan, samples: Array, number: int) -> Rows:
     return rows
 
 
-def _measure_clearance(plan: AssessmentPlan, q: Array) -> tuple[Rows, NDArray[np.bool_]]:
+def _measure_clearance(plan: AssessmentPlan, q: FloatArray) -> tuple[Rows, NDArray[np.bool_]]:
     """Return the distances of the arm from itself and its cell at q (N, n), and whether they are sufficient (N,)."""
     clearance = plan.clearance
     assert clearance is not None
@@ -137,8 +136,8 @@ def _make_acceptance_test(plan: AssessmentPlan) -> Accept | None:
 
 
 def _solve_collision_free(
-    plan: AssessmentPlan, poses: Array, q: Array, is_clear: NDArray[np.bool_], reached: NDArray[np.bool_], number: int
-) -> tuple[Array, NDArray[np.bool_]]:
+    plan: AssessmentPlan, poses: FloatArray, q: FloatArray, is_clear: NDArray[np.bool_], reached: NDArray[np.bool_], number: int
+) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Return the configurations q (N, n) of the reached poses, replaced by collision-free ones where q is too close."""
     pose_solver, unclear = solver(plan.arm, plan.index.task), np.flatnonzero(reached & ~is_clear)
     obstacles = None if plan.clearance is None else plan.clearance.obstacles
@@ -152,15 +151,15 @@ def _solve_collision_free(
     return q, collision_free
 
 
-def evaluate_worst_cases(plan: AssessmentPlan, configurations: Array) -> Rows:
+def evaluate_worst_cases(plan: AssessmentPlan, configurations: FloatArray) -> Rows:
     """Return those rows of :func:`evaluate_block` for a region of joints that are counted: only the worst failure."""
     worst = plan.index.worst_case(configurations)
     return {"status": worst.status, "index": worst.value, "worst": _find_worst_failures(worst)}
 
 
 def _test_survival(
-    plan: AssessmentPlan, poses: Array, q: Array, reached: NDArray[np.bool_], number: int
-) -> tuple[NDArray[np.int8], Array]:
+    plan: AssessmentPlan, poses: FloatArray, q: FloatArray, reached: NDArray[np.bool_], number: int
+) -> tuple[NDArray[np.int8], FloatArray]:
     """Return for each reached pose and each requested joint whether the pose is still reached after a lock, and the locked
     value.
 

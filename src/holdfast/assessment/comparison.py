@@ -88,7 +88,7 @@ class Comparison(Result):
         row["expected_survival"] = None if fractions is None else float(np.mean(fractions))
         fatal = range(assessment.arm.n) if task_structure.never or task_structure.redundancy <= 0 else task_structure.fatal
         row["single_points_of_failure"] = [assessment.arm.joint_names[joint] for joint in fatal]
-        upgrades = self.upgrades(name) if assessment.kept else []
+        upgrades = self.upgrades(name) if assessment.has_rows else []
         row["upgrade"] = upgrades[0].joint if upgrades and upgrades[0].gain > 0 else None
         row["upgrade_gain"] = upgrades[0].gain if upgrades else None
         return row
@@ -350,8 +350,8 @@ def _compute_reached_interval(assessment: Assessment) -> Interval:
     distribution = assessment.distribution
     return (
         Interval.of_share(1 - distribution.unreached_share, distribution.effective())
-        if distribution.weighted
-        else Interval.of(distribution.reached, distribution.samples)
+        if distribution.has_weights
+        else Interval.from_counts(distribution.reached, distribution.samples)
     )
 
 

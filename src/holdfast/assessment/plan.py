@@ -27,13 +27,14 @@ from holdfast.regions.region import Region, Sampling
 from holdfast.registry import INDEX_REGISTRY
 from holdfast.solvers.optimum import default_starts
 
-Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 _DEFAULT_POSES = 2000  # unless asked otherwise
 _CHUNK_BLOCKS = 8
 LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
-CLEAR_RESTARTS, CLEAR_STEPS = 30, 20  # the same to keep clear: every tenth start takes longer, and costs as much as two others
+# CLEAR_RESTARTS and CLEAR_STEPS: the same to keep clear: every tenth start takes longer, and costs as much as two others
+CLEAR_RESTARTS = 30
+CLEAR_STEPS = 20
 
 _SURVIVES_TEXT = (
     "1 if the pose can still be reached once the joint has locked where it was at another pose, 0 if not found, -1 unknown"
@@ -125,7 +126,7 @@ class AssessmentPlan:
     @property
     def has_weights(self) -> bool:
         """True if rows have weights."""
-        return self.region.weighted(self.poses)
+        return self.region.has_weights(self.poses)
 
     # ---- files -----------------------------------------------------------------------------------------------------
 

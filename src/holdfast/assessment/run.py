@@ -83,7 +83,8 @@ def assess(
         locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
             at another pose if ``after_lock``, and are left out if not.
         clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
-            of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may collide with itself.
+            of an assumed radius along the links (:meth:`holdfast.Capsules.along_links`); False: the arm may collide with
+            itself.
             Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
         cell: Objects around the arm, or their file. Configurations that touch them are counted, the best ones keep clear of
             them, and so do those that reach a pose after a lock. The arm's own links are then looked at as well, but for an

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.errors import TaskError
 from holdfast.grammar import TASK_SIZES
 from holdfast.indices.determinants import Manipulability, RelativeManipulability
+from holdfast.typing import FloatArray
 from holdfast.words import format_number, format_percent, list_alternatives
 
-Array = NDArray[np.float64]
-
 _SAMPLE_CONFIGURATIONS = 256
-_MAX_SET_SIZE, _MAX_NAMED_SETS = 3, 4  # joints of a set, and sets that are named
+# _MAX_SET_SIZE and _MAX_NAMED_SETS: joints of a set, and sets that are named
+_MAX_SET_SIZE = 3
+_MAX_NAMED_SETS = 4
 _SQUARED_RHO_TOLERANCE = 1e-10  # rho^2 of several joints is rounding noise, or that of 1.5708 for pi/2 in a file
 _ZERO_RHO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
 WEAK_FRACTION = 0.03  # of the best manipulability: below it the lock of a joint all but ends a task
@@ -107,7 +107,7 @@ def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
     )
 
 
-def _find_weak_joints(arm: Arm, task: Task, q: Array, by_failure: Array, bound: float) -> tuple[WeakJoint, ...]:
+def _find_weak_joints(arm: Arm, task: Task, q: FloatArray, by_failure: FloatArray, bound: float) -> tuple[WeakJoint, ...]:
     """Find the joints after whose lock the largest manipulability at q (N, n) is at most 3 % of the healthy one."""
     after_lock = Manipulability(arm, task).by_joint(q)
     healthy = np.divide(after_lock, by_failure, out=np.zeros_like(after_lock), where=by_failure > 0).max()
@@ -146,7 +146,7 @@ def _measure_axis_distance(arm: Arm, joint: int) -> float | None:
     return largest if largest <= _NEAR_POINT_M else None
 
 
-def _find_nearest_points(p: Array, u: Array, r: Array, v: Array) -> tuple[Array, Array] | None:
+def _find_nearest_points(p: FloatArray, u: FloatArray, r: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray] | None:
     """Find the nearest points of the lines p + s u and r + t v, unit vectors u and v; None for parallel lines."""
     cosine = float(u @ v)
     if 1 - cosine**2 < _SQUARED_RHO_TOLERANCE:
@@ -156,7 +156,7 @@ def _find_nearest_points(p: Array, u: Array, r: Array, v: Array) -> tuple[Array,
     return p + s * u, r + t * v
 
 
-def _find_fatal_sets(jacobians: Array, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
+def _find_fatal_sets(jacobians: FloatArray, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
     """Return the minimal sets of two and three joints whose minors of the null-space projector vanish for all Jacobians (N, m,
     n).
     """

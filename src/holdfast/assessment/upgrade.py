@@ -18,8 +18,7 @@ from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Interval
 from holdfast.solvers.optima import optimise
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 MAX_REOPTIMISED_POSES = 500  # poses; each is optimised once for each joint, which takes 1 to 2 ms of two threads
 
@@ -65,11 +64,11 @@ class RunSample:
 
     number: NDArray[np.int64]
     reached: NDArray[np.bool_]
-    q: Array
-    value: Array
-    by_failure: Array
+    q: FloatArray
+    value: FloatArray
+    by_failure: FloatArray
     worst: NDArray[np.int64]
-    weight: Array | None
+    weight: FloatArray | None
 
     @property
     def first_poses(self) -> RunSample:
@@ -102,7 +101,7 @@ def select_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> 
     return RunSample(computed, reached, q, value, by_failure, worst, weight)
 
 
-def compute_value_without(index: Index, joint: int, run_sample: RunSample) -> Array:
+def compute_value_without(index: Index, joint: int, run_sample: RunSample) -> FloatArray:
     """Compute the worst case (N,) over the failures that do not include a joint, from 0; NaN where no pose is reached.
 
     Raises:
@@ -118,7 +117,7 @@ def compute_value_without(index: Index, joint: int, run_sample: RunSample) -> Ar
     return np.asarray(values.min(axis=1) if index.better == "larger" else values.max(axis=1))
 
 
-def optimise_value_without(plan: AssessmentPlan, columns: Mapping[str, Any], joint: int, run_sample: RunSample) -> Array:
+def optimise_value_without(plan: AssessmentPlan, columns: Mapping[str, Any], joint: int, run_sample: RunSample) -> FloatArray:
     """Compute the values of :func:`compute_value_without`, at configurations optimised again for the remaining failures.
 
     The configuration optimised for all failures is the first start, so the value is never worse than there.
@@ -146,7 +145,7 @@ def optimise_value_without(plan: AssessmentPlan, columns: Mapping[str, Any], joi
     return value
 
 
-def make_distribution_without(index: Index, run_sample: RunSample, value: Array) -> Distribution:
+def make_distribution_without(index: Index, run_sample: RunSample, value: FloatArray) -> Distribution:
     """Build the distribution of values (N,) of the sampled poses."""
     reached, unreached = (
         (None, ())
@@ -154,13 +153,13 @@ def make_distribution_without(index: Index, run_sample: RunSample, value: Array)
         else (run_sample.weight[run_sample.reached], run_sample.weight[~run_sample.reached])
     )
     lost_count, singular = int((~run_sample.reached).sum()), int((run_sample.worst[run_sample.reached] < 0).sum())
-    return Distribution.of(
+    return Distribution.from_values(
         value[run_sample.reached], index.better, lost_count, singular=singular, weights=reached, unreached_weights=unreached
     )
 
 
 def rank_upgrades(
-    index: Index, run_sample: RunSample, values_without: Callable[[int], Array], threshold: float, confidence: float
+    index: Index, run_sample: RunSample, values_without: Callable[[int], FloatArray], threshold: float, confidence: float
 ) -> list[Upgrade]:
     """Compute :meth:`Assessment.upgrades` from the values (N,) that remain without each joint."""
     if not np.isfinite(threshold):
@@ -169,7 +168,7 @@ def rank_upgrades(
     distribution = make_distribution_without(index, run_sample, run_sample.value)
     probability = distribution.interval(at_least=threshold) if larger_is_better else distribution.interval(at_most=threshold)
 
-    def meets_threshold(value: Array) -> NDArray[np.bool_]:
+    def meets_threshold(value: FloatArray) -> NDArray[np.bool_]:
         return np.asarray(run_sample.reached & (value >= threshold if larger_is_better else value <= threshold))
 
     gains = []
@@ -179,7 +178,7 @@ def rank_upgrades(
             continue  # nothing would be left to fail, or nothing would change
         gained = ~meets_threshold(run_sample.value) & meets_threshold(values_without(joint))
         if run_sample.weight is None:
-            gain = Interval.of(int(gained.sum()), distribution.samples, confidence)
+            gain = Interval.from_counts(int(gained.sum()), distribution.samples, confidence)
         else:
             gain = Interval.of_share(
                 min(float(run_sample.weight[gained].sum()) / distribution.total_weight(), 1.0),
@@ -205,7 +204,7 @@ def _find_failures_without(index: Index, joint: int) -> list[int]:
     return [position for position, failed in enumerate(index.failures) if joint not in failed]
 
 
-def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
+def check_rates(arm: Arm, rates: Mapping[Any, float]) -> FloatArray:
     """Return the failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
     weights = np.zeros(arm.n)
     for joint, rate in rates.items():

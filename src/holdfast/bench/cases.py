@@ -21,12 +21,15 @@ from holdfast.failures import Degraded
 from holdfast.keep.kept import ToolConstraint, upright
 from holdfast.paths.path import Path, line, sequence
 from holdfast.recovery.rows import make_row_solver
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Rng = np.random.Generator
 
 _MAX_SAMPLES = 4000  # configurations drawn before a case counts as impossible to draw
-_LANE_COUNT, _LANE_LENGTH_M, _LANE_SPACING_M = 3, 0.2, 0.04  # of wiping: lanes, and m of each and between two
+# _LANE_COUNT, _LANE_LENGTH_M and _LANE_SPACING_M: of wiping: lanes, and m of each and between two
+_LANE_COUNT = 3
+_LANE_LENGTH_M = 0.2
+_LANE_SPACING_M = 0.04
 _MAX_TILT_RAD = np.deg2rad(2)  # by which the tool may lean where it is kept upright
 _FAILURE_KINDS = ("lock", "range", "speed")
 _KIND_PROBABILITIES = (0.5, 0.3, 0.2)  # how often each is drawn
@@ -48,10 +51,10 @@ class BenchmarkCase:
 
     task: str
     degraded: Degraded
-    at: Array
+    at: FloatArray
     _: KW_ONLY
     rows: Task
-    goal: Array | None = None
+    goal: FloatArray | None = None
     path: Path | None = None
     keep: tuple[ToolConstraint, ...] = ()
 
@@ -112,13 +115,13 @@ class CaseSampler:
 
     # ---- configurations ----------------------------------------------------------------------------------------------
 
-    def is_collision_free(self, q: Array) -> NDArray[np.bool_]:
+    def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) True for collision-free configurations (N, n)."""
         if self.clearance is None:
             return np.ones(len(q), dtype=bool)
         return np.asarray(self.clearance.margin_left(q) >= 0)
 
-    def sample_configuration(self, lower: Array, upper: Array, rng: Rng) -> Array:
+    def sample_configuration(self, lower: FloatArray, upper: FloatArray, rng: Rng) -> FloatArray:
         """Return a collision-free configuration (n,), uniform between the limits (n,) each."""
         for _ in range(_MAX_SAMPLES // 40):
             q = rng.uniform(lower, upper, (40, self.arm.n))
@@ -127,7 +130,7 @@ class CaseSampler:
                 return np.asarray(q[valid[0]])
         raise NoValidSampleError
 
-    def sample_pointing_down(self, lower: Array, upper: Array, rng: Rng) -> Array:
+    def sample_pointing_down(self, lower: FloatArray, upper: FloatArray, rng: Rng) -> FloatArray:
         """Return a collision-free configuration (n,) whose tool z axis points straight down."""
         is_movable = upper > lower
         downward_pose = np.diag([1.0, -1.0, -1.0, 1.0])
@@ -149,7 +152,7 @@ class NoValidSampleError(Exception):
     """Exception for a failure for which no valid configuration was found; another failure is sampled then."""
 
 
-def _limits_in_force(degraded: Degraded) -> tuple[Array, Array]:
+def _limits_in_force(degraded: Degraded) -> tuple[FloatArray, FloatArray]:
     """Return the finite limits in force."""
     lower, upper = finite_limits(degraded.limited)
     is_movable = degraded.moves
@@ -249,11 +252,11 @@ def _make_upright_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCa
     degraded = sample_failure(sampler.arm, 2, rng)
     start, goal_configuration = (sampler.sample_pointing_down(*_limits_in_force(degraded), rng) for _ in range(2))
     goal = sampler.arm.forward_kinematics(goal_configuration)
-    constraint = upright(_MAX_TILT_RAD).anchored(sampler.arm.forward_kinematics(start))
+    constraint = upright(_MAX_TILT_RAD).anchor(sampler.arm.forward_kinematics(start))
     return BenchmarkCase(task, degraded, start, rows=as_task(sampler.arm, "pose"), goal=goal, keep=(constraint,))
 
 
-def _translate_pose(pose: Array, displacement: Array) -> Array:
+def _translate_pose(pose: FloatArray, displacement: FloatArray) -> FloatArray:
     translated = pose.copy()
     translated[:3, 3] += displacement
     return translated

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from holdfast.arm.poses import rotation_vectors
 from holdfast.bench.cases import BenchmarkCase
 from holdfast.clearance.clearance import Clearance
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD = 1e-3, np.deg2rad(0.5)  # m and rad within which rows count as met
+# POSITION_TOLERANCE_M and ORIENTATION_TOLERANCE_RAD: m and rad within which rows count as met
+POSITION_TOLERANCE_M = 1e-3
+ORIENTATION_TOLERANCE_RAD = np.deg2rad(0.5)
 _CHECK_SPACING = 2e-3  # rad and m between configurations looked at
 _ROUNDING_TOLERANCE = 1e-9  # of limits and of the start
 _LOCK_TOLERANCE = 1e-12  # rad and m by which a lock may move
@@ -29,10 +30,10 @@ class BenchmarkMotion:
         share: (K - first,) where on the path each of these is, 0 to 1; empty where a pose is to be reached.
     """
 
-    q: Array
+    q: FloatArray
     _: KW_ONLY
     first: int = 0
-    share: Array
+    share: FloatArray
 
 
 def find_violation(case: BenchmarkCase, motion: BenchmarkMotion | None, clearance: Clearance | None) -> str:
@@ -78,7 +79,7 @@ def find_violation(case: BenchmarkCase, motion: BenchmarkMotion | None, clearanc
     return ""
 
 
-def _meets_rows(case: BenchmarkCase, poses: Array, target_poses: Array) -> NDArray[np.bool_]:
+def _meets_rows(case: BenchmarkCase, poses: FloatArray, target_poses: FloatArray) -> NDArray[np.bool_]:
     """Return (N,) True where every row of the task is within tolerance."""
     rotations, rows = poses[:, :3, :3], case.rows.rows
     error = np.concatenate(
@@ -93,7 +94,7 @@ def _meets_rows(case: BenchmarkCase, poses: Array, target_poses: Array) -> NDArr
     return np.asarray((np.abs(error @ rows.T) <= tolerance).all(axis=1))
 
 
-def _interpolate_waypoints(q: Array) -> tuple[Array, Array]:
+def _interpolate_waypoints(q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return configurations along a motion, and the fractional index of the waypoint at which each of them lies."""
     largest_steps = np.abs(np.diff(q, axis=0)).max(axis=1, initial=0.0)
     parts = [

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.bench.cases import BenchmarkCase
@@ -22,15 +21,15 @@ from holdfast.recovery.routes import find_route
 from holdfast.recovery.rows import make_row_solver
 from holdfast.recovery.search import recover
 from holdfast.recovery.space import FreeSpace, JointMetric
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Rng = np.random.Generator
 
 GOAL_SEARCH_STARTS = 256  # of the search for a configuration of the goal, of every planner that needs one
 _RESTART_COUNT = 8
 _POSE_SPACING = 0.01  # m or rad of the end effector between poses that differential inverse kinematics follows
 _MAX_JOINT_STEP = 0.1  # rad or m that a joint may move between two of them
-_NEWTON_STEPS = 10  # steps at each of them
+_TRACKING_NEWTON_STEPS = 10  # steps at each of them
 _TOLERANCE_FRACTION = 0.1  # of the tolerances that count, which differential inverse kinematics aims at
 
 
@@ -115,7 +114,7 @@ def _plan_with_restarts(case: BenchmarkCase, clearance: Clearance | None, limit:
     return _plan_differential(case, clearance, limit, rng, _RESTART_COUNT)
 
 
-def _approaches(case: BenchmarkCase, restarts: int, rng: Rng) -> Iterator[Array]:
+def _approaches(case: BenchmarkCase, restarts: int, rng: Rng) -> Iterator[FloatArray]:
     """Yield approaches (K, n) to the beginning of the path: the start alone, or a straight motion from it to another
     configuration.
     """
@@ -130,7 +129,7 @@ def _approaches(case: BenchmarkCase, restarts: int, rng: Rng) -> Iterator[Array]
         yield np.concatenate([case.at[None], np.where(is_movable, np.clip(q, lower, upper), case.at)])
 
 
-def _follow_path(case: BenchmarkCase, approach: Array) -> BenchmarkMotion | None:
+def _follow_path(case: BenchmarkCase, approach: FloatArray) -> BenchmarkMotion | None:
     """Follow the path, or the straight line of the end effector to the goal, from the end of an approach; None if
     it is lost.
     """
@@ -148,7 +147,7 @@ def _follow_path(case: BenchmarkCase, approach: Array) -> BenchmarkMotion | None
     )
     weights, q, configurations = np.ones((1, solver.rows.m)), approach[-1], [approach[-1]]
     for pose in path.pose(path_fractions[1:]):
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_TRACKING_NEWTON_STEPS):
             next_q = solver.solve(q[None], pose[None], weights, is_movable, 1)[0]
             next_q = np.where(is_movable, np.clip(q + np.clip(next_q - q, -_MAX_JOINT_STEP, _MAX_JOINT_STEP), lower, upper), q)
             step_size, q = np.abs(next_q - q).max(), next_q
@@ -165,7 +164,7 @@ def _follow_path(case: BenchmarkCase, approach: Array) -> BenchmarkMotion | None
     )
 
 
-def _find_goal(case: BenchmarkCase, clearance: Clearance | None, rng: Rng) -> tuple[FreeSpace, JointMetric, Array] | None:
+def _find_goal(case: BenchmarkCase, clearance: Clearance | None, rng: Rng) -> tuple[FreeSpace, JointMetric, FloatArray] | None:
     """Return a collision-free configuration (n,) of the goal, and its configuration space."""
     arm, is_movable = case.degraded.limited, case.degraded.moves
     space = FreeSpace(arm, is_movable, clearance, 0.0, case.at[None])
@@ -212,7 +211,7 @@ def _plan_ompl(case: BenchmarkCase, clearance: Clearance | None, limit: TimeLimi
     states.setBounds(bounds)
     setup = geometric.SimpleSetup(states)
 
-    def full_configuration(state: object) -> Array:
+    def full_configuration(state: object) -> FloatArray:
         q = case.at.copy()
         q[movable_joints] = [state[index] for index in range(len(movable_joints))]  # type: ignore[index]
         return q

@@ -74,17 +74,17 @@ class Score:
     @property
     def success(self) -> Interval:
         """Fraction of all cases that are solved, with its Clopper-Pearson interval."""
-        return Interval.of(self.solved, self.cases)
+        return Interval.from_counts(self.solved, self.cases)
 
     @property
     def success_of_feasible(self) -> Interval | None:
         """Fraction of the cases that are not proved infeasible; None if all are."""
-        return Interval.of(self.solved, self.feasible) if self.feasible else None
+        return Interval.from_counts(self.solved, self.feasible) if self.feasible else None
 
     @property
-    def decided(self) -> Interval:
+    def decided_fraction(self) -> Interval:
         """Fraction of the cases that are solved or proved infeasible."""
-        return Interval.of(self.solved + self.proved, self.cases)
+        return Interval.from_counts(self.solved + self.proved, self.cases)
 
 
 class FailActive(Result):

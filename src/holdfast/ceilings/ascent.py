@@ -11,11 +11,9 @@ from itertools import combinations
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.ceilings.frames import orthogonal_complement
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _ASCENT_STEPS = 350
 _FINAL_SHARPNESS = 256.0  # exponent of the soft minimum at the end
@@ -32,13 +30,13 @@ class NullSpaceMinors:
         places = (self.sets[:, :, None] * n + self.sets[:, None, :]).reshape(-1)
         self._gather = places
 
-    def row_grams(self, null: Array) -> Array:
+    def row_grams(self, null: FloatArray) -> FloatArray:
         """Return ``N_S N_S'``, (..., F, k, k)."""
         projector = null @ np.swapaxes(null, -1, -2)
         flat = projector.reshape(*projector.shape[:-2], -1)[..., self._gather]
         return flat.reshape(*projector.shape[:-2], len(self.sets), self.k, self.k)
 
-    def soft_minimum_gradient(self, null: Array, sharpness: float) -> Array:
+    def soft_minimum_gradient(self, null: FloatArray, sharpness: float) -> FloatArray:
         """Return the gradient by N of the soft minimum of ``log rho_S^2``, tangent to the orthonormal N, (B, n, p)."""
         grams = self.row_grams(null)
         logs = np.log(np.maximum(np.linalg.det(grams), _SMALLEST_DETERMINANT))
@@ -52,7 +50,7 @@ class NullSpaceMinors:
         gradient = 2 * spread.reshape(batch, self.n, self.n) @ null
         return gradient - null @ (np.swapaxes(null, -1, -2) @ gradient)
 
-    def squares_and_gradients(self, null: Array, complement: Array) -> tuple[Array, Array]:
+    def squares_and_gradients(self, null: FloatArray, complement: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the squares (F,) of one N, and their derivatives (F, m p) along ``N + Q X`` by the entries of X (m, p)."""
         grams = self.row_grams(null)
         squares = np.linalg.det(grams)
@@ -61,7 +59,7 @@ class NullSpaceMinors:
         return squares, 2 * squares[:, None] * gradients.reshape(len(squares), -1)
 
 
-def ascend_batch(minors: NullSpaceMinors, starts: Array, deadline: float = np.inf) -> Array:
+def ascend_batch(minors: NullSpaceMinors, starts: FloatArray, deadline: float = np.inf) -> FloatArray:
     """Improve a batch of N (B, n, p) by gradient ascent of a soft minimum that grows sharper from step to step."""
     null = np.linalg.qr(starts)[0]
     speed = np.zeros_like(null)
@@ -76,7 +74,7 @@ def ascend_batch(minors: NullSpaceMinors, starts: Array, deadline: float = np.in
     return null
 
 
-def polish_null_space(minors: NullSpaceMinors, null: Array, deadline: float = np.inf) -> tuple[Array, float]:
+def polish_null_space(minors: NullSpaceMinors, null: FloatArray, deadline: float = np.inf) -> tuple[FloatArray, float]:
     """Bring one N (n, p) to a local optimum by linear programmes within a trust region; return it and its least square."""
     from scipy.optimize import linprog
 
@@ -128,7 +126,7 @@ def best_null_space(
     starts: int = 48,
     polish: int = 10,
     progress: Callable[[float], None] | None = None,
-) -> tuple[Array, float]:
+) -> tuple[FloatArray, float]:
     """Return the best N found in the time, and its worst case; batches of starts are tried until the time is over.
 
     Args:
@@ -150,7 +148,7 @@ def best_null_space(
         return orthogonal_complement(complement_found), value
     rng, minors = np.random.default_rng(seed), NullSpaceMinors(n, k)
     end = monotonic() + seconds
-    best_found: tuple[Array, float] | None = None
+    best_found: tuple[FloatArray, float] | None = None
     while best_found is None or monotonic() < end:
         batch = ascend_batch(minors, rng.standard_normal((starts, n, p)), end)
         worst = np.linalg.det(minors.row_grams(batch)).min(axis=1)

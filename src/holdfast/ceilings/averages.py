@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import require_real_numbers
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _NEGLIGIBLE_EXCESS = 1e-15
 
@@ -26,8 +25,8 @@ class AverageBound:
     """
 
     value: float
-    left: Array
-    null_space: Array
+    left: FloatArray
+    null_space: FloatArray
 
 
 def bound_average(rates: ArrayLike, m: int) -> AverageBound:
@@ -67,7 +66,7 @@ def bound_average(rates: ArrayLike, m: int) -> AverageBound:
     return AverageBound(value=float(weight @ root_lengths), left=root_lengths, null_space=null)
 
 
-def _frame_with_lengths(squares: Array, p: int) -> Array:
+def _frame_with_lengths(squares: FloatArray, p: int) -> FloatArray:
     """Return orthonormal columns (n, p) whose rows have falling squared lengths that sum to p; each rotation of two rows
     settles one.
     """

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.ceilings.closed_forms import CLOSED_FORMS
@@ -21,9 +20,8 @@ from holdfast.ceilings.pair_kernels import stored_certificates
 from holdfast.ceilings.theorems import ARRANGEMENT_BOUNDS, PAIR_BOUNDS, THEOREM_TEXTS, ProvedBound, best_proved_bound
 from holdfast.errors import InputError
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 from holdfast.words import format_percent
-
-Array = NDArray[np.float64]
 
 _ATTAINED_TOLERANCE = 1e-9  # relative: the bounds by programmes are rounded up in the last digits
 _ORTHONORMAL_TOLERANCE = 1e-12
@@ -79,7 +77,7 @@ class UpperBound(Result):
     bound_by: str
 
     @cached_property
-    def null_space(self) -> Array | None:
+    def null_space(self) -> FloatArray | None:
         """(n, n - m) orthonormal columns, the best null space known; None where nothing is stored and no theorem gives one."""
         return _best_null_space(self.n, self.m, self.k)
 
@@ -93,7 +91,7 @@ class UpperBound(Result):
         )  # which it passes by rounding where it attains it
 
     @property
-    def attained(self) -> bool:
+    def is_attained(self) -> bool:
         """True where some Jacobian reaches the bound (relative 1e-9): then it is the ceiling itself."""
         return self.best_known is not None and self.best_known >= self.bound * (1 - _ATTAINED_TOLERANCE)
 
@@ -106,12 +104,12 @@ class UpperBound(Result):
     @property
     def gap(self) -> float | None:
         """Fraction by which the bound is above the best known value; 0 where it is attained."""
-        return None if self.best_known is None else 0.0 if self.attained else self.bound / self.best_known - 1
+        return None if self.best_known is None else 0.0 if self.is_attained else self.bound / self.best_known - 1
 
     @property
     def gap_phrase(self) -> str:
         """Phrase with the distance between the best known value and the bound; empty where the bound is attained."""
-        if self.attained:
+        if self.is_attained:
             return ""
         if self.best_known is None:
             return "an upper bound; whether it is attained is not known"
@@ -119,7 +117,7 @@ class UpperBound(Result):
 
     def compare_value(self, value: float) -> str:
         """Return a value in relation to the bound, as ``69 % of the best known 0.2474; no arm can beat 0.2582``."""
-        if self.attained or self.best_known is None:
+        if self.is_attained or self.best_known is None:
             return f"{format_percent(value / self.bound)} of {self.bound:.4g}, which no arm can beat"
         return (
             f"{format_percent(value / self.best_known)} of the best known {self.best_known:.4g}; no arm can beat "
@@ -132,7 +130,7 @@ class UpperBound(Result):
         proof = " and ".join(
             f"{name}, {THEOREM_TEXTS[name]}" for name in self.bound_by.replace(" with ", " and ").split(" and ")
         )
-        if self.attained:
+        if self.is_attained:
             return [f"{head}, the ceiling is {self.bound:.10g}: proven, and attained ({proof})"]
         lines = [f"{head}, no arm keeps more than {self.bound:.6g} of its manipulability ({proof})"]
         if self.best_known is None:
@@ -243,7 +241,7 @@ class UpperBoundTable(Result):
 
     def describe(self) -> list[str]:
         """Return the number of stored bounds in a sentence."""
-        reached = sum(bound.attained for bound in self.ceilings)
+        reached = sum(bound.is_attained for bound in self.ceilings)
         return [
             f"{len(self.ceilings)} sizes; of {reached} the ceiling is known, of the others the best known is below the bound"
         ]
@@ -274,7 +272,7 @@ def _read_null_spaces() -> dict[tuple[int, int, int], list[list[float]]]:
     return dict(sorted(null_spaces.items(), key=lambda item: (item[0][1], item[0][2], item[0][0])))
 
 
-def _best_null_space(n: int, m: int, k: int) -> Array | None:
+def _best_null_space(n: int, m: int, k: int) -> FloatArray | None:
     """Find the best null space known, by theorem T3 also the complement of the one for n - m rows and m failures."""
     candidates = [_own_null_space(n, m, k)]
     if k == n - m:
@@ -283,7 +281,7 @@ def _best_null_space(n: int, m: int, k: int) -> Array | None:
     return max((x for x in candidates if x is not None), key=lambda x: worst_relative_manipulability(x, k), default=None)
 
 
-def _own_null_space(n: int, m: int, k: int) -> Array | None:
+def _own_null_space(n: int, m: int, k: int) -> FloatArray | None:
     known_space = known_null_space(n, m, k)
     if known_space is not None:
         return known_space

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
-def equal_row_frame(n: int, p: int) -> Array:
+def equal_row_frame(n: int, p: int) -> FloatArray:
     """Return orthonormal columns (n, p) whose n rows are equally long: cosines and sines, and a constant column if p is odd."""
     i = np.arange(n)
     waves = 2 * np.pi * np.outer(i, np.arange(1, p // 2 + 1)) / n
@@ -18,13 +17,13 @@ def equal_row_frame(n: int, p: int) -> Array:
     return np.array(columns).T.reshape(n, p)
 
 
-def star_frame(n: int) -> Array:
+def star_frame(n: int) -> FloatArray:
     """Return orthonormal columns (n, 2): n lines of a plane with equal angles between neighbours."""
     angle = np.pi * np.arange(n) / n
     return np.asarray(np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
-def bundle_frame(n: int) -> Array:
+def bundle_frame(n: int) -> FloatArray:
     """Return orthonormal columns (n, n - 2) for even n of 6 or more, the best known for two failures under tasks of two rows.
 
     The columns of the Jacobian are two bundles of h - 1 lines, n = 2 h, at right angles to one another, and between them two
@@ -38,12 +37,12 @@ def bundle_frame(n: int) -> Array:
     return orthogonal_complement((lengths * np.stack([np.cos(angle), np.sin(angle)])).T)
 
 
-def orthogonal_complement(columns: Array) -> Array:
+def orthogonal_complement(columns: FloatArray) -> FloatArray:
     """Return orthonormal columns (n, n - p) that are orthogonal to the given (n, p)."""
     return np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
 
 
-def known_null_space(n: int, m: int, k: int) -> Array | None:
+def known_null_space(n: int, m: int, k: int) -> FloatArray | None:
     """Return the null space that attains its bound by theorem T1, T2 or T3, or the best known of a family; else None."""
     p = n - m
     if k == 1 or m == 1:

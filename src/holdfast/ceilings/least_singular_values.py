@@ -8,7 +8,6 @@ from math import inf, isfinite, sqrt
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.ceilings.ceiling import (
     ArmSize,
@@ -22,8 +21,7 @@ from holdfast.ceilings.ceiling import (
 from holdfast.ceilings.frames import equal_row_frame
 from holdfast.errors import InputError
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 BOUND_REASONS = {
     "S0": "the mean over all sets of joints",
@@ -38,7 +36,7 @@ class JointGeometry(Protocol):
     """Joint of an arm."""
 
     @property
-    def origin(self) -> Array:
+    def origin(self) -> FloatArray:
         """Pose (4, 4) in the frame of the joint before, m."""
 
     @property
@@ -62,7 +60,7 @@ class JointedArm(ArmSize, Protocol):
         """In order."""
 
     @property
-    def tool(self) -> Array:
+    def tool(self) -> FloatArray:
         """(4, 4) of the tool in the last joint's frame, m."""
 
 
@@ -70,7 +68,7 @@ class TaskGeometry(TaskSize, Protocol):
     """Task whose rows determine the unit, such as an index's task."""
 
     @property
-    def rows(self) -> Array:
+    def rows(self) -> FloatArray:
         """(m, 6) linear columns first."""
 
     @property
@@ -112,7 +110,7 @@ class SingularValueBound(Result):
     bound_by: str
 
     @property
-    def jacobian(self) -> Array | None:
+    def jacobian(self) -> FloatArray | None:
         """(m, n) that attains the bound: where one joint locks, rows of one unit; None where none is known."""
         if self.angular or self.k > 1:
             return None

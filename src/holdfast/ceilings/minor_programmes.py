@@ -12,11 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.ceilings.pseudolines import Signs, arrangement_classes, minor_relations
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MAX_NEWTON_STEPS = 60
 _DUALITY_GAP = 1e-11
@@ -39,9 +37,9 @@ class MinorCertificate:
 
     n: int
     signs: Signs
-    relation: Array
-    split: Array
-    weights: Array
+    relation: FloatArray
+    split: FloatArray
+    weights: FloatArray
 
     def approximate_bound(self) -> float:
         """Return the upper bound of the least minor of this class in floating point; infinite if the point proves nothing."""
@@ -98,7 +96,7 @@ class MinorCertificate:
             flint.ctx.prec = before
 
 
-def _exponents(n: int, signs: Signs) -> tuple[Array, Array]:
+def _exponents(n: int, signs: Signs) -> tuple[FloatArray, FloatArray]:
     """Return for each relation the exponents of both smaller products over the largest, each (R, C(n, 3))."""
     pairs, side = minor_relations(n)
     products = side * signs[pairs[:, :, 0]] * signs[pairs[:, :, 1]]
@@ -166,13 +164,15 @@ def find_certificate(n: int, signs: Signs, enough: float = 0.0) -> MinorCertific
     return best_point
 
 
-def _max_step(values: Array, change: Array) -> float:
+def _max_step(values: FloatArray, change: FloatArray) -> float:
     """Return the largest step along a change that keeps all numbers positive."""
     falling = change < 0
     return float((values[falling] / -change[falling]).min()) if falling.any() else 2.0
 
 
-def _dual_point(n: int, signs: Signs, lam: Array, v: Array, soft: Array, first: Array, second: Array) -> MinorCertificate:
+def _dual_point(
+    n: int, signs: Signs, lam: FloatArray, v: FloatArray, soft: FloatArray, first: FloatArray, second: FloatArray
+) -> MinorCertificate:
     lam = np.where((lam > _NEGLIGIBLE_WEIGHT) & (v > 1e-15) & (v < 1 - 1e-15), lam, 0.0)
     exponents = (lam * v) @ first + (lam * (1 - v)) @ second
     weights = np.maximum(soft, -exponents / 2) * (1 + _WEIGHT_MARGIN) + _WEIGHT_MARGIN * 1e-3

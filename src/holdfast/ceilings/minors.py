@@ -7,12 +7,11 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
-def worst_relative_manipulability(null_space: Array, k: int) -> float:
+def worst_relative_manipulability(null_space: FloatArray, k: int) -> float:
     """Return the least relative manipulability over all sets of k joints that lock.
 
     Args:
@@ -27,6 +26,6 @@ def worst_relative_manipulability(null_space: Array, k: int) -> float:
     return float(min(remaining))
 
 
-def measure_orthonormality_error(null_space: Array) -> float:
+def measure_orthonormality_error(null_space: FloatArray) -> float:
     """Return the largest entry of ``N'N - I``."""
     return float(abs(null_space.T @ null_space - np.eye(null_space.shape[1])).max())

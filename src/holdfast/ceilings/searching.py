@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.ceilings.ascent import best_null_space
 from holdfast.ceilings.ceiling import UpperBound, upper_bound
 from holdfast.ceilings.minors import worst_relative_manipulability
 from holdfast.errors import InputError
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _BOUND_TOLERANCE = 1e-9  # relative
 
@@ -33,7 +31,7 @@ class UpperBoundSearch(Result):
     """
 
     ceiling: UpperBound
-    null_space: Array
+    null_space: FloatArray
     value: float
     seed: int
     seconds: float
@@ -51,7 +49,7 @@ class UpperBoundSearch(Result):
         if self.value > known * (1 + _BOUND_TOLERANCE):
             return [f"{found_text}: a new best, {100 * (self.value / known - 1):.2g} % above {known:.12g}"]
         if self.value >= known * (1 - _BOUND_TOLERANCE):
-            return [f"{found_text}: {'the ceiling' if self.ceiling.attained else 'the best known value'}, found again"]
+            return [f"{found_text}: {'the ceiling' if self.ceiling.is_attained else 'the best known value'}, found again"]
         return [f"{found_text}: {100 * (1 - self.value / known):.2g} % below the best known {known:.12g}"]
 
 

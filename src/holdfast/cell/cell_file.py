@@ -35,7 +35,6 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 import yaml
-from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
 from holdfast.arm.poses import rotations_of_quaternions
@@ -44,8 +43,8 @@ from holdfast.cell.meshes import Mesh, Points
 from holdfast.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Positive = Annotated[Number, Field(gt=0)]
 Least = Annotated[Number, Field(ge=0)]
 
@@ -203,7 +202,7 @@ def _build_solid(name: str, entry: _ObjectEntry, location: str, folder: Path) ->
     )
 
 
-def _build_pose(pose: list[list[float]] | _ObjectPlacement | None, location: str) -> Array:
+def _build_pose(pose: list[list[float]] | _ObjectPlacement | None, location: str) -> FloatArray:
     if pose is None:
         return np.eye(4)
     if isinstance(pose, list):
@@ -222,7 +221,7 @@ def _build_pose(pose: list[list[float]] | _ObjectPlacement | None, location: str
     return matrix
 
 
-def _rotation_to_normal(normal: Array, location: str) -> Array:
+def _rotation_to_normal(normal: FloatArray, location: str) -> FloatArray:
     """Return the pose (4, 4) that rotates z onto a direction."""
     largest = np.abs(normal).max()
     if not largest > 0:

@@ -23,10 +23,10 @@ from holdfast.cell.nodes import (
 from holdfast.cell.outside import FACE_NODES, RADIAL_NODES, half_edges, largest_inverse_distance, tabulate_outside
 from holdfast.files.mesh import Triangles
 from holdfast.kernels import cache
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 FieldData = tuple[
-    NodeGrid, Array, NDArray[np.float32], float
+    NodeGrid, FloatArray, NDArray[np.float32], float
 ]  # grid, signed distances of its nodes, and what is seen from outside
 
 _CACHE_FORMAT = 3  # of what is on the disk; another number where the making changes
@@ -64,7 +64,7 @@ class DistanceField:
     offset: float = 0.0
 
     @property
-    def center(self) -> Array:
+    def center(self) -> FloatArray:
         """Center (3,) of the grid, m."""
         return np.asarray(self.grid.origin + half_edges(self.grid))
 
@@ -73,7 +73,7 @@ class DistanceField:
         """Largest difference, m, between the signed distance that the nodes interpolate and the bound."""
         return float(HALF_DIAGONAL * self.grid.width)
 
-    def distance_and_gradient(self, points: ArrayLike) -> tuple[Array, Array]:
+    def distance_and_gradient(self, points: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the bound (...,), m, and its gradient (..., 3) at points (..., 3), all in the object's own frame.
 
         It is never below the distance from the ball about ``center`` that has all of it, less ``offset``.
@@ -114,7 +114,7 @@ def surface_field(surface: Triangles, digest: str) -> DistanceField:
     return _load_or_compute(digest, lambda: _compute_surface_field(surface), 0.0)
 
 
-def cloud_field(centers: Array, radius: float, digest: str) -> DistanceField:
+def cloud_field(centers: FloatArray, radius: float, digest: str) -> DistanceField:
     """Return the field of balls: the distance from the nearest center (N, 3), less the radius, m."""
     return _load_or_compute(digest, lambda: _compute_cloud_field(centers), radius)
 
@@ -133,7 +133,7 @@ def _compute_surface_field(surface: Triangles) -> FieldData:
     return grid, np.where(is_inside, -above, below), *outside
 
 
-def _compute_cloud_field(centers: Array) -> FieldData:
+def _compute_cloud_field(centers: FloatArray) -> FieldData:
     grid = NodeGrid.enclose_box(centers.min(axis=0), centers.max(axis=0), _RIM_WIDTHS, _MAX_NODES, _MIN_NODE_SPACING_M)
     return grid, bound_distances(grid, point_parts(centers))[0], *tabulate_outside(grid, centers, 0.0)
 

@@ -19,9 +19,7 @@ from holdfast.cell.outside import FACE_NODES, RADIAL_NODES
 from holdfast.kernels import Kernel
 from holdfast.kernels.program import SX
 from holdfast.linalg import Vector
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 PARAMETER_COUNT = 10  # of a field: origin (3), width, last node (3), largest 1 / r, rim, reach
 _MAX_NODE_INDEX = 1 << 20  # more nodes than any table has in a row
@@ -59,12 +57,12 @@ class FieldTables:
         outside: (6, ACROSS, ACROSS, AWAY) of what is seen from outside.
     """
 
-    parameters: Array
+    parameters: FloatArray
     values: NDArray[np.float32]
     outside: NDArray[np.float32]
 
 
-def interpolate_bounds(points: Array, tables: Sequence[FieldTables], counts: Sequence[int]) -> Array:
+def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], counts: Sequence[int]) -> FloatArray:
     """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` consecutive points belong to field i, in its
     own frame.
     """
@@ -86,7 +84,9 @@ def interpolate_bounds(points: Array, tables: Sequence[FieldTables], counts: Seq
     return _bound_kernel().rows(points, parameters, cells, corners)
 
 
-def _look_up(table: NDArray[np.float32], coordinates: Indices, block: Indices | int, cells: Array, corners: Array) -> None:
+def _look_up(
+    table: NDArray[np.float32], coordinates: IndexArray, block: IndexArray | int, cells: FloatArray, corners: FloatArray
+) -> None:
     """Write the cells (N, 3) of a block of a table that contain given coordinates (N, 3), or are nearest, and the values at
     their corners (N, 8).
     """

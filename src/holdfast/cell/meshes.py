@@ -18,8 +18,8 @@ from holdfast.cell.field import DistanceField, cloud_field, surface_field
 from holdfast.cell.solids import Solid
 from holdfast.errors import InputError
 from holdfast.files import mesh, reading
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Kind = Literal["exact", "hull"]
 
 MAX_OBJECT_SIZE_M = 50.0  # m: an object beyond that is in another unit
@@ -55,16 +55,16 @@ class GriddedSolid(Solid):
         """Distance field in the object's own frame."""
         raise NotImplementedError
 
-    def signed_distance(self, points: ArrayLike) -> Array:
+    def signed_distance(self, points: ArrayLike) -> FloatArray:
         """Return a lower bound of the distance in m of points (..., 3) in the world from the surface, below 0 inside."""
         return self.distance_and_gradient(points)[0]
 
-    def distance_and_gradient(self, points: ArrayLike) -> tuple[Array, Array]:
+    def distance_and_gradient(self, points: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the bound (...,), m, and its gradient (..., 3) in the world, of points (..., 3) in the world."""
         distance, gradient = self.field.distance_and_gradient(self.to_object_frame(points))
         return distance, gradient @ self.pose[:3, :3].T
 
-    def to_object_frame(self, points: ArrayLike) -> Array:
+    def to_object_frame(self, points: ArrayLike) -> FloatArray:
         """Return points (..., 3) in the world, m, in the object's own frame."""
         return np.asarray((np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3])
 
@@ -120,7 +120,7 @@ class Mesh(GriddedSolid):
     def _orient_surface(self, triangles: mesh.Triangles) -> mesh.Triangles:
         if self.solid == "hull":
             return _convex_hull(triangles, self.name)
-        if not triangles.closed:
+        if not triangles.is_closed:
             raise InputError(f"object '{self.name}': its mesh is not closed, so it has no inside; close it, or say solid: hull")
         return triangles if triangles.volume > 0 else mesh.Triangles(triangles.vertices, triangles.faces[:, ::-1].copy())
 
@@ -149,7 +149,7 @@ class Points(GriddedSolid):
         InputError: A file that is missing or damaged, no points, points that are not finite, or in millimetres by their size.
     """
 
-    points: Array | str | Path
+    points: FloatArray | str | Path
     _: KW_ONLY
     radius: float
     source: Source | None = field(init=False, default=None, repr=False)
@@ -173,7 +173,7 @@ class Points(GriddedSolid):
         object.__setattr__(self, "points", points)
 
     @property
-    def centres(self) -> Array:
+    def centres(self) -> FloatArray:
         """Centers (N, 3) of the balls in the cloud's own frame, m."""
         assert isinstance(self.points, np.ndarray)
         return self.points
@@ -197,7 +197,7 @@ def _split_pair(shape: Any, name: str) -> tuple[Any, Any]:
     return vertices, faces
 
 
-def _require_metres(points: Array, name: str, question: str) -> None:
+def _require_metres(points: FloatArray, name: str, question: str) -> None:
     farthest = float(np.abs(points).max())
     if farthest > _MAX_COORDINATE_M:
         raise InputError(

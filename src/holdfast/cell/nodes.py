@@ -15,10 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.kernels import Kernel
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 HALF_DIAGONAL = np.sqrt(3) / 2  # of a cube of edge 1, half of it
 _BATCH_PAIRS = 1 << 19  # pairs of a part and a node, which fit into the cache of a processor
@@ -36,7 +33,7 @@ class NodeGrid:
         shape: Nodes along x, y and z.
     """
 
-    origin: Array
+    origin: FloatArray
     width: float
     shape: tuple[int, int, int]
 
@@ -46,16 +43,16 @@ class NodeGrid:
         nodes_x, nodes_y, nodes_z = (2 * count - 1 for count in self.shape)
         return NodeGrid(self.origin, self.width / 2, (nodes_x, nodes_y, nodes_z))
 
-    def axis_coordinates(self, axis_index: int) -> Array:
+    def axis_coordinates(self, axis_index: int) -> FloatArray:
         """Return the coordinates of the nodes along x, y, or z, m."""
         return np.asarray(self.origin[axis_index] + self.width * np.arange(self.shape[axis_index]))
 
     @staticmethod
-    def enclose_box(lower: Array, upper: Array, rim_widths: float, max_nodes: int, min_width: float) -> NodeGrid:
+    def enclose_box(lower: FloatArray, upper: FloatArray, rim_widths: float, max_nodes: int, min_width: float) -> NodeGrid:
         """Return the finest grid around a box that has at most ``max_nodes`` nodes and a rim of ``rim_widths`` widths."""
         size = upper - lower
 
-        def count_nodes(width: float) -> Indices:
+        def count_nodes(width: float) -> IndexArray:
             return np.asarray(np.ceil(size / width + 2 * rim_widths).astype(np.int64) + 1)
 
         width = max(min_width, float(size.max()) / 1000)
@@ -75,22 +72,22 @@ class DistanceParts:
         squared_distances: Squares of the distances, m^2, of points (P, 3) from the parts of numbers (P,).
     """
 
-    lower: Array
-    upper: Array
-    squared_distances: Callable[[Indices, Array], Array]
+    lower: FloatArray
+    upper: FloatArray
+    squared_distances: Callable[[IndexArray, FloatArray], FloatArray]
 
 
-def point_parts(centers: Array) -> DistanceParts:
+def point_parts(centers: FloatArray) -> DistanceParts:
     """Return parts that are points (N, 3)."""
 
-    def squared_distances(part_indices: Indices, positions: Array) -> Array:
+    def squared_distances(part_indices: IndexArray, positions: FloatArray) -> FloatArray:
         differences = positions - centers[part_indices]
         return np.asarray(np.einsum("ij,ij->i", differences, differences))
 
     return DistanceParts(centers, centers, squared_distances)
 
 
-def triangle_parts(corners: Array, max_edge: float) -> DistanceParts:
+def triangle_parts(corners: FloatArray, max_edge: float) -> DistanceParts:
     """Return parts that are triangles (N, 3, 3), split until no edge is longer than ``max_edge``, m.
 
     Each is looked at in a frame of its own: a in the origin, b on the first axis, c above it.
@@ -141,7 +138,7 @@ def _segment_distance(x: ca.SX, y: ca.SX, ex: ca.SX, ey: ca.SX) -> ca.SX:
     return (x - fraction * ex) ** 2 + (y - fraction * ey) ** 2
 
 
-def _normalize_rows(rows: Array, fallback: Array) -> Array:
+def _normalize_rows(rows: FloatArray, fallback: FloatArray) -> FloatArray:
     norms = np.linalg.norm(rows, axis=1, keepdims=True)
     return np.asarray(
         np.where(
@@ -152,7 +149,7 @@ def _normalize_rows(rows: Array, fallback: Array) -> Array:
     )
 
 
-def split_triangles(corners: Array, max_edge: float) -> Array:
+def split_triangles(corners: FloatArray, max_edge: float) -> FloatArray:
     """Split triangles at their longest edge until no edge is longer than ``max_edge``; the surface stays the same."""
     finished = []
     while len(corners):
@@ -174,7 +171,7 @@ def split_triangles(corners: Array, max_edge: float) -> Array:
 # ---- distances without a sign ------------------------------------------------------------------------------------
 
 
-def bound_distances(grid: NodeGrid, parts: DistanceParts) -> tuple[Array, Array]:
+def bound_distances(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArray, FloatArray]:
     """Return lower and upper bounds of the distance of every node from the nearest part, m; they are equal where they are
     exact.
     """
@@ -201,7 +198,7 @@ def bound_distances(grid: NodeGrid, parts: DistanceParts) -> tuple[Array, Array]
     )
 
 
-def _node_ranges(grid: NodeGrid, parts: DistanceParts, band: float) -> tuple[Indices, Indices]:
+def _node_ranges(grid: NodeGrid, parts: DistanceParts, band: float) -> tuple[IndexArray, IndexArray]:
     """Return the first node and the numbers of nodes along x, y, and z, (M, 3) each, of the box around each part."""
     last_node = np.array(grid.shape) - 1
     first_node = np.clip(np.ceil((parts.lower - band - grid.origin) / grid.width), 0, last_node).astype(np.int64)
@@ -213,7 +210,7 @@ def _count_pairs(grid: NodeGrid, parts: DistanceParts, band: float) -> float:
     return float(_node_ranges(grid, parts, band)[1].astype(np.float64).prod(axis=1).sum())
 
 
-def _near_distances(grid: NodeGrid, parts: DistanceParts, band: float) -> Array:
+def _near_distances(grid: NodeGrid, parts: DistanceParts, band: float) -> FloatArray:
     """Return the distance of every node from the nearest part, m, exact where it is at most ``band``, infinite or larger
     elsewhere.
     """
@@ -227,7 +224,9 @@ def _near_distances(grid: NodeGrid, parts: DistanceParts, band: float) -> Array:
     return np.asarray(np.sqrt(squared_distances).reshape(grid.shape))
 
 
-def _part_node_pairs(first_nodes: Indices, counts: Indices) -> Iterator[tuple[Indices, tuple[Indices, Indices, Indices]]]:
+def _part_node_pairs(
+    first_nodes: IndexArray, counts: IndexArray
+) -> Iterator[tuple[IndexArray, tuple[IndexArray, IndexArray, IndexArray]]]:
     """Yield batches of pairs of a part and a node in its box, given by three indices."""
     pair_counts = counts.prod(axis=1)
     ends = np.cumsum(pair_counts)
@@ -249,7 +248,7 @@ def _part_node_pairs(first_nodes: Indices, counts: Indices) -> Iterator[tuple[In
 # ---- the sign ----------------------------------------------------------------------------------------------------
 
 
-def find_inside(grid: NodeGrid, vertices: Array, faces: Indices, lower_distance: Array) -> Flags:
+def find_inside(grid: NodeGrid, vertices: FloatArray, faces: IndexArray, lower_distance: FloatArray) -> BoolArray:
     """Return the nodes inside a closed surface, and those for which rounding leaves a doubt.
 
     The triangles above a node are counted with their orientation, along z and, as a check, along x. Neighbours that are both
@@ -274,7 +273,7 @@ def find_inside(grid: NodeGrid, vertices: Array, faces: Indices, lower_distance:
     return np.where(groups > 0, is_inside[groups], inside_along_z | inside_along_x)
 
 
-def _winding_numbers(grid: NodeGrid, vertices: Array, faces: Indices) -> NDArray[np.int32]:
+def _winding_numbers(grid: NodeGrid, vertices: FloatArray, faces: IndexArray) -> NDArray[np.int32]:
     """Return, negated, how often the surface is passed outward less inward on the way up along z from far below to
     each node.
     """

@@ -16,16 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.cell.nodes import HALF_DIAGONAL, NodeGrid
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 FACE_NODES = 33  # nodes along the edges of a face
 RADIAL_NODES = 17  # nodes of 1 / r, from 0, as far apart as squares
-_MAX_SAMPLES = 1 << 16  # points that a search is quick among
+_MAX_SURFACE_POINTS = 1 << 16  # points that a search is quick among
 _CUBES_PER_EDGE = 1 << 10  # cubes along an edge
 
 
-def half_edges(grid: NodeGrid) -> Array:
+def half_edges(grid: NodeGrid) -> FloatArray:
     """Return half the edges (3,) of a grid's box, m."""
     return np.asarray(grid.width * (np.array(grid.shape) - 1) / 2)
 
@@ -40,7 +39,7 @@ def largest_inverse_distance(grid: NodeGrid) -> float:
     return float(2 / half_edges(grid).max())
 
 
-def tabulate_outside(grid: NodeGrid, samples: Array, sample_gap: float) -> tuple[NDArray[np.float32], float]:
+def tabulate_outside(grid: NodeGrid, samples: FloatArray, sample_gap: float) -> tuple[NDArray[np.float32], float]:
     """Return E and the distance of the farthest sample from the center of the grid, m.
 
     E, (6, ACROSS, ACROSS, AWAY), m, is rounded up: faces (low x, high x, low y, ...), the two coordinates that follow, 1 / r.
@@ -83,13 +82,13 @@ def tabulate_outside(grid: NodeGrid, samples: Array, sample_gap: float) -> tuple
     return rounded_up.reshape(6, FACE_NODES, FACE_NODES, RADIAL_NODES), enclosing_radius
 
 
-def _thin_points(points: Array) -> tuple[Array, float]:
-    """Return at most ``_MAX_SAMPLES`` points (M, 3), and the largest distance of a given point (N, 3) from the nearest of them,
-    m.
+def _thin_points(points: FloatArray) -> tuple[FloatArray, float]:
+    """Return at most ``_MAX_SURFACE_POINTS`` points (M, 3), and the largest distance of a given point (N, 3) from the nearest
+    of them, m.
     """
-    if len(points) <= 8 * _MAX_SAMPLES:
+    if len(points) <= 8 * _MAX_SURFACE_POINTS:
         points = np.unique(points, axis=0)
-    if len(points) <= _MAX_SAMPLES:
+    if len(points) <= _MAX_SURFACE_POINTS:
         return points, 0.0
     corner, edge = points.min(axis=0), float(np.ptp(points, axis=0).max()) / _CUBES_PER_EDGE
     cube_indices = np.floor((points - corner) / edge).astype(np.int64)
@@ -105,6 +104,6 @@ def _thin_points(points: Array) -> tuple[Array, float]:
             ],
             axis=1,
         )
-        if len(cube_indices) <= _MAX_SAMPLES:
+        if len(cube_indices) <= _MAX_SURFACE_POINTS:
             return corner + edge * (cube_indices + 0.5), float(HALF_DIAGONAL * edge * (1 + 1e-9))
         cube_indices, edge = cube_indices // 2, 2 * edge

@@ -7,13 +7,12 @@ from dataclasses import KW_ONLY, dataclass, field
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_constructor, require_real_numbers
 from holdfast.arm.machine import check_transform
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _UNBOUNDED_HALF_SIZE_M = 1e9  # m: half a size that no arm reaches
 
@@ -31,7 +30,7 @@ class Solid:
 
     name: str
     _: KW_ONLY
-    pose: Array = field(default_factory=lambda: np.eye(4))
+    pose: FloatArray = field(default_factory=lambda: np.eye(4))
     margin: float = 0.0
 
     def __post_init__(self) -> None:
@@ -47,7 +46,7 @@ class Solid:
         object.__setattr__(moved, "pose", _resolve_pose(pose, self.name))
         return moved
 
-    def signed_distance(self, points: ArrayLike) -> Array:
+    def signed_distance(self, points: ArrayLike) -> FloatArray:
         """Return the distance in m of points (..., 3) in the world from the surface, below 0 inside; never above the true
         distance.
         """
@@ -72,7 +71,7 @@ class PrimitiveSolid(Solid):
         """Return half sizes (3,) m, the rounding in m, whether it is round about z, and whether it is open below its z."""
         raise NotImplementedError
 
-    def numbers(self, extra: float = 0.0) -> Array:
+    def numbers(self, extra: float = 0.0) -> FloatArray:
         """Return the inputs (18,) of the compiled bound: rotation (9) and translation (3) into the own frame, half sizes,
         rounding, two flags.
 
@@ -86,7 +85,7 @@ class PrimitiveSolid(Solid):
             dtype=np.float64,
         )
 
-    def signed_distance(self, points: ArrayLike) -> Array:
+    def signed_distance(self, points: ArrayLike) -> FloatArray:
         """Return the distance in m of points (..., 3) in the world from the surface, below 0 inside."""
         half_sizes, rounding, round_, open_ = self.formula()
         local_points = (np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3]
@@ -105,7 +104,7 @@ class PrimitiveSolid(Solid):
 class Box(PrimitiveSolid):
     """Box with the full edges ``size`` (3,) along its own x, y, and z, m, as in URDF."""
 
-    size: Array
+    size: FloatArray
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -179,7 +178,7 @@ class HalfSpace(PrimitiveSolid):
         return (_UNBOUNDED_HALF_SIZE_M, _UNBOUNDED_HALF_SIZE_M, 0.0), 0.0, False, True
 
 
-def _resolve_pose(pose: ArrayLike, name: str) -> Array:
+def _resolve_pose(pose: ArrayLike, name: str) -> FloatArray:
     array = require_real_numbers(pose, f"pose of object '{name}'", "a pose (4, 4) or a position (3,)")
     if array.shape == (3,):
         array = np.block([[np.eye(3), array[:, None]], [np.zeros(3), 1.0]])

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import mjcf
 from holdfast.arm.tree import LinkTree, LockedJoints, resolve_ends
@@ -20,8 +19,7 @@ from holdfast.files.mesh import Triangles
 from holdfast.shapes.mjcf_pieces import collect_geoms as collected_geoms
 from holdfast.shapes.pieces import Missing, Piece, Place
 from holdfast.shapes.urdf_pieces import collect_elements as collected_elements
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def cell_arguments_from_urdf(
@@ -39,12 +37,12 @@ def cell_arguments_from_urdf(
     base, arm_links, place_link = _separate_arm(tree, base, tip, hold)
     world_to_base = np.linalg.inv(place_link(base)[1])  # type: ignore[index]
 
-    def place_in_base(link: str) -> tuple[int, Array] | None:
+    def place_in_base(link: str) -> tuple[int, FloatArray] | None:
         placement = None if link in arm_links else place_link(link)
         return None if placement is None else (-1, world_to_base @ placement[1])
 
     pieces, missing = collected_elements(robot, path, "collision", place_in_base, meshes)
-    return _cell_arguments(tree.name, pieces, missing, lambda surface: "exact" if surface.closed else "hull")
+    return _cell_arguments(tree.name, pieces, missing, lambda surface: "exact" if surface.is_closed else "hull")
 
 
 def cell_arguments_from_mjcf(path: Path, base: str | None, tip: str | None, hold: Mapping[str, float]) -> dict[str, Any]:
@@ -78,7 +76,7 @@ def _separate_arm(tree: LinkTree, base: str | None, tip: str | None, hold: Mappi
         arm_links = {base, *(joint.child for joint in path[:first_moving])}
     locked_joints = LockedJoints(tree, moving, hold)
 
-    def place_link(link: str) -> tuple[int, Array] | None:
+    def place_link(link: str) -> tuple[int, FloatArray] | None:
         pose = np.eye(4)
         while link in tree.joint_above:
             joint = tree.joint_above[link]

@@ -57,13 +57,13 @@ class CertificateCheck(Result):
     def describe(self) -> list[str]:
         """Return the claim and the verifier's summary as sentences."""
         sampled = self.accepted + self.rejected < self.leaves
-        proved = self.tolerant if self.parts else self.proved
+        proved = self.tolerant if self.parts else self.proved_fraction
         return [verifier.qualify_claim(self.claim, proved, refuted=self.witnessed, sampled=sampled), self.summary]
 
     @property
-    def proved(self) -> Fraction:
+    def proved_fraction(self) -> Fraction:
         """Exact fraction of the claim that is proved; of a bundle in its worst part."""
-        return min((part.proved for part in self.parts), default=1 - self.undecided - self.refuted)
+        return min((part.proved_fraction for part in self.parts), default=1 - self.undecided - self.refuted)
 
 
 class CheckStopped(HoldfastError):

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, single_joints
 from holdfast.grammar import TASK_SIZES
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 TASK_ROWS = {
     "planar": [0, 1],
@@ -46,11 +45,11 @@ class ReachClaim:
 
     arm: Arm
     task: str
-    box: Array
-    rotation: Array | None = None
+    box: FloatArray
+    rotation: FloatArray | None = None
     locked: int
-    angle: Array | None
-    limits: Array
+    angle: FloatArray | None
+    limits: FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,9 +65,9 @@ class TolerantClaim:
 
     arm: Arm
     task: str
-    box: Array
-    rotation: Array | None = None
-    working_ranges: Array
+    box: FloatArray
+    rotation: FloatArray | None = None
+    working_ranges: FloatArray
     locks: tuple[int, ...]
 
     @property
@@ -164,7 +163,7 @@ def tolerant_claim(
 
 def _parse_targets(
     arm: Arm, centre: ArrayLike, size: ArrayLike, rotation: ArrayLike | None, rpy: ArrayLike | None, task: str | None
-) -> tuple[Array, str, Array | None]:
+) -> tuple[FloatArray, str, FloatArray | None]:
     """Return the box, the task and the rotation of a claim."""
     box = _make_target_box(arm, centre, size)
     if task not in (None, "pointing"):
@@ -200,7 +199,7 @@ def _parse_targets(
     return box, task or "pose", left_vectors @ right_vectors
 
 
-def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> Array:
+def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> FloatArray:
     """Return the (m, 2) bounds of a box of targets, m, after checking its center and size."""
     center = np.asarray(centre, dtype=np.float64).reshape(-1)
     if center.shape not in ((2,), (3,)) or not np.isfinite(center).all():
@@ -215,7 +214,7 @@ def _parse_lock(
     arm: Arm,
     locked: Mapping[str | int, tuple[float, float]] | None,
     limits: Mapping[str | int, tuple[float, float]] | None,
-) -> tuple[int, Array | None, Array]:
+) -> tuple[int, FloatArray | None, FloatArray]:
     """Return the index of the locked joint (-1 if none is locked), its interval of locked values, and the limits of
     all joints.
     """
@@ -239,7 +238,7 @@ def _require_free_joints(arm: Arm, locked_count: int, task: str) -> None:
         raise InputError(f"{arm.n - locked_count} joints are left for {TASK_SIZES[task]} rows: no box can be reached")
 
 
-def narrow_limits(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) -> Array:
+def narrow_limits(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) -> FloatArray:
     """Return (n, 2) joint limits, rad and m, where the given intervals replace the limits of the arm."""
     limits = np.column_stack([arm.lower, arm.upper])
     for joint, interval in intervals.items():
@@ -247,7 +246,7 @@ def narrow_limits(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) 
     return limits
 
 
-def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -> Array:
+def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -> FloatArray:
     """Return the interval of a joint as an array after checking that it lies within the joint's limits."""
     index = arm.joint_index(joint)
     interval = np.asarray(bounds, dtype=np.float64).reshape(-1)
@@ -259,7 +258,7 @@ def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -
             f"lower one first"
         )
     if interval[0] < arm.lower[index] or interval[1] > arm.upper[index]:
-        factor, unit = arm.joints[index].shown
+        factor, unit = arm.joints[index].display_unit
         lower, upper, lower_limit, upper_limit = (factor * x for x in (*interval, arm.lower[index], arm.upper[index]))
         raise InputError(
             f"{arm.joint_names[index]} from {lower:.4g} to {upper:.4g} {unit} is outside of its limits, "
@@ -278,11 +277,11 @@ class OutOfReachClaim:
 
     arm: Arm
     task: str
-    box: Array
-    rotation: Array | None = None
+    box: FloatArray
+    rotation: FloatArray | None = None
     locked: int
-    angle: Array | None
-    limits: Array
+    angle: FloatArray | None
+    limits: FloatArray
 
 
 @check_arguments

@@ -17,8 +17,7 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import Cholesky, damped_least_norm
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 CELL_WIDTH_PARTS = 16  # of a cell's width: how much of it is proved is told in these
 ROUNDS_PER_STEP = 5  # rounds
@@ -82,7 +81,7 @@ class ToolExpansion:
         axes: Numbers of a target.
     """
 
-    def __init__(self, arm: Arm, task: str, turning: int, lengths: Array, slides: NDArray[np.bool_]) -> None:
+    def __init__(self, arm: Arm, task: str, turning: int, lengths: FloatArray, slides: NDArray[np.bool_]) -> None:
         self.arm, self.task, self.turning, self.lengths, self.slides = arm, task, turning, lengths, slides
         self.m, self.linear = TASK_SIZES[task], 2 if task.startswith("planar") else 3
         self.axes, self.coordinates = self.linear + turning, self.m + turning + 1

@@ -6,15 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.certificates.claims import narrow_limits, require_planar, require_revolute, validate_interval
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
@@ -35,7 +34,7 @@ class BoundClaim:
     arm: Arm
     kind: str
     task: str
-    joint_box: Array
+    joint_box: FloatArray
     threshold: float
     locks: tuple[int, ...]
 

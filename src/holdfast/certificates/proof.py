@@ -144,7 +144,7 @@ class TolerantProof(CompositeResult):
         unproved = {cell[:axis_count] for part in self.parts for cell in documents.find_undecided_cells(part.document)}
         return 1 - verifier.compute_covered_volume(unproved, [verifier.MAX_COVER_STEPS])
 
-    def named(self, part: Proof) -> str:
+    def part_label(self, part: Proof) -> str:
         """Return ``healthy``, or the name of the joint that locks in a part."""
         return "healthy" if part.claim.locked < 0 else self.claim.arm.joint_names[part.claim.locked]
 
@@ -192,7 +192,7 @@ class TolerantProof(CompositeResult):
 
     def describe(self) -> list[str]:
         """Return the claim and the result of the search as sentences."""
-        worst = "the healthy arm" if self.worst.claim.locked < 0 else f"a lock of {self.named(self.worst)}"
+        worst = "the healthy arm" if self.worst.claim.locked < 0 else f"a lock of {self.part_label(self.worst)}"
         qualifier = "" if self.ok else f", at most, with {worst}"
         return [
             verifier.qualify_claim(self.document()["claim"], self.tolerant),

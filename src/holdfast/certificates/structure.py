@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.joint_claims import StructuralZeroClaim
@@ -22,10 +21,10 @@ from holdfast.certificates.proof import write_document
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.errors import InputError
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-_QUARTER_TURN_TOLERANCE_RAD, _POINT_DIGITS = 1e-4, 9  # rad, of a rotation from quarter turns; of points on axes, m
+_QUARTER_TURN_TOLERANCE_RAD = 1e-4  # rad, of a rotation from quarter turns
+_POINT_DIGITS = 9  # of points on axes, m
 _QUATERNION_SCALE = 2**24
 
 
@@ -105,7 +104,7 @@ def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
     return StructuralZero(claim=claim, ok=True, turned=rotation_error, shifted=position_error, document=document)
 
 
-def _snap_rotation(rotation: Array) -> tuple[int, int, int, int]:
+def _snap_rotation(rotation: FloatArray) -> tuple[int, int, int, int]:
     """Return an integer quaternion: of quarter turns about the axes if they are close, otherwise with many digits."""
     from scipy.spatial.transform import Rotation
 

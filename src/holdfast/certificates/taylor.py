@@ -15,10 +15,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 CENTER_UNIT = 2.0**-24  # rad: centres are written in multiples of it
 _MAX_TEST_STEPS = 40  # of tests, each of several rounds
@@ -38,10 +35,10 @@ class CertificateChain:
         slides: (n,) which joints slide.
     """
 
-    rotations: Array
-    origins: Array
-    lengths: Array
-    slides: Flags
+    rotations: FloatArray
+    origins: FloatArray
+    lengths: FloatArray
+    slides: BoolArray
 
     @classmethod
     def from_arm(cls, arm: Arm) -> CertificateChain:
@@ -95,7 +92,13 @@ class ReachSolver:
     """
 
     def __init__(
-        self, arm: Arm, task: str, locked: int, limits: Array, rotation: Array | None = None, angle: Array | None = None
+        self,
+        arm: Arm,
+        task: str,
+        locked: int,
+        limits: FloatArray,
+        rotation: FloatArray | None = None,
+        angle: FloatArray | None = None,
     ) -> None:
         self.arm, self.locked, self.limits = arm, locked, limits
         self.n = arm.n
@@ -121,7 +124,7 @@ class ReachSolver:
         return float(self.expansion.lengths.sum() + np.abs(self.sampling_limits[self.slides]).max(axis=1).sum())
 
     @property
-    def sampling_limits(self) -> Array:
+    def sampling_limits(self) -> FloatArray:
         """(n, 2) rad and m, the limits, and default sampling ranges for joints without limits."""
         range_limits = np.where(self.slides, _MAX_SLIDE_M, np.pi)[:, None]
         return np.clip(self.limits, -range_limits, range_limits)
@@ -131,7 +134,7 @@ class ReachSolver:
         """True if the joints can move while the tool stays in place."""
         return bool(self.free.sum() > self.m)
 
-    def set_fixed_joints(self, q: Array, coordinates: Array) -> Array:
+    def set_fixed_joints(self, q: FloatArray, coordinates: FloatArray) -> FloatArray:
         """Return configurations (N, n) with the locked joint at the value in ``coordinates`` (N, A), targets and locked angles,
         and fixed joints at their limits.
         """
@@ -140,17 +143,17 @@ class ReachSolver:
             q[:, self.locked] = coordinates[:, -1]
         return q
 
-    def encode_targets(self, targets: Array) -> Array:
+    def encode_targets(self, targets: FloatArray) -> FloatArray:
         """Return targets (N, axes) in the form that the kernels take."""
         return np.concatenate([targets, np.tile(self._rotation, (len(targets), 1))], axis=1)
 
-    def measure_pose_error(self, q: Array, targets: Array) -> Array:
+    def measure_pose_error(self, q: FloatArray, targets: FloatArray) -> FloatArray:
         """Return the position error, m, and the orientation error, rad, of the tool at q (N, n) for targets (N, axes), as (N,
         2).
         """
         return self.expansion.distance_kernel.rows(q, self.encode_targets(targets))
 
-    def solve_targets(self, q: Array, targets: Array, rounds: int = 8, error: Array | None = None) -> Array:
+    def solve_targets(self, q: FloatArray, targets: FloatArray, rounds: int = 8, error: FloatArray | None = None) -> FloatArray:
         """Run Newton's method from q (N, n) towards targets (N, axes), or an error (N, m), on the free joints, within the
         limits.
         """
@@ -159,12 +162,12 @@ class ReachSolver:
         parameters = np.concatenate([self.encode_targets(targets), target_error, fixed_inputs], axis=1)
         return self.expansion.newton_loop.run(q, parameters, 1e-26, rounds).state
 
-    def project_self_motion(self, q: Array, moves: Array) -> Array:
+    def project_self_motion(self, q: FloatArray, moves: FloatArray) -> FloatArray:
         """Return the part of moves (N, n) at q (N, n) that keeps the tool in place, to first order."""
         return self.expansion.self_motion_kernel.rows(q, moves, self._free)
 
 
-def _link_lengths(arm: Arm, task: str) -> Array:
+def _link_lengths(arm: Arm, task: str) -> FloatArray:
     """Return the (n,) lengths, m, that the joints rotate; heights do not count in the plane."""
     chain = CertificateChain.from_arm(arm)
     if task != "planar-pose":
@@ -183,11 +186,11 @@ class TaylorForm:
     """
 
     reach: ReachSolver
-    q: Array
-    coefficients: Array
+    q: FloatArray
+    coefficients: FloatArray
 
     @classmethod
-    def expand_at(cls, reach: ReachSolver, q: Array, targets: Array) -> TaylorForm:
+    def expand_at(cls, reach: ReachSolver, q: FloatArray, targets: FloatArray) -> TaylorForm:
         """Build the forms around q (N, n) for targets (N, axes) in the middle of their cells."""
         return cls(
             reach,
@@ -198,15 +201,15 @@ class TaylorForm:
         )
 
     @property
-    def error(self) -> Array:
+    def error(self) -> FloatArray:
         """(N, m) error of the tool at the centers: m, and the axial part of rotations."""
         return self.coefficients[:, : self.reach.m]
 
-    def select(self, rows: NDArray[np.intp] | Flags) -> TaylorForm:
+    def select(self, rows: NDArray[np.intp] | BoolArray) -> TaylorForm:
         """Return the forms of some rows."""
         return TaylorForm(self.reach, self.q[rows], self.coefficients[rows])
 
-    def bound_error(self, cells: Array, sections: Array) -> tuple[Array, Array, Array]:
+    def bound_error(self, cells: FloatArray, sections: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the error less s above and below 0 (N, m) and the joint travel (N, n), for half widths of cells and
         sections.
         """
@@ -215,15 +218,15 @@ class TaylorForm:
         )
         return upper_error, lower_error, joint_travel
 
-    def _add_lock_axis(self, cells: Array) -> Array:
+    def _add_lock_axis(self, cells: FloatArray) -> FloatArray:
         """Return the cells with a lock axis of width 0 added for a healthy arm."""
         return cells if cells.shape[1] > self.reach.axes else np.concatenate([cells, np.zeros((len(cells), 1))], axis=1)
 
-    def prove_cells(self, cells: Array) -> Flags:
+    def prove_cells(self, cells: FloatArray) -> BoolArray:
         """Return a mask of the cells, of half widths (N, c), that the forms prove."""
         return np.asarray(self._test_cells(cells, np.array([CELL_WIDTH_PARTS - 1.0, CELL_WIDTH_PARTS, 1])) == CELL_WIDTH_PARTS)
 
-    def find_provable_fraction(self, cells: Array, minimum: Array | None = None) -> Array:
+    def find_provable_fraction(self, cells: FloatArray, minimum: FloatArray | None = None) -> FloatArray:
         """Return the (N,) largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
 
         ``minimum`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
@@ -242,7 +245,7 @@ class TaylorForm:
         )  # no test passes of cells too small for its margins
         return self._test_cells(cells, initial_state) / CELL_WIDTH_PARTS
 
-    def _test_cells(self, cells: Array, initial_state: Array) -> Array:
+    def _test_cells(self, cells: FloatArray, initial_state: FloatArray) -> FloatArray:
         """Return the (N,) number of sixteenths of the cells' widths that pass the test.
 
         ``initial_state``: How many are known to, how many are tested first, and a power of 2, twice that by which others are
@@ -256,7 +259,7 @@ class TaylorForm:
         final_state = reach.expansion.cell_test_loop.run(state, parameters, 0.5, _MAX_TEST_STEPS).state
         return np.nan_to_num(final_state[:, reach.m])
 
-    def choose_split_axis(self, cells: Array, allowed: Flags) -> Index:
+    def choose_split_axis(self, cells: FloatArray, allowed: BoolArray) -> IndexArray:
         """Return the (N,) axis, among the ``allowed`` ones (N, c), whose halving leaves the smallest error and limit excess."""
         reach, (lower, upper) = self.reach, self.reach.limits.T
         costs = np.full(cells.shape, np.inf)

@@ -9,10 +9,12 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
-PROVED_TOKEN, UNDECIDED_TOKEN, SPLIT_TOKEN = 0, 2, 16  # tokens of the tree
+# PROVED_TOKEN, UNDECIDED_TOKEN and SPLIT_TOKEN: tokens of the tree
+PROVED_TOKEN = 0
+UNDECIDED_TOKEN = 2
+SPLIT_TOKEN = 16
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,11 +51,11 @@ class CellBatch:
         barren: (N,) how many cells in a row around this one were not proved to a measurable part.
     """
 
-    place: Index
-    depth: Index
-    name: Index
-    q: Array
-    barren: Index
+    place: IndexArray
+    depth: IndexArray
+    name: IndexArray
+    q: FloatArray
+    barren: IndexArray
 
     @classmethod
     def concatenate(cls, batches: Sequence[CellBatch]) -> CellBatch:
@@ -82,9 +84,9 @@ class BisectionTree:
     def __init__(self) -> None:
         self.tokens: list[int] = [UNDECIDED_TOKEN]
         self.lower_children: list[int] = [0]
-        self.centers: dict[int, Index] = {}
+        self.centers: dict[int, IndexArray] = {}
 
-    def mark_proved(self, node: int, center: Index) -> None:
+    def mark_proved(self, node: int, center: IndexArray) -> None:
         """Mark a node as proved by the configuration ``center``."""
         self.tokens[node], self.centers[node] = PROVED_TOKEN, center
 
@@ -95,7 +97,7 @@ class BisectionTree:
         self.lower_children += [0] * 2
         return self.lower_children[node]
 
-    def halve_cells(self, cells: CellBatch, axis: Index) -> CellBatch:
+    def halve_cells(self, cells: CellBatch, axis: IndexArray) -> CellBatch:
         """Return both halves of each cell along its axis, one after the other."""
         children = np.array(
             [self.split_node(*pair) for pair in zip(cells.name.tolist(), axis.tolist(), strict=True)], dtype=np.int64
@@ -128,7 +130,7 @@ class BisectionTree:
                 self.tokens[node] = UNDECIDED_TOKEN
             cells = CellBatch.concatenate([merged, cells.select(np.flatnonzero(~np.isin(cell_parents, merged.name)))])
 
-    def to_preorder(self) -> tuple[bytes, list[Index]]:
+    def to_preorder(self) -> tuple[bytes, list[IndexArray]]:
         """Return the tokens in pre-order, lower half first, and the centers of the proved leaves in this order."""
         tokens, centers, waiting = bytearray(), [], [0]
         while waiting:

@@ -59,7 +59,9 @@ iterate_cells, compute_covered_volume, compute_volume, MAX_LEAVES = (
     tree.compute_volume,
     tree.MAX_LEAVES,
 )
-MAX_COVER_STEPS, FIRST_LOCK_TOKEN, FOR_PEOPLE = tree.MAX_COVER_STEPS, bounds.FIRST_LOCK_TOKEN, forms.FOR_PEOPLE
+MAX_COVER_STEPS = tree.MAX_COVER_STEPS
+FIRST_LOCK_TOKEN = bounds.FIRST_LOCK_TOKEN
+FOR_PEOPLE = forms.FOR_PEOPLE
 CLAIM_VERIFIERS: dict[str, Any] = {
     "reach": targets.ReachVerifier,
     "refutation": distances.RefutationVerifier,

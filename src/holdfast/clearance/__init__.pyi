@@ -1,6 +1,6 @@
-from holdfast.clearance.capsules import Capsule as Capsule
 from holdfast.clearance.capsules import Capsules as Capsules
 from holdfast.clearance.capsules import IgnoredPair as IgnoredPair
+from holdfast.clearance.capsules import LinkCapsule as LinkCapsule
 from holdfast.clearance.cell_check import CellCheck as CellCheck
 from holdfast.clearance.cell_check import CheckedObject as CheckedObject
 from holdfast.clearance.cell_check import check_cell as check_cell

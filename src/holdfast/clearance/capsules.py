@@ -29,17 +29,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError, InputError
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.capsule_file import CapsuleEntry
     from holdfast.clearance.shape import CollisionModel
 
-Array = NDArray[np.float64]
 Point = tuple[float, float, float]
 
 BASE_LINK = -1
@@ -54,7 +53,7 @@ _POINT_LENGTH_M = 1e-9  # m: a link shorter than this has no length
 
 
 @dataclass(frozen=True)
-class Capsule:
+class LinkCapsule:
     """A cylinder with round ends that moves with a link.
 
     Attributes:
@@ -104,7 +103,7 @@ class Capsules:
         held: How many of the last parts are no part of the arm but something that it holds.
     """
 
-    parts: tuple[Capsule, ...]
+    parts: tuple[LinkCapsule, ...]
     ignore: tuple[tuple[int, int], ...] = ()
     apart: tuple[tuple[int, int], ...] = field(default=(), kw_only=True)
     source: str = field(default="", compare=False, kw_only=True)
@@ -128,7 +127,7 @@ class Capsules:
         object.__setattr__(self, "ignore", ignore)
         object.__setattr__(self, "apart", apart)
 
-    def __iter__(self) -> Iterator[Capsule]:
+    def __iter__(self) -> Iterator[LinkCapsule]:
         return iter(self.parts)
 
     def __len__(self) -> int:
@@ -136,7 +135,7 @@ class Capsules:
 
     @classmethod
     @check_arguments
-    def along(cls, arm: Arm, radius: float | None = None) -> Capsules:
+    def along_links(cls, arm: Arm, radius: float | None = None) -> Capsules:
         """Make one capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
 
         The base reaches from its own frame to the first joint. A link of no length lies within the round end of its
@@ -156,17 +155,19 @@ class Capsules:
         return cls(tuple(part for link in range(BASE_LINK, arm.n) for part in capsule_along_link(arm, link, width)))
 
     @property
-    def own(self) -> Capsules:
+    def without_held(self) -> Capsules:
         """Capsules of the arm itself, without those of held objects."""
         return replace(self, parts=self.parts[: len(self.parts) - self.held], held=0) if self.held else self
 
     def radius_along(self, arm: Arm) -> float | None:
-        """Return the radius, m, if the arm's own capsules are those of :meth:`along` and nothing is ignored; else None."""
+        """Return the radius, m, if the arm's own capsules are those of :meth:`along_links` and nothing is ignored;
+        else None.
+        """
         radius = self.parts[0].radius if self.parts else None
         is_default = (
             radius is not None
             and np.linalg.norm(_link_ends(arm)) >= _POINT_LENGTH_M
-            and self.own == Capsules.along(arm, radius)
+            and self.without_held == Capsules.along_links(arm, radius)
         )
         return radius if is_default else None
 
@@ -175,8 +176,8 @@ class Capsules:
         """True if the capsules contain the collision shapes of a file; see :func:`holdfast.clearance.cover.make_cover`."""
         return self.source.startswith(COVER_PREFIX)
 
-    def assumed(self, arm: Arm) -> bool:
-        """Return True if the radius along the links is the one that :meth:`along` assumes."""
+    def is_assumed(self, arm: Arm) -> bool:
+        """Return True if the radius along the links is the one that :meth:`along_links` assumes."""
         radius = self.radius_along(arm)
         return radius is not None and radius == assumed_radius(arm)
 
@@ -186,7 +187,7 @@ class Capsules:
         radius = self.radius_along(arm)
         text = f"{own_count} capsule{'' if own_count == 1 else 's'}, as given"
         if radius is not None:
-            text = f"{'assumed' if self.assumed(arm) else 'given'} radius {radius:.3g} m along each link"
+            text = f"{'assumed' if self.is_assumed(arm) else 'given'} radius {radius:.3g} m along each link"
         held_phrase = f"; {self.held} more about what is held" if self.held else ""
         return (self.source or text) + held_phrase
 
@@ -216,7 +217,7 @@ class Capsules:
 
         data_model = parse_capsules(data)
         named = {_link_index(arm, name, "links"): (name, entries) for name, entries in (data_model.links or {}).items()}
-        parts: list[Capsule] = []
+        parts: list[LinkCapsule] = []
         for link in range(BASE_LINK, arm.n):
             if link in named:
                 name, entries = named[link]
@@ -245,7 +246,7 @@ class Capsules:
     def to_dict(self, arm: Arm) -> dict[str, Any]:
         """Return the arm's own capsules as JSON types, links by name: a file's keys and values."""
         if self.held:
-            return self.own.to_dict(arm)
+            return self.without_held.to_dict(arm)
         links: dict[str, list[dict[str, Any]]] = {}
         for part in self.parts:
             entry = {"from": list(part.start), "to": list(part.end), "radius": part.radius}
@@ -304,32 +305,34 @@ def _link_index(arm: Arm, name: str, key_path: str) -> int:
     return arm.joint_names.index(name)
 
 
-def _make_capsule(link: int, entry: CapsuleEntry, radius: float | None, key_path: str) -> Capsule:
+def _make_capsule(link: int, entry: CapsuleEntry, radius: float | None, key_path: str) -> LinkCapsule:
     own_radius = radius if entry.radius is None else entry.radius
     if own_radius is None:
         raise ArmError(f"{key_path}.radius: it is missing; give it here or for the whole file")
-    return Capsule(link, _to_point(entry.start), _to_point(entry.start if entry.to is None else entry.to), radius=own_radius)
+    return LinkCapsule(
+        link, _to_point(entry.start), _to_point(entry.start if entry.to is None else entry.to), radius=own_radius
+    )
 
 
 def _order_pairs(pairs: Iterable[tuple[int, int]]) -> tuple[tuple[int, int], ...]:
     return tuple(sorted({(min(first, second), max(first, second)) for first, second in pairs}))
 
 
-def _to_point(values: list[float] | Array) -> Point:
+def _to_point(values: list[float] | FloatArray) -> Point:
     """Convert to three plain numbers."""
     x, y, z = (float(value) for value in values)
     return x, y, z
 
 
-def _link_ends(arm: Arm) -> list[Array]:
+def _link_ends(arm: Arm) -> list[FloatArray]:
     """Return the end of each link, (3,) in its own frame, the base first."""
     return [joint.origin[:3, 3] for joint in arm.joints] + [arm.tool[:3, 3]]
 
 
-def capsule_along_link(arm: Arm, link: int, radius: float) -> list[Capsule]:
+def capsule_along_link(arm: Arm, link: int, radius: float) -> list[LinkCapsule]:
     """Return the capsule of :meth:`Capsules.along` for one link, if it has one."""
     end = _link_ends(arm)[link + 1]
     if np.linalg.norm(end) >= _POINT_LENGTH_M:
-        return [Capsule(link, (0.0, 0.0, 0.0), _to_point(end), radius=radius)]
+        return [LinkCapsule(link, (0.0, 0.0, 0.0), _to_point(end), radius=radius)]
     is_prismatic = link != BASE_LINK and arm.joints[link].prismatic
-    return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius=radius)] if is_prismatic else []
+    return [LinkCapsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius=radius)] if is_prismatic else []

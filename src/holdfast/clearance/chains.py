@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.clearance.capsules import Capsules
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 SPHERE_EXCESS_FRACTION = 0.06  # of the radius of a capsule: what the spheres of its chain may reach beyond it
 _MAX_SPHERES = 64  # spheres of one capsule
@@ -27,8 +26,8 @@ class SphereCover:
     """
 
     link: NDArray[np.int64]
-    center: Array
-    radius: Array
+    center: FloatArray
+    radius: FloatArray
     part: NDArray[np.int64]
 
 
@@ -38,7 +37,7 @@ def make_sphere_cover(capsules: Capsules, excess_fraction: float = SPHERE_EXCESS
     A capsule from a to b of radius r lies in the k + 1 spheres about ``a + (b - a) i / k``, both ends included, of radius
     ``hypot(r, |b - a| / (2 k))``; k is the least with which that is at most ``(1 + wider) r``.
     """
-    rows: list[tuple[int, Array, float, int]] = []
+    rows: list[tuple[int, FloatArray, float, int]] = []
     for number, part in sorted(enumerate(capsules.parts), key=lambda item: item[1].link):
         start, span = np.array(part.start), np.subtract(part.end, part.start)
         half_length = part.length / 2

@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.clearance.capsules import Capsules
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Pairs = NDArray[np.int64]
 
 
-def pair_lipschitz_bounds(arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], lower: Array, upper: Array) -> Array:
+def pair_lipschitz_bounds(
+    arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], lower: FloatArray, upper: FloatArray
+) -> FloatArray:
     """Bound how much the distance of each pair of capsules changes per rad and m of each joint, (P, n).
 
     A joint between the two links of a pair turns one capsule about an axis that the other does not feel, so the distance
@@ -46,7 +48,9 @@ def pair_lipschitz_bounds(arm: Arm, capsules: Capsules, pairs: list[tuple[int, i
     return bounds
 
 
-def link_lipschitz_bounds(arm: Arm, links: Pairs, max_distances: Array, lower: Array, upper: Array) -> Array:
+def link_lipschitz_bounds(
+    arm: Arm, links: Pairs, max_distances: FloatArray, lower: FloatArray, upper: FloatArray
+) -> FloatArray:
     """Bound as :func:`pair_lipschitz_bounds` the distances between links and fixed objects, (L, n).
 
     Args:
@@ -67,7 +71,7 @@ def link_lipschitz_bounds(arm: Arm, links: Pairs, max_distances: Array, lower: A
     return bounds
 
 
-def _joint_extents(arm: Arm, lower: Array, upper: Array) -> tuple[Array, Array]:
+def _joint_extents(arm: Arm, lower: FloatArray, upper: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the largest extension (n,) of each prismatic joint, and the distance of each joint's frame from the previous one,
     m.
     """

@@ -28,11 +28,11 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_json, cached_kernel
 from holdfast.linalg import Vector, dot_product, select_smallest
 from holdfast.probability.sobol_sequence import sobol_points
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.exact.exactness import ExactQueries
 
-Array = NDArray[np.float64]
 Pair = tuple[int, int]
 
 _OVERLAP_SAMPLES = 512  # configurations
@@ -82,7 +82,7 @@ class Clearance:
             from holdfast.clearance.cover import capsules_in_cell  # takes long to import
 
             capsules = capsules_in_cell(arm, cell, capsules)
-        self.capsules = capsules.own if cell is None or not cell.held else capsules
+        self.capsules = capsules.without_held if cell is None or not cell.held else capsules
         highest = max(
             (
                 link
@@ -289,7 +289,7 @@ class Clearance:
 
     # ---- what a user asks --------------------------------------------------------------------------------------
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """Return the smallest distance in m, (N,), or a scalar for one configuration; infinite if there is no pair to check.
 
         Args:
@@ -302,7 +302,7 @@ class Clearance:
             q, lambda rows: self._smallest_value(rows, None if self.obstacles is None else self.obstacles.smallest_distance)
         )
 
-    def by_pair(self, q: ArrayLike) -> Array:
+    def by_pair(self, q: ArrayLike) -> FloatArray:
         """Return the distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
         rows, single = as_configurations(self.arm, q)
         values = self.alone._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
@@ -310,13 +310,13 @@ class Clearance:
             values = np.concatenate([values, self.obstacles.pair_distances(rows)], axis=1)
         return values[0] if single else values
 
-    def margin_left(self, q: ArrayLike) -> Array:
+    def margin_left(self, q: ArrayLike) -> FloatArray:
         """Return the smallest distance above the margin of its pair (``margins``), m, (N,) or a scalar."""
         return self._evaluate_rows(
             q, lambda rows: self._smallest_value(rows, None if self.obstacles is None else self.obstacles.smallest_margin)
         )
 
-    def _smallest_value(self, q: Array, obstacle_values: Callable[[Array], Array] | None) -> Array:
+    def _smallest_value(self, q: FloatArray, obstacle_values: Callable[[FloatArray], FloatArray] | None) -> FloatArray:
         values = self.alone._value_kernel.rows(q)[:, 0] if self.pairs else _constant_rows(q, np.inf)
         return values if obstacle_values is None else np.minimum(values, obstacle_values(q))
 
@@ -342,13 +342,13 @@ class Clearance:
         """
         return self._evaluate_rows(q, self.exactness.check_collision_free)
 
-    def exact(self, q: ArrayLike) -> Array:
+    def exact(self, q: ArrayLike) -> FloatArray:
         """Return the smallest exact distance of the covered bodies, m, (N,) or a scalar; 0 in contact; ``exact_by`` gives its
         accuracy.
         """
         return self._evaluate_rows(q, self.exactness.smallest_distances)
 
-    def _evaluate_rows(self, q: ArrayLike, evaluate: Callable[[Array], NDArray[Any]]) -> NDArray[Any]:
+    def _evaluate_rows(self, q: ArrayLike, evaluate: Callable[[FloatArray], NDArray[Any]]) -> NDArray[Any]:
         rows, single = as_configurations(self.arm, q)
         values = evaluate(rows)
         return values[0] if single else values
@@ -370,7 +370,7 @@ class Clearance:
             closest[finite] = (self.by_pair(rows[finite]) - self.margins).argmin(axis=1)
         return closest[0] if single else closest
 
-    def gradient(self, q: ArrayLike) -> Array:
+    def gradient(self, q: ArrayLike) -> FloatArray:
         """Return the exact gradient of the margin, (N, n) or (n,), m per rad and m; of the clearance where all margins are
         equal.
 
@@ -379,7 +379,7 @@ class Clearance:
         """
         return self._evaluate_rows(q, lambda rows: self.nearest(rows)[1])
 
-    def nearest(self, q: Array) -> tuple[Array, Array]:
+    def nearest(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the margin (N,) m and its gradient (N, n) of configurations (N, n)."""
         margin, gradient = _constant_rows(q, np.inf), np.repeat(_constant_rows(q, 0.0)[:, None], self.arm.n, axis=1)
         if self.pairs:
@@ -390,7 +390,7 @@ class Clearance:
             margin, gradient = np.where(closer, obstacle_margin, margin), np.where(closer[:, None], obstacle_gradient, gradient)
         return margin, gradient
 
-    def lipschitz_bounds(self, low: Array, high: Array) -> Array:
+    def lipschitz_bounds(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Bound how much the distance of each pair changes per rad and m of each joint in a box, (P, n), for proofs.
 
         Args:
@@ -440,6 +440,6 @@ class Clearance:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
 
 
-def _constant_rows(rows: Array, value: float) -> Array:
+def _constant_rows(rows: FloatArray, value: float) -> FloatArray:
     """Return ``value`` for every row that is finite, NaN for the others."""
     return np.where(np.isfinite(rows).all(axis=1), value, np.nan)

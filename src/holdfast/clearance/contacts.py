@@ -6,13 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.engines import is_library_installed
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 MAX_JOINT_SPACING = 0.05  # rad and m: how far a joint goes between two instants at most before anything is said
 MIN_DISTANCE_CHANGE_M = 5e-4  # m: between instants with less change than this nothing more is looked for
@@ -62,7 +60,7 @@ def _format_instant(time: float, unit: str) -> str:
 
 
 def find_first_contacts(
-    clearance: Clearance, time: Array, q: Array, evaluate: Callable[[Array], Array] | None = None
+    clearance: Clearance, time: FloatArray, q: FloatArray, evaluate: Callable[[FloatArray], FloatArray] | None = None
 ) -> list[Contact]:
     """Find the first contact of every pair that touches on a motion, in order of time.
 
@@ -130,7 +128,9 @@ def find_first_contacts(
     return sorted(contacts, key=lambda contact: contact.time)
 
 
-def _refine_instants(time: Array, q: Array, evaluate: Callable[[Array], Array]) -> tuple[Array, Array]:
+def _refine_instants(
+    time: FloatArray, q: FloatArray, evaluate: Callable[[FloatArray], FloatArray]
+) -> tuple[FloatArray, FloatArray]:
     """Add instants where joints move far between two instants."""
     for _ in range(_MAX_BISECTIONS):
         rows = np.flatnonzero(np.abs(np.diff(q, axis=0)).max(axis=1) > MAX_JOINT_SPACING) + 1
@@ -141,7 +141,9 @@ def _refine_instants(time: Array, q: Array, evaluate: Callable[[Array], Array]) 
     return time, q
 
 
-def _exact_time(clearance: Clearance, pair: int, instants: Array, after: float, evaluate: Callable[[Array], Array]) -> float:
+def _exact_time(
+    clearance: Clearance, pair: int, instants: FloatArray, after: float, evaluate: Callable[[FloatArray], FloatArray]
+) -> float:
     """Return when the bodies of a pair first touch at one of some instants, or between it and the previous;
     infinite if never.
     """
@@ -162,7 +164,9 @@ def _exact_time(clearance: Clearance, pair: int, instants: Array, after: float, 
     return float("inf")
 
 
-def _bisect_contact(clearance: Clearance, pair: int, between: Array, evaluate: Callable[[Array], Array]) -> float:
+def _bisect_contact(
+    clearance: Clearance, pair: int, between: FloatArray, evaluate: Callable[[FloatArray], FloatArray]
+) -> float:
     """Find by bisection when a pair first touches that is separated at the first of two times and touches at the second."""
     separated, touching = map(float, between)
     tolerance = TIME_TOLERANCE * max(abs(touching), 1e-12)

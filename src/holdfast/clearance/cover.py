@@ -24,14 +24,14 @@ from holdfast.arms.builtin import DATA_FOLDER
 from holdfast.cell import solids
 from holdfast.cell.cell import Cell
 from holdfast.cell.solids import Solid
-from holdfast.clearance.capsules import COVER_PREFIX, Capsule, Capsules, assumed_radius, capsule_along_link, link_name
+from holdfast.clearance.capsules import COVER_PREFIX, Capsules, LinkCapsule, assumed_radius, capsule_along_link, link_name
 from holdfast.clearance.enclosing import enclosing_capsule, main_axes, sphere_directions
 from holdfast.clearance.shape import CollisionModel, corner_points, make_hull
 from holdfast.errors import ArmError, InputError
 from holdfast.kernels.recall import cached_json
 from holdfast.shapes.pieces import Kind, Piece
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 
 MAX_MEAN_EXCESS_M = 0.01  # m
@@ -62,7 +62,7 @@ def make_cover(shape: CollisionModel, arm: Arm, spheres_to: float = MAX_MEAN_EXC
         raise InputError(f"spheres_to is {spheres_to:g} m; it must be finite and above 0")
     built_in = _load_built_in_covers() if spheres_to == MAX_MEAN_EXCESS_M else {}
     rows, mean_excess, max_excess = built_in.get(shape.digest) or fit_capsules(shape, spheres_to)
-    capsules = [(Capsule(link, start, end, radius=radius), owners) for link, start, end, radius, owners in rows]
+    capsules = [(LinkCapsule(link, start, end, radius=radius), owners) for link, start, end, radius, owners in rows]
     for link in sorted({item.link for item in shape.missing}):
         capsules += [(part, []) for part in capsule_along_link(arm, link, assumed_radius(arm))]
     capsules.sort(key=lambda item: item[0].link)
@@ -115,11 +115,11 @@ class _CoveredBody:
         max_excess: And at most beyond the hull.
     """
 
-    points: Array
+    points: FloatArray
     faces: Triangles
     owners: tuple[str, ...]
-    cuts: tuple[tuple[Array, float], ...]
-    capsule: tuple[Array, Array, float]
+    cuts: tuple[tuple[FloatArray, float], ...]
+    capsule: tuple[FloatArray, FloatArray, float]
     excess: float
     max_excess: float
 
@@ -151,7 +151,7 @@ def _exact_row(piece: Piece) -> list[Any]:
     return [piece.link, *ends, radius, [piece.owner]]
 
 
-def _piece_triangles(piece: Piece) -> tuple[Array, Triangles]:
+def _piece_triangles(piece: Piece) -> tuple[FloatArray, Triangles]:
     """Return the triangles of a piece in the frame of its link."""
     if piece.kind == "mesh":
         return corner_points(piece), piece.faces
@@ -159,7 +159,7 @@ def _piece_triangles(piece: Piece) -> tuple[Array, Triangles]:
     return hull.vertices, hull.faces
 
 
-def _cover_triangles(soups: list[tuple[Array, Triangles]], owner: str, target: float) -> list[_CoveredBody]:
+def _cover_triangles(soups: list[tuple[FloatArray, Triangles]], owner: str, target: float) -> list[_CoveredBody]:
     """Return bodies with tight enough capsules that together contain all triangles, one for all if that is tight enough."""
     if not soups:
         return []
@@ -170,7 +170,7 @@ def _cover_triangles(soups: list[tuple[Array, Triangles]], owner: str, target: f
     return [part for body in bodies for part in _split_body(body, target, _MAX_CUTS)]
 
 
-def _merge_triangles(soups: list[tuple[Array, Triangles]]) -> tuple[Array, Triangles]:
+def _merge_triangles(soups: list[tuple[FloatArray, Triangles]]) -> tuple[FloatArray, Triangles]:
     offsets = np.cumsum([0, *(len(points) for points, _ in soups)])
     faces = [faces + offset for (_, faces), offset in zip(soups, offsets, strict=False)]
     return np.concatenate([points for points, _ in soups]), np.concatenate(faces)
@@ -211,7 +211,7 @@ def _split_body(body: _CoveredBody, target: float, splits_left: int) -> list[_Co
     return [part for half in halves for part in _split_body(half, target, splits_left - 1)]
 
 
-def _clip_triangles(body: _CoveredBody, normal: Array, offset: float) -> tuple[Array, Triangles]:
+def _clip_triangles(body: _CoveredBody, normal: FloatArray, offset: float) -> tuple[FloatArray, Triangles]:
     """Return the triangles on the side opposite to the normal, cut at the plane."""
     points, corner_count = [], 0
     faces: list[list[int]] = []
@@ -235,7 +235,7 @@ def _clip_triangles(body: _CoveredBody, normal: Array, offset: float) -> tuple[A
 
 
 def _make_body(
-    points: Array, faces: Triangles, owners: tuple[str, ...], cuts: tuple[tuple[Array, float], ...] = ()
+    points: FloatArray, faces: Triangles, owners: tuple[str, ...], cuts: tuple[tuple[FloatArray, float], ...] = ()
 ) -> _CoveredBody:
     start, end, radius = enclosing_capsule(points)
     sampled_directions = sphere_directions(_COMPARED_DIRECTIONS)
@@ -246,7 +246,7 @@ def _make_body(
     return _CoveredBody(points, faces, owners, cuts, (start, end, radius), excess, float(excesses.max()))
 
 
-def _hollow_distance(points: Array, faces: Triangles, cuts: tuple[tuple[Array, float], ...]) -> float:
+def _hollow_distance(points: FloatArray, faces: Triangles, cuts: tuple[tuple[FloatArray, float], ...]) -> float:
     """Return the mean distance, m, of the hull's surface from the triangles; the planes of cuts do not count."""
     from scipy import spatial  # takes long to import, and is needed once for each shape
 
@@ -265,7 +265,7 @@ def _hollow_distance(points: Array, faces: Triangles, cuts: tuple[tuple[Array, f
     return float(np.maximum(spatial.cKDTree(body_points).query(hull_points)[0] - point_spacing, 0).mean())
 
 
-def _spread_points(points: Array, faces: Triangles) -> Array:
+def _spread_points(points: FloatArray, faces: Triangles) -> FloatArray:
     """Spread (_SAMPLES, 3) points over triangles evenly by area; the points are the same each time."""
     a, b, c = (points[faces[:, index]] for index in range(3))
     cumulative_area = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
@@ -282,7 +282,7 @@ def _spread_points(points: Array, faces: Triangles) -> Array:
 @check_arguments
 def choose_capsules(arm: Arm, cell: Cell | None = None) -> Capsules:
     """Choose the capsules of an arm where none are given: the cover of its collision shapes, else
-    :meth:`holdfast.Capsules.along`.
+    :meth:`holdfast.Capsules.along_links`.
 
     Args:
         arm: The arm.
@@ -295,7 +295,7 @@ def choose_capsules(arm: Arm, cell: Cell | None = None) -> Capsules:
     """
     requested = "" if cell is None else cell.shape
     if requested == "assumed":
-        return Capsules.along(arm)
+        return Capsules.along_links(arm)
     if requested not in ("", "meshes"):
         return Capsules.load(requested, arm)
     reason = ""
@@ -314,14 +314,14 @@ def choose_capsules(arm: Arm, cell: Cell | None = None) -> Capsules:
             f"the cell asks for the meshes of '{arm.name}', and {reason or 'no file gives it collision shapes'}; "
             "give their folder by --meshes (meshes= in Python), or say shape: assumed"
         )
-    assumed = Capsules.along(arm)
+    assumed = Capsules.along_links(arm)
     return replace(assumed, source=f"{assumed.describe(arm)} ({reason})") if reason else assumed
 
 
 def capsules_in_cell(arm: Arm, cell: Cell | None, capsules: Capsules | None = None) -> Capsules:
     """Return the capsules of an arm and of held objects in a cell: given capsules, else those of :func:`choose_capsules`."""
     arm_capsules = choose_capsules(arm, cell) if capsules is None else capsules
-    return arm_capsules.own if cell is None else with_held_objects(arm_capsules, arm, cell.held, cell.spheres_to)
+    return arm_capsules.without_held if cell is None else with_held_objects(arm_capsules, arm, cell.held, cell.spheres_to)
 
 
 def with_held_objects(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: float | None = None) -> Capsules:
@@ -333,7 +333,7 @@ def with_held_objects(capsules: Capsules, arm: Arm, held: Sequence[Solid], spher
         held: Boxes, cylinders, capsules and spheres with their poses in the tool's frame; they move with the last link.
         spheres_to: As :func:`make_cover` has it.
     """
-    arm_capsules = capsules.own
+    arm_capsules = capsules.without_held
     if not held:
         return arm_capsules
     empty_mesh = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
@@ -353,7 +353,7 @@ def with_held_objects(capsules: Capsules, arm: Arm, held: Sequence[Solid], spher
     rows, _, _ = fit_capsules(
         CollisionModel(pieces=pieces, missing=(), source="held"), MAX_MEAN_EXCESS_M if spheres_to is None else spheres_to
     )
-    parts = [Capsule(link, start, end, radius=radius) for link, start, end, radius, _ in rows]
+    parts = [LinkCapsule(link, start, end, radius=radius) for link, start, end, radius, _ in rows]
     return replace(arm_capsules, parts=(*arm_capsules.parts, *parts), held=len(parts))
 
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _RADIUS_SLACK_M = 1e-6  # m that the radius has beyond the farthest corner
 _INITIAL_DIRECTIONS = 48  # directions in which the first points are the farthest
@@ -20,7 +19,7 @@ _SLSQP_OPTIONS: Any = {"maxiter": 40, "ftol": 1e-6}
 _GOLDEN_ANGLE_RAD = np.pi * (3 - np.sqrt(5))  # the golden angle
 
 
-def sphere_directions(count: int) -> Array:
+def sphere_directions(count: int) -> FloatArray:
     """Return (count, 3) unit vectors spread evenly over the sphere: the spherical Fibonacci lattice (Swinbank &
     Purser 2006).
     """
@@ -32,13 +31,13 @@ def sphere_directions(count: int) -> Array:
     )
 
 
-def main_axes(points: Array) -> Array:
+def main_axes(points: FloatArray) -> FloatArray:
     """Return (3, 3) unit vectors in rows along which points (V, 3) vary most, then less, then least."""
     centered = points - points.mean(axis=0)
     return np.asarray(np.linalg.eigh(centered.T @ centered)[1].T[::-1])
 
 
-def enclosing_capsule(points: Array) -> tuple[Array, Array, float]:
+def enclosing_capsule(points: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Return start (3,), end (3,) and radius, m, of a capsule that contains points (V, 3), the radius by 1e-6 m.
 
     Minimised is ``radius + length / 4``: the mean over all directions of how far the capsule reaches, up to a constant. Started
@@ -48,7 +47,7 @@ def enclosing_capsule(points: Array) -> tuple[Array, Array, float]:
     coordinates = (points - center) @ axes.T
     middle, spans = (coordinates.max(axis=0) + coordinates.min(axis=0)) / 2, np.ptp(coordinates, axis=0)
     outermost = set(np.argmax((points - center) @ sphere_directions(_INITIAL_DIRECTIONS).T, axis=0).tolist())
-    best_capsule: tuple[float, Array] | None = None
+    best_capsule: tuple[float, FloatArray] | None = None
     for axis_index in np.argsort(-spans)[:2]:
         across_axis = np.delete(coordinates - middle, axis_index, axis=1)
         radius, height = float(np.linalg.norm(across_axis, axis=1).max()), coordinates[:, axis_index] - middle[axis_index]
@@ -71,7 +70,7 @@ def enclosing_capsule(points: Array) -> tuple[Array, Array, float]:
     return best_capsule[1][:3], best_capsule[1][3:6], float(best_capsule[1][6])
 
 
-def _segment_distances(points: Array, parameters: Array) -> tuple[Array, Array, Array]:
+def _segment_distances(points: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the distance (V,) from the segment, the fraction (V,) along it of the nearest point, and the vector (V, 3) from
     there.
     """
@@ -82,19 +81,19 @@ def _segment_distances(points: Array, parameters: Array) -> tuple[Array, Array, 
     return np.linalg.norm(vector, axis=1), fraction, vector
 
 
-def _improve_capsule(points: Array, x: Array) -> Array:
-    def constraint_values(x: Array) -> Array:
+def _improve_capsule(points: FloatArray, x: FloatArray) -> FloatArray:
+    def constraint_values(x: FloatArray) -> FloatArray:
         return np.asarray(x[6] - _segment_distances(points, x)[0])
 
-    def constraint_gradients(x: Array) -> Array:
+    def constraint_gradients(x: FloatArray) -> FloatArray:
         distance, fraction, vector = _segment_distances(points, x)
         unit_vectors = vector / np.maximum(distance, 1e-12)[:, None]
         return np.column_stack([(1 - fraction)[:, None] * unit_vectors, fraction[:, None] * unit_vectors, np.ones(len(points))])
 
-    def capsule_size(x: Array) -> float:
+    def capsule_size(x: FloatArray) -> float:
         return float(x[6] + np.sqrt(((x[3:6] - x[:3]) ** 2).sum() + 1e-12) / 4)
 
-    def size_gradient(x: Array) -> Array:
+    def size_gradient(x: FloatArray) -> FloatArray:
         span = x[3:6] - x[:3]
         end_gradient = span / np.sqrt(span @ span + 1e-12) / 4
         return np.concatenate([-end_gradient, end_gradient, [1.0]])

@@ -25,9 +25,7 @@ from holdfast.kernels.kernel import Kernel, SingleRowKernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import Vector, select_smallest
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 BLOCK_OBJECTS = 4  # objects that one call takes
 OBJECT_PARAMETERS = 18  # of an object: see Primitive.numbers
@@ -215,8 +213,8 @@ class FormulaObjects:
         arm: ArmData,
         spheres: SphereCover,
         objects: Sequence[PrimitiveSolid],
-        offsets: Array,
-        margins: Array | None = None,
+        offsets: FloatArray,
+        margins: FloatArray | None = None,
     ) -> None:
         self.arm, self.spheres, self.objects, self._offsets = arm, spheres, list(objects), offsets
         self._margins = np.zeros(len(self.objects)) if margins is None else margins
@@ -231,14 +229,14 @@ class FormulaObjects:
         return nearest_kernel(self.arm, self.spheres)
 
     @cached_property
-    def _plain_blocks(self) -> Array:
+    def _plain_blocks(self) -> FloatArray:
         return self._pack_blocks(np.zeros(len(self.objects)))
 
     @cached_property
-    def _inflated_blocks(self) -> Array:
+    def _inflated_blocks(self) -> FloatArray:
         return self._pack_blocks(self._margins)
 
-    def _pack_blocks(self, inflation: Array) -> Array:
+    def _pack_blocks(self, inflation: FloatArray) -> FloatArray:
         """Pack the kernel inputs block by block, (B, BLOCK, 18 + L), with every object inflated by its entry of (F,), m."""
         far_object = np.concatenate(
             [np.zeros(OBJECT_PARAMETERS), np.full(self._links, FAR_AWAY_M)]
@@ -250,26 +248,26 @@ class FormulaObjects:
         rows += [far_object] * (-len(rows) % BLOCK_OBJECTS)
         return np.array(rows).reshape(-1, BLOCK_OBJECTS, len(far_object))
 
-    def _evaluate_blocks(self, kernel: Kernel, q: Array, blocks: Array, first: int | None = None) -> list[Array]:
+    def _evaluate_blocks(self, kernel: Kernel, q: FloatArray, blocks: FloatArray, first: int | None = None) -> list[FloatArray]:
         """Evaluate a kernel on each block, (N, outputs) each."""
         if len(q) == 1:  # one call: the blocks are its rows
             return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=first)[:, None])
         return [kernel.rows(q, block, first=first) for block in blocks]
 
-    def _smallest_distance(self, q: Array, blocks: Array) -> Array:
+    def _smallest_distance(self, q: FloatArray, blocks: FloatArray) -> FloatArray:
         if not (self.objects and self._links):
             return np.where(np.isfinite(q).all(axis=1), np.inf, np.nan)
         return reduce(np.minimum, [rows[:, 0] for rows in self._evaluate_blocks(self._distance_kernel, q, blocks, first=1)])
 
-    def smallest_distance(self, q: Array) -> Array:
+    def smallest_distance(self, q: FloatArray) -> FloatArray:
         """Return the least distance (N,), m; infinite without an object, NaN for rows (N, n) that are not finite."""
         return self._smallest_distance(q, self._plain_blocks)
 
-    def smallest_margin(self, q: Array) -> Array:
+    def smallest_margin(self, q: FloatArray) -> FloatArray:
         """Return the least distance above the margins (N,), m."""
         return self._smallest_distance(q, self._inflated_blocks)
 
-    def link_distances(self, q: Array) -> Array:
+    def link_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L, F) of the distance of every link from every object, m."""
         rows = [
             outputs[:, 1:].reshape(len(q), self._links, BLOCK_OBJECTS)
@@ -284,7 +282,7 @@ class FormulaObjects:
             single_kernel.inputs[self.arm.n :] = block.ravel()
         return kernels
 
-    def find_nearest(self, q: Array) -> tuple[Array, Indices, Indices, Array]:
+    def find_nearest(self, q: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
         """Return the least distance above the margins, m, the position of its link, its object, and the gradient (N, n).
 
         Args:

@@ -26,9 +26,7 @@ from holdfast.clearance.objects.end_links import EndLinks
 from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import SingleRowKernel
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,8 +43,8 @@ class NearestGap:
     pair: int
     distance: float
     margin: float
-    on_arm: Array
-    on_object: Array
+    on_arm: FloatArray
+    on_object: FloatArray
 
 
 class Obstacles:
@@ -73,19 +71,19 @@ class Obstacles:
     def __init__(self, arm: Arm, capsules: Capsules, cell: Cell) -> None:
         self.arm, self.capsules, self.cell = arm, capsules, cell
         self.spheres: SphereCover = make_sphere_cover(capsules)
-        self.links: Indices = np.unique(self.spheres.link[self.spheres.link > BASE_LINK])
+        self.links: IndexArray = np.unique(self.spheres.link[self.spheres.link > BASE_LINK])
         count = len(cell)
-        self.pairs: Indices = np.stack(
+        self.pairs: IndexArray = np.stack(
             [np.repeat(self.links, count), np.tile(np.arange(count, dtype=np.int64), len(self.links))], axis=1
         )
-        self._own_margins: Array = np.array([cell.margin_of(solid) for solid in cell])
-        self.margins: Array = np.tile(self._own_margins, len(self.links))
+        self._own_margins: FloatArray = np.array([cell.margin_of(solid) for solid in cell])
+        self.margins: FloatArray = np.tile(self._own_margins, len(self.links))
         names = [solid.name for solid in cell]
         self.names = [f"{link_name(arm, int(link))} & {names[index]}" for link, index in self.pairs]
-        self._formula_indices: Indices = np.array(
+        self._formula_indices: IndexArray = np.array(
             [index for index, solid_object in enumerate(cell) if isinstance(solid_object, PrimitiveSolid)], dtype=np.int64
         )
-        self._grid_indices: Indices = np.array(
+        self._grid_indices: IndexArray = np.array(
             [index for index, solid_object in enumerate(cell) if isinstance(solid_object, GriddedSolid)], dtype=np.int64
         )
         unsupported = next(
@@ -135,7 +133,7 @@ class Obstacles:
                     f"if it is mounted there, add may_touch: [[{solid.name}, base]]"
                 )
 
-    def distance_offsets(self, links: Indices, objects: Indices) -> Array:
+    def distance_offsets(self, links: IndexArray, objects: IndexArray) -> FloatArray:
         """Return (L, F) offsets of the distances of links from objects, m: pairs that may touch are far away."""
         return np.where(self.may_touch[np.ix_(links + 1, objects)], FAR_AWAY_M, 0.0)
 
@@ -168,7 +166,7 @@ class Obstacles:
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
-    def find_nearest(self, q: Array) -> tuple[Array, Indices, Array]:
+    def find_nearest(self, q: FloatArray) -> tuple[FloatArray, IndexArray, FloatArray]:
         """Return the smallest distance (N,) above the margin of its pair, m, the pair, and the gradient (N, n).
 
         Args:
@@ -195,14 +193,14 @@ class Obstacles:
         formulas = len(self._formula_indices) and len(self.links) and self._gridded_objects is None
         return self._formula_objects.single_blocks() if formulas else []
 
-    def smallest_margin(self, q: Array) -> Array:
+    def smallest_margin(self, q: FloatArray) -> FloatArray:
         """Return the least distance above the margin of its pair, (N,) m."""
         margin = self._formula_objects.smallest_margin(q)
         if self._gridded_objects is not None:
             margin = np.minimum(margin, self._gridded_objects.smallest_margin(q, self._own_margins[self._grid_indices]))
         return margin
 
-    def smallest_distance(self, q: Array) -> Array:
+    def smallest_distance(self, q: FloatArray) -> FloatArray:
         """Return the least distance (N,), m."""
         smallest = self._formula_objects.smallest_distance(q)
         return (
@@ -211,7 +209,7 @@ class Obstacles:
             else np.minimum(smallest, self._gridded_objects.smallest_margin(q, np.zeros(len(self._grid_indices))))
         )
 
-    def pair_distances(self, q: Array) -> Array:
+    def pair_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m where a pair may touch."""
         distances = np.empty((len(q), len(self.links), len(self.cell)))
         if len(self._formula_indices) and len(self.links):
@@ -220,7 +218,7 @@ class Obstacles:
             distances[:, :, self._grid_indices] = self._gridded_objects.link_distances(q)
         return distances.reshape(len(q), len(self.pairs))
 
-    def never_collision_free(self, poses: Array, margin: float) -> NDArray[np.bool_]:
+    def never_collision_free(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
         """Return (N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 respects a margin, m, beyond
         its own.
 
@@ -228,7 +226,7 @@ class Obstacles:
         """
         return self._end_links.are_too_close(poses, margin)
 
-    def find_nearest_gap(self, q: Array) -> NearestGap:
+    def find_nearest_gap(self, q: FloatArray) -> NearestGap:
         """Return the pair with the smallest margin at one configuration (n,)."""
         margin, pair, _ = (value[0] for value in self.find_nearest(q[None]))
         link, object_index = self.pairs[pair]
@@ -251,7 +249,7 @@ class Obstacles:
             on_object=center - distances[nearest_sphere] * outward,
         )
 
-    def lipschitz_bounds(self, low: Array, high: Array) -> Array:
+    def lipschitz_bounds(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Bound how much the distance of each pair changes per rad and m of each joint in a box, (L K, n).
 
         Args:

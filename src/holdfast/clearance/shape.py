@@ -16,8 +16,8 @@ from holdfast.caching import cached_property
 from holdfast.errors import ArmError
 from holdfast.shapes.pieces import Missing, Piece
 from holdfast.shapes.reading import read_pieces, unchecked_pairs
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 
 _CYLINDER_SIDES = 32  # of the prism that stands for a cylinder
@@ -40,7 +40,7 @@ class PieceHull:
     link: int
     owner: str
     name: str
-    vertices: Array
+    vertices: FloatArray
     faces: Triangles
     volume_error: float
 
@@ -141,7 +141,7 @@ def make_hull(piece: Piece) -> PieceHull:
     )
 
 
-def corner_points(piece: Piece, inside: bool = False) -> Array:
+def corner_points(piece: Piece, inside: bool = False) -> FloatArray:
     """Return points (V, 3) in the frame of the link whose hull contains the piece; with ``inside``, is contained in it.
 
     The hull is the piece itself for a box and a convex mesh.
@@ -150,7 +150,7 @@ def corner_points(piece: Piece, inside: bool = False) -> Array:
     return np.asarray(points @ piece.pose[:3, :3].T + piece.pose[:3, 3])
 
 
-def _primitive_corners(piece: Piece, inside: bool) -> Array:
+def _primitive_corners(piece: Piece, inside: bool) -> FloatArray:
     if piece.kind == "box":
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
         return np.asarray(signs * np.array(piece.size) / 2)
@@ -178,7 +178,7 @@ def _primitive_corners(piece: Piece, inside: bool) -> Array:
     return np.asarray(sphere_points * np.array(piece.size))
 
 
-def _mesh_volume(vertices: Array, faces: Triangles) -> float:
+def _mesh_volume(vertices: FloatArray, faces: Triangles) -> float:
     """Compute the volume of a closed mesh (Gauss); its orientation does not matter, and a mirrored mesh counts the same."""
     first, second, third = (vertices[faces[:, corner]] for corner in range(3))
     return abs(float(np.einsum("ij,ij->i", first, np.cross(second, third)).sum() / 6))

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 
     Ranges = dict[str | int, tuple[float, float]]
 
-REJECTED_EXIT_CODE, REFUTED_EXIT_CODE = 1, 4  # exit codes
+# REJECTED_EXIT_CODE and REFUTED_EXIT_CODE: exit codes
+REJECTED_EXIT_CODE = 1
+REFUTED_EXIT_CODE = 4
 
 LockOption = Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."]
 LimitOption = Annotated[list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again."]

@@ -178,7 +178,7 @@ class ClearanceOptions:
             raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
         arm = arm if self.meshes is None else with_meshes(arm, self.meshes)
         if self.capsules is not None or self.radius is not None:
-            shape = Capsules.along(arm, self.radius) if self.capsules is None else Capsules.load(self.capsules, arm)
+            shape = Capsules.along_links(arm, self.radius) if self.capsules is None else Capsules.load(self.capsules, arm)
             return chosen_clearance(arm, Clearance(arm, shape, itself=self.clearance is not False), self.cell)
         default_clearance = chosen_clearance(arm, self.clearance, self.cell, looks=chooses_configurations)
         if self.margin is not None and default_clearance is None:

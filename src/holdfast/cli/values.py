@@ -88,7 +88,7 @@ def check_joint_units(joints: Sequence[Joint], values: Sequence[float], option: 
     """
     unit = "degrees" if degrees else "radians, or degrees with --degrees"
     for joint, value in zip(joints, values, strict=True):
-        factor, unit_name = joint.shown if degrees else (1.0, joint.unit)
+        factor, unit_name = joint.display_unit if degrees else (1.0, joint.unit)
         bounded = np.isfinite(joint.upper - joint.lower)
         tolerance = 10 * (joint.upper - joint.lower) if joint.prismatic else 2 * np.pi
         lower, upper = (joint.lower, joint.upper) if bounded else (-2 * np.pi, 2 * np.pi)

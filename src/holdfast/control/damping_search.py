@@ -31,7 +31,9 @@ MIN_DAMPING = 1e-3  # damping where none is allowed, in the unit of the singular
 _JACOBI_SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # of Jacobi rotations, by m: to rounding (measured)
 _ORTHOGONAL_COSINE = 1e-13  # in C a cosine between two rows that is less is 0
 _CONVERGED_COSINE = 1e-8  # in C so are all of the next sweep, if those of this one were less
-_BISECTION_STEPS, _NEWTON_STEPS = 6, 4  # for the largest damping: to rounding (measured)
+# _BISECTION_STEPS and _NEWTON_STEPS: for the largest damping: to rounding (measured)
+_BISECTION_STEPS = 6
+_NEWTON_STEPS = 4
 _EDGE_FRACTION = 0.05  # of a cell: the next point keeps this far from its ends
 _SMOOTH_FRACTION = 0.02  # of a cell: tangents that meet this close to its middle belong to a parabola rather than to a kink
 _ROUNDING_BEND = 1e-11  # relative: the tangents of a cell across which PKE^2 bends by less meet at a place made of rounding

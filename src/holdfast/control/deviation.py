@@ -12,12 +12,9 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.kernels.program import SX
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 _STILL_SPEED = 1e-12  # of the commanded speed: slower has no direction
 
@@ -42,9 +39,9 @@ class Deviations:
         healthy_angle: (N,) angle without failure, rad.
     """
 
-    errors: Array
-    angles: Array
-    still: Flags
+    errors: FloatArray
+    angles: FloatArray
+    still: BoolArray
     healthy_error: Any
     healthy_angle: Any
 
@@ -90,7 +87,7 @@ def _compare_velocities(u: SX, w: SX) -> tuple[SX, SX, SX]:
     return ca.sqrt(ca.sumsqr(u - w)), angle, ca.if_else(is_still, 1.0, 0.0)
 
 
-def read_deviations(values: Array, n: int) -> Deviations:
+def read_deviations(values: FloatArray, n: int) -> Deviations:
     """Read the values of :func:`deviation_expression`, (3 n + 2,) or (N, 3 n + 2)."""
     return Deviations(
         errors=values[..., :n],

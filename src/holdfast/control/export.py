@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
@@ -24,9 +24,10 @@ from holdfast.kernels.recall import cached_json
 from holdfast.notice import reports_progress
 from holdfast.provenance import versions
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-TEST_CASES, MAX_TRIES = 5, 1000
+TEST_CASES = 5
+MAX_TRIES = 1000
 MAX_CONDITION_NUMBER = 100.0  # then a sine that differs in its last digit does not matter
 RATE_TOLERANCE = 1e-9  # of the largest rate
 
@@ -277,7 +278,7 @@ int main(void) {{
 """
 
 
-def _sample_cases(law: _Law, function: ca.Function) -> list[tuple[Array, Array, Array]]:
+def _sample_cases(law: _Law, function: ca.Function) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
     """Sample configurations away from singular ones, and commands, and return them with the rates that holdfast computes."""
     generator, test_cases = np.random.default_rng(0), []
     jacobian = ca.Function("jacobian", [q := kinematics.joint_symbols(law.arm)], [law.jacobian(q)])

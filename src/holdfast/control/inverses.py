@@ -7,19 +7,17 @@ from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_constructor
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, TaskSpec
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels.program import SX
 from holdfast.linalg import damped_least_norm
 from holdfast.registry import Parameter, constructor
-
-Array = NDArray[np.float64]
-TaskSpec = str | Task | Sequence[str]
+from holdfast.typing import FloatArray
 
 
 class Pseudoinverse(Law):
@@ -34,7 +32,7 @@ class Pseudoinverse(Law):
         """See :meth:`Law.inverse`."""
         return damped_least_norm(j, v, 0.0)
 
-    def quadratic(self) -> tuple[Array, float]:
+    def quadratic(self) -> tuple[FloatArray, float]:
         """See :meth:`Law.quadratic`."""
         return np.eye(self.arm.n), 0.0
 
@@ -74,7 +72,7 @@ class Weighted(Law):
         sparse_root = ca.sparsify(ca.SX(ca.DM(weight_root)))
         return sparse_root @ damped_least_norm(j @ sparse_root, v, 0.0)
 
-    def quadratic(self) -> tuple[Array, float]:
+    def quadratic(self) -> tuple[FloatArray, float]:
         """See :meth:`Law.quadratic`."""
         return np.asarray(np.linalg.inv(self.weights), dtype=np.float64), 0.0
 
@@ -124,7 +122,7 @@ class Damped(Law):
         """See :meth:`Law.damping`."""
         return self._fill_constant(q, v, self.fixed_damping)
 
-    def quadratic(self) -> tuple[Array, float]:
+    def quadratic(self) -> tuple[FloatArray, float]:
         """See :meth:`Law.quadratic`."""
         return np.eye(self.arm.n), self.fixed_damping**2
 
@@ -138,7 +136,7 @@ class Damped(Law):
         return f"{super().phrase()}, damping {self.fixed_damping:g}"
 
 
-def _one_to_n(arm: Arm, task: object) -> Array:
+def _one_to_n(arm: Arm, task: object) -> FloatArray:
     del task
     return np.arange(1.0, arm.n + 1)
 

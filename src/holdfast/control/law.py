@@ -16,7 +16,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm import kinematics
@@ -34,8 +34,7 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.kernels.step import Steppable
 from holdfast.registry import LAW_REGISTRY, Labelled
 from holdfast.result import Presentable
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class Law(Presentable, Labelled, Differentiable, Steppable):
@@ -90,7 +89,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         """Return the task Jacobian (m, n) that the law uses: linear rows divided by the task's characteristic length."""
         return self.task.jacobian(self.arm, q)
 
-    def scaled(self, v: SX) -> SX:
+    def scale_velocity(self, v: SX) -> SX:
         """Return a task velocity (m,) in m/s and rad/s with its linear rows divided by the task's characteristic length."""
         return ca.SX(ca.DM(self.task.scale(self.task.length))) @ v
 
@@ -108,14 +107,14 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
 
     def rates(self, q: SX, v: SX) -> SX:
         """Return the joint rates (n,) for q (n,) and a task velocity v (m,), m/s and rad/s."""
-        return self.inverse(self.jacobian(q), self.scaled(v))
+        return self.inverse(self.jacobian(q), self.scale_velocity(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
         """Return :meth:`rates`, and their derivatives (n, k) by symbols (k,) of which q and v are expressions."""
         rates = self.rates(q, v)
         return rates, ca.jacobian(rates, by)
 
-    def quadratic(self) -> tuple[Array, float] | None:
+    def quadratic(self) -> tuple[FloatArray, float] | None:
         """Return ``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v``, scaled rows; None for any other."""
         return None
 
@@ -152,7 +151,9 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
     def _deviation_kernel(self) -> Kernel:
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
         return Kernel(
-            f"{self.name}, deviations", [q, v, rates], [deviation.deviation_expression(self.jacobian(q), self.scaled(v), rates)]
+            f"{self.name}, deviations",
+            [q, v, rates],
+            [deviation.deviation_expression(self.jacobian(q), self.scale_velocity(v), rates)],
         )
 
     @cached_property
@@ -177,7 +178,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         return self._velocity_kernel, self.arm.n
 
     @check_arguments
-    def velocity(self, q: ArrayLike, v: ArrayLike) -> Array:
+    def velocity(self, q: ArrayLike, v: ArrayLike) -> FloatArray:
         """Compute the commanded joint rates.
 
         Args:
@@ -243,11 +244,11 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         """Return the angle between the healthy arm's velocity and the command, rad; a number or (N,)."""
         return self.deviations(q, v).healthy_angle
 
-    def velocity_errors(self, q: ArrayLike, v: ArrayLike) -> Array:
+    def velocity_errors(self, q: ArrayLike, v: ArrayLike) -> FloatArray:
         """Return the velocity error with each joint locked, for the unit velocity: (n,) or (N, n)."""
         return self.deviations(q, v).errors
 
-    def _evaluate_outputs(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, bool]:
+    def _evaluate_outputs(self, q: ArrayLike, v: ArrayLike) -> tuple[FloatArray, bool]:
         """Return all :meth:`outputs` in rows, and whether a single row was requested."""
         configurations, velocities, single = self._broadcast_rows(q, v)
         return self._velocity_kernel.rows(configurations, velocities), single
@@ -258,7 +259,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         values = np.where(is_finite, value, np.nan)
         return values[0] if single else values
 
-    def _broadcast_rows(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array, bool]:
+    def _broadcast_rows(self, q: ArrayLike, v: ArrayLike) -> tuple[FloatArray, FloatArray, bool]:
         configurations, velocities = self.arm.check_configurations(q), require_real_numbers(v, "the velocity")
         m = self.task.m
         if (
@@ -308,7 +309,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         limit_text = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
         return f"{self.phrase()}, gain {self.gain:g}/s{limit_text}"
 
-    def stored(self) -> dict[str, Any]:
+    def to_stored(self) -> dict[str, Any]:
         """Return all values that distinguish the law from other laws of the same arm, as JSON data.
 
         Raises:
@@ -318,7 +319,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         return {"law": LAW_REGISTRY.label(self), **limits, "task": self.task.to_dict()}
 
     def formerly(self, law: Any, task: Any = None) -> dict[str, Any] | None:
-        """Return the value that holdfast 0.1 stored in place of :meth:`stored`, or None if its six digits are not unique.
+        """Return the value that holdfast 0.1 stored in place of :meth:`to_stored`, or None if its six digits are not unique.
 
         Args:
             law: In place of its label.
@@ -332,7 +333,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         return f"<{self.describe()}, arm {self.arm.name!r}>"
 
 
-def _linear_selector(task: Task) -> Array:
+def _linear_selector(task: Task) -> FloatArray:
     """Return (3, m) the matrix from a task velocity to its linear velocity."""
     return np.asarray(task.rows[:, :3].T)
 

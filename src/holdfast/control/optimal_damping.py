@@ -12,15 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import check_constructor
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, TaskSpec
 from holdfast.control import damping_search
 from holdfast.control.c_functions import CFunction, write_c_functions
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels.program import SX
 from holdfast.registry import Parameter, constructor
-
-TaskSpec = str | Task | Sequence[str]
 
 
 @check_constructor
@@ -81,11 +79,11 @@ class FailureTolerant(Law):
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
         """Return ``rates`` (n,), ``damping``, ``largest_damping``, and ``feasible`` (1 or 0)."""
-        return self._choose_damping(self.jacobian(q), self.scaled(v))
+        return self._choose_damping(self.jacobian(q), self.scale_velocity(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
         """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
-        j, scaled = self.jacobian(q), self.scaled(v)
+        j, scaled = self.jacobian(q), self.scale_velocity(v)
         choice = self._choose_damping(j, scaled)
         return choice["rates"], damping_search.rate_derivatives(j, scaled, self.pre_failure_error, choice, by)
 
@@ -93,7 +91,7 @@ class FailureTolerant(Law):
         """See :meth:`Law.computed_in_c`."""
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         scaling_text = write_c_functions(
-            {"seen": CFunction({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scaled(v)]})}
+            {"seen": CFunction({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scale_velocity(v)]})}
         )
         output_arguments = "double *rates, double *damping, double *largest, double *feasible"
         return f"""{scaling_text}

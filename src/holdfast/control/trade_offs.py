@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
@@ -22,8 +22,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import cached_kernel
 from holdfast.notice import report_work
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _ALLOWED_ERRORS = tuple(round(0.05 * k, 2) for k in range(19))
 QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -44,17 +43,17 @@ class TradeOff(Result):
 
     arm: Arm
     task: Task
-    allowed: Array
-    gain: Array
-    healthy_error: Array
-    peak_error: Array
+    allowed: FloatArray
+    gain: FloatArray
+    healthy_error: FloatArray
+    peak_error: FloatArray
     seed: int = field(kw_only=True)
 
-    def quantiles(self, of: str = "gain", levels: Sequence[float] = QUANTILE_LEVELS) -> Array:
+    def quantiles(self, of: str = "gain", levels: Sequence[float] = QUANTILE_LEVELS) -> FloatArray:
         """Return (L, E) quantiles over the samples of ``gain``, ``healthy_error``, or ``peak_error``."""
         return np.asarray(np.quantile(getattr(self, of), levels, axis=0))
 
-    def median_interval(self, of: str = "gain", confidence: float = 0.95) -> Array:
+    def median_interval(self, of: str = "gain", confidence: float = 0.95) -> FloatArray:
         """Return (2, E) the distribution-free confidence interval of the medians over the samples, from order statistics."""
         from scipy import stats
 

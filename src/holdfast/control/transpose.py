@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import casadi as ca
 
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import TaskSpec
 from holdfast.control.law import Law
 from holdfast.kernels.program import SX
 from holdfast.registry import constructor
-
-TaskSpec = str | Task | Sequence[str]
 
 
 class JacobianTranspose(Law):

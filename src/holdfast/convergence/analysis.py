@@ -11,7 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.law import Law
 from holdfast.convergence.healthy_motion import compiled_healthy_paths
-from holdfast.convergence.measures import MEASURE_NAMES, Arcs, Flags, Index, Measures, is_in_arcs, mean_by_row, select_spaced
+from holdfast.convergence.measures import (
+    MEASURE_NAMES,
+    Arcs,
+    Index,
+    Measures,
+    is_in_arcs,
+    mean_by_row,
+    select_spaced,
+)
 from holdfast.convergence.places import Places, configurations_at, is_planar_position, pick_configurations, read_places
 from holdfast.convergence.slow_endings import is_near_attracting_solution
 from holdfast.engine.store import Column
@@ -20,8 +28,8 @@ from holdfast.errors import InputError, TaskError
 from holdfast.reach.bounds import joint_bounds
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Reason
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
 Method = Literal["brute", "procedure", "sampled"]
 RelativeTo = Literal["inside", "whole"]
 
@@ -32,7 +40,8 @@ HOPF_MARGIN_RAD = 0.02  # rad on either side of a Hopf point, where limit cycles
 SINK_MARGIN_RAD = 1e-3  # rad: locked angles this near to a sink or a degenerate angle are simulated too
 FAILURE_ENDS = ("converged", "stuck", "moving", "undecided", "arriving", "no_sink")  # the first four as Outcome has them
 FAILURE_END_TEXTS = (*FAILURE_ENDS[:4], "undecided next to the target", "not simulated (no sink)")
-END_ARRIVING, END_NO_SINK = 4, 5
+END_ARRIVING = 4
+END_NO_SINK = 5
 _REACH_VALUES = np.array([1.0, 0.0, 0.0, np.nan, 1.0, 1.0])
 
 
@@ -47,9 +56,9 @@ class StartConfigurations:
             method == "sampled",
             seed,
         )
-        self._cached_blocks: dict[tuple[int, int], tuple[Index, Array]] = {}
+        self._cached_blocks: dict[tuple[int, int], tuple[Index, FloatArray]] = {}
 
-    def find_block(self, first: int, stop: int) -> tuple[Index, Array]:
+    def find_block(self, first: int, stop: int) -> tuple[Index, FloatArray]:
         """Return the owners (R,), from 0, and the configurations (R, n) of the places from ``first`` up to ``stop``."""
         if (first, stop) not in self._cached_blocks:
             arm, task, poses = self._law.arm, self._law.task, self.places.poses[first:stop]
@@ -72,7 +81,7 @@ class TargetAnalysis:
     """One target, and the options with which the motions to it are analysed, those of :func:`holdfast.workspace`."""
 
     law: Law
-    pose: Array
+    pose: FloatArray
     bounds: tuple[tuple[tuple[float, float], ...], ...]
     configurations: int
     points: int
@@ -96,7 +105,7 @@ class TargetAnalysis:
         return {
             "kind": "workspace",
             "arm": self.law.arm.fingerprint,
-            **self.law.stored(),
+            **self.law.to_stored(),
             "target": self.pose.tolist(),
             "starts": places.poses[:, :3].tolist(),
             "configurations": self.configurations,
@@ -122,7 +131,7 @@ class TargetAnalysis:
             Column("ends", "int64", (("end", len(FAILURE_ENDS)),), units="1", about=", ".join(FAILURE_ENDS)),
         ]
 
-    def analyse(self, owner: Index, q0: Array, count: int) -> dict[str, NDArray[Any]]:
+    def analyse(self, owner: Index, q0: FloatArray, count: int) -> dict[str, NDArray[Any]]:
         """Analyse ``count`` starts, from configurations q0 (R, n) of the starts ``owner`` (R,), and return all results."""
         arm = self.law.arm
         paths = compiled_healthy_paths(self.law)
@@ -130,7 +139,7 @@ class TargetAnalysis:
         q = np.empty((self.cells, len(q0), arm.n))
         for cell, configurations in enumerate(paths.follow_cells(q0, target, self.cells)):
             q[cell] = configurations
-        is_finite: Flags = np.asarray(np.isfinite(q[-1]).all(axis=1))
+        is_finite: BoolArray = np.asarray(np.isfinite(q[-1]).all(axis=1))
         lost_counts = np.bincount(owner[~is_finite], minlength=count)
         tried_counts = np.bincount(owner, minlength=count)
         owner, q = owner[is_finite], q[:, is_finite]
@@ -140,11 +149,16 @@ class TargetAnalysis:
         fractions, ends = self._evaluate_failures(q, inside, owner, count)
         if self.relative_to == "whole":
             fractions = np.where(inside_fraction > 0, fractions * inside_fraction, 0.0 if self.points else np.nan)
-        measures = (*Measures.of(inside_fraction, owner, count).parts, *Measures.of(fractions, owner, count).parts)
+        measures = (
+            *Measures.from_fractions(inside_fraction, owner, count).parts,
+            *Measures.from_fractions(fractions, owner, count).parts,
+        )
         values: list[NDArray[Any]] = [*measures, tried_counts, lost_counts, ends]
         return dict(zip(self.names, values, strict=True))
 
-    def _evaluate_failures(self, q: Array, inside: Flags, owner: Index, starts: int) -> tuple[Array, NDArray[np.int64]]:
+    def _evaluate_failures(
+        self, q: FloatArray, inside: BoolArray, owner: Index, starts: int
+    ) -> tuple[FloatArray, NDArray[np.int64]]:
         """Return the fraction (R, n + 1) of the part inside from which the failed arm converges, and failure ends
         (starts, 6).
         """
@@ -186,7 +200,7 @@ class TargetAnalysis:
         fractions[:, n] = mean_by_row(np.where(has_failed, 0.0, reached_jointly.sum(axis=0) / n), shared_cells[0], row_count)
         return fractions, ends
 
-    def _simulate_failures(self, q: Array, joint: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _simulate_failures(self, q: FloatArray, joint: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return (N,) the ends of failures of joints (N,) at configurations (N, n), as indices of ``FAILURE_ENDS``."""
         failure_ends = np.full(len(q), END_NO_SINK)
         needs_run = np.ones(len(q), dtype=bool)
@@ -258,7 +272,7 @@ def prepare_analysis(
     )
 
 
-def _find_sinks(law: Law, pose: Array) -> dict[int, Arcs]:
+def _find_sinks(law: Law, pose: FloatArray) -> dict[int, Arcs]:
     """Return for each joint the locked values with a sink, and those near which motions may cycle or converge slowly."""
     sink_arcs: dict[int, Arcs] = {}
     for joint in range(law.arm.n):
@@ -272,7 +286,7 @@ def _find_sinks(law: Law, pose: Array) -> dict[int, Arcs]:
         hopf_arcs = [
             (value - HOPF_MARGIN_RAD, value + HOPF_MARGIN_RAD)
             for curve in curves.curves
-            for value in curve.locked[curve.hopf_points].tolist()
+            for value in curve.locked_values[curve.hopf_points].tolist()
         ]
         sink_arcs[joint] = [*curves.sink_arcs, *((value, value) for value in curves.degenerate_angles), *hopf_arcs]
     return sink_arcs

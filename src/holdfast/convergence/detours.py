@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.poses import check_poses
@@ -18,11 +17,11 @@ from holdfast.simulation.closed_loop import CYCLE_LIMIT, simulate
 from holdfast.simulation.runs import Reason
 from holdfast.simulation.system import prescribed_offset, scale_errors
 from holdfast.solvers.inverse_kinematics import task_error
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-REACH_TOLERANCE = 1e-3  # rad, and of the arm's own length: this near to the target counts as reached
-HORIZON_TIME_CONSTANTS, MOTION_SAMPLES = 40.0, 64  # 1/Ke; samples of a motion, closer to each other at its start
+ARRIVAL_TOLERANCE = 1e-3  # rad, and of the arm's own length: this near to the target counts as reached
+HORIZON_TIME_CONSTANTS = 40.0  # 1/Ke
+MOTION_SAMPLES = 64  # samples of a motion, closer to each other at its start
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,12 +36,12 @@ class HealthyCost:
         time: (N,) until the error is below that, s; in cycles, until the run ended. NaN: never.
     """
 
-    deviation: Array
-    angle: Array
-    time: Array
+    deviation: FloatArray
+    angle: FloatArray
+    time: FloatArray
 
 
-def measure_healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float) -> HealthyCost:
+def measure_healthy_cost(law: Law, q0: FloatArray, target: FloatArray, cycles: bool, radius: float) -> HealthyCost:
     """Simulate N motions, (N, n) to (N, 4, 4), of the healthy arm, sample by sample, and measure their cost.
 
     What is between two samples is not seen: 64 samples over 40/Ke, the first 0.01/Ke and the last 1.3/Ke apart.
@@ -64,11 +63,11 @@ def measure_healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radiu
         times.append(current_times)
     evaluate_errors = _ErrorEvaluator(law)
     errors, scaled_errors, offsets, angle = evaluate_errors(np.array(configurations), check_poses(target))
-    time, is_far = np.array(times), scaled_errors > REACH_TOLERANCE
+    time, is_far = np.array(times), scaled_errors > ARRIVAL_TOLERANCE
     return HealthyCost(
         deviation=_line_deviation(offsets),
         angle=np.where(is_far & np.isfinite(angle), angle, 0.0).max(axis=0),
-        time=_arrival_times(errors, time, radius) if cycles else _arrival_times(scaled_errors, time, REACH_TOLERANCE),
+        time=_arrival_times(errors, time, radius) if cycles else _arrival_times(scaled_errors, time, ARRIVAL_TOLERANCE),
     )
 
 
@@ -85,7 +84,7 @@ class _ErrorEvaluator:
         q, position, rotation = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         return Kernel("error of the task", [q, position, rotation], [task_error(arm, self._law.task, q, position, rotation)[0]])
 
-    def __call__(self, q: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
+    def __call__(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return errors (K, N), errors in the arm's own unit, remaining offsets (K, N, 3), and angles (K, N)."""
         samples, motion_count, n = q.shape
         configurations, targets = q.reshape(-1, n), np.tile(poses, (samples, 1, 1))
@@ -99,7 +98,7 @@ class _ErrorEvaluator:
         return error_norms.reshape(shape), scaled_errors.reshape(shape), offsets.reshape(*shape, 3), angle.reshape(shape)
 
 
-def _line_deviation(offsets: Array) -> Array:
+def _line_deviation(offsets: FloatArray) -> FloatArray:
     """Return (N,) the largest distance from the segment between the first point and the target, from remaining offsets (K, N,
     3).
     """
@@ -109,7 +108,7 @@ def _line_deviation(offsets: Array) -> Array:
     return np.asarray(np.linalg.norm(offsets - fraction[:, :, None] * first_offset, axis=2).max(axis=0))
 
 
-def _arrival_times(errors: Array, time: Array, tolerance: float) -> Array:
+def _arrival_times(errors: FloatArray, time: FloatArray, tolerance: float) -> FloatArray:
     """Return (N,) the times at which errors (K, N) fall below ``tolerance`` for good, exponential between samples."""
     inside = errors <= tolerance
     first_inside = np.where(

@@ -14,14 +14,12 @@ from functools import lru_cache
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.simulation.system import FailedArmSystem
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 STEP_TOLERANCE = 1e-7  # rad (and m): error of a step
 _MAX_HALVINGS = 12  # times at most: a start that needs more has met a singular configuration
@@ -51,7 +49,7 @@ class HealthyPaths:
             "healthy motion", [system.q, progress, step, system.target, system.rotation], [ca.vertcat(q, error_norm)]
         )
 
-    def follow_cells(self, q0: Array, poses: Array, count: int) -> Iterator[Array]:
+    def follow_cells(self, q0: FloatArray, poses: FloatArray, count: int) -> Iterator[FloatArray]:
         """Yield configurations (R, n) at the middle of each of ``count`` equal parts of the path from q0 (R, n) to poses (R, 4,
         4).
 
@@ -66,8 +64,14 @@ class HealthyPaths:
             yield q
 
     def _integrate_to(
-        self, q: Array, position: Array, rotation: Array, fraction: float, next_fraction: float, halvings_left: int
-    ) -> Array:
+        self,
+        q: FloatArray,
+        position: FloatArray,
+        rotation: FloatArray,
+        fraction: float,
+        next_fraction: float,
+        halvings_left: int,
+    ) -> FloatArray:
         step_inputs = np.full(len(q), fraction), np.full(len(q), next_fraction - fraction)
         outputs = self._step.rows(q, *step_inputs, position, rotation)
         configurations = outputs[:, :-1]

@@ -7,18 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.control.law import Law
-from holdfast.convergence.maps import ConvergenceMap, convergence_map, shared
+from holdfast.convergence.maps import ConvergenceMap, average_fraction, convergence_map
 from holdfast.convergence.places import Places
 from holdfast.errors import InputError
 from holdfast.notice import reports_progress
 from holdfast.probability.intervals import Difference, Interval, check_confidence
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,16 +51,16 @@ class LawChoice(Result):
             name: Of the law.
             joint: By name or index from 0; None: all alike.
             confidence: Of the interval.
-            outcome: Another one of :meth:`holdfast.ConvergenceMap.happened`; in a cell ``touched``: something is touched on the
-                way.
+            outcome: Another one of :meth:`holdfast.ConvergenceMap.has_outcome`; in a cell ``touched``: something is touched on
+                the way.
 
         Raises:
             InputError: No such law, joint or outcome.
         """
         check_confidence(confidence)
         law_map = self.map_of(name)
-        motion_count = int(law_map.known.sum(axis=1).max(initial=0)) * (law_map.law.arm.n if joint is None else 1)
-        return shared(self._fractions_by_place(name, joint, outcome), motion_count, confidence)
+        motion_count = int(law_map.has_configuration.sum(axis=1).max(initial=0)) * (law_map.law.arm.n if joint is None else 1)
+        return average_fraction(self._fractions_by_place(name, joint, outcome), motion_count, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
         """Return how much more often one law converges than another, on the same failures.
@@ -94,7 +93,8 @@ class LawChoice(Result):
         first_map, best = self.maps[0], self.best
         lines = [
             f"{len(self.names)} laws on {first_map.law.arm.title}, task {first_map.law.task.describe()}: the same "
-            f"{int(first_map.known.sum()) * first_map.law.arm.n} failures, {int(first_map.known.any(axis=1).sum())} "
+            f"{int(first_map.has_configuration.sum()) * first_map.law.arm.n} failures, "
+            f"{int(first_map.has_configuration.any(axis=1).sum())} "
             f"{first_map.over}"
         ]
         for name in self.ranking:
@@ -114,7 +114,7 @@ class LawChoice(Result):
             lines.append(line)
         return lines
 
-    def _fractions_by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> Array:
+    def _fractions_by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> FloatArray:
         law_map = self.map_of(name)
         values = law_map.values(outcome)[:, :-1]
         return values.mean(axis=1) if joint is None else values[:, law_map.law.arm.joint_index(joint)]

@@ -19,16 +19,16 @@ from holdfast.result import Result
 from holdfast.simulation.batch import CONVERGENCE_TOLERANCE
 from holdfast.simulation.errors import error_kinds
 from holdfast.simulation.runs import UNDECIDED_REASONS, RunOutcome, Runs
+from holdfast.typing import BoolArray, FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
     from holdfast.clearance.contacts import Contact
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 ErrorOf = Literal["error", "excess", "closest", "position_error", "angle_error"]
-HEALTHY_CASE, ANY_JOINT = "healthy", "any joint"
+HEALTHY_CASE = "healthy"
+ANY_JOINT = "any joint"
 QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
@@ -60,25 +60,25 @@ class Case:
     failure: str
     code: NDArray[np.uint8]
     reason: NDArray[np.uint8]
-    reachable: Flags
-    error: Array
-    position_error: Array
-    angle_error: Array
-    excess: Array
-    closest: Array
-    path_length: Array
-    path_ratio: Array
-    excursion: Array
-    past_limits: Flags
-    time: Array
+    reachable: BoolArray
+    error: FloatArray
+    position_error: FloatArray
+    angle_error: FloatArray
+    excess: FloatArray
+    closest: FloatArray
+    path_length: FloatArray
+    path_ratio: FloatArray
+    excursion: FloatArray
+    past_limits: BoolArray
+    time: FloatArray
     contacts: tuple[Contact | None, ...] | None = None
 
     @property
-    def touched(self) -> Flags:
+    def has_contact(self) -> BoolArray:
         """(N,) array that is True for runs with a contact on the way, as far as contacts were checked."""
         return np.array([contact is not None for contact in self.contacts or ()] or np.zeros(len(self.code)), dtype=bool)
 
-    def ended(self, outcome: str) -> Flags:
+    def has_outcome(self, outcome: str) -> BoolArray:
         """Return (N,) True for the runs that are ``converged``, ``stuck``, ``moving``, or ``undecided``.
 
         Raises:
@@ -95,10 +95,10 @@ class Case:
             outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
             among_reachable: Of the runs whose target is still within reach only.
         """
-        is_hit = self.ended(outcome)
+        is_hit = self.has_outcome(outcome)
         if among_reachable:
             is_hit = is_hit[self.reachable]
-        return Interval.of(int(is_hit.sum()), is_hit.size) if is_hit.size else None
+        return Interval.from_counts(int(is_hit.sum()), is_hit.size) if is_hit.size else None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -120,8 +120,8 @@ class LawComparison(Result):
     names: tuple[str, ...]
     failures: tuple[str, ...]
     runs: tuple[Runs, ...]
-    least_error: Array
-    way: Array
+    least_error: FloatArray
+    way: FloatArray
     healthy: tuple[HealthyCost, ...]
     about: str = field(default="", kw_only=True)
 
@@ -194,7 +194,7 @@ class LawComparison(Result):
             contacts=None if law_runs.contacts is None else law_runs.first_contacts[rows],
         )
 
-    def pooled(self, law: str, of: str) -> NDArray[Any]:
+    def pool_values(self, law: str, of: str) -> NDArray[Any]:
         """Return (K, N) the values of an attribute of :class:`holdfast.convergence.Case` for K locked joints.
 
         Raises:
@@ -210,14 +210,14 @@ class LawComparison(Result):
         The runs of one motion with different joints locked are not independent samples: the unit is the motion, and the
         interval that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
         """
-        return Interval.of_fractions((self.pooled(law, "code") == RunOutcome[outcome.upper()]).mean(axis=0))
+        return Interval.of_fractions((self.pool_values(law, "code") == RunOutcome[outcome.upper()]).mean(axis=0))
 
     def touched_any(self, law: str) -> Interval:
         """Return the fraction of the runs with a contact where each joint is equally likely to lock; as :meth:`share_any`.
 
         Distances are lower bounds, so it is at most so many.
         """
-        return Interval.of_fractions(self.pooled(law, "touched").mean(axis=0))
+        return Interval.of_fractions(self.pool_values(law, "touched").mean(axis=0))
 
     def gain(
         self,
@@ -284,7 +284,7 @@ class LawComparison(Result):
         """
         law_names = (self.names[0] if than is None else than, law)
         if failure == ANY_JOINT:
-            other_errors, law_errors = (self.pooled(law_name, of).mean(axis=0) for law_name in law_names)
+            other_errors, law_errors = (self.pool_values(law_name, of).mean(axis=0) for law_name in law_names)
         else:
             other_errors, law_errors = (getattr(self.case(law_name, failure), of) for law_name in law_names)
         difference = (law_errors - other_errors)[np.isfinite(law_errors - other_errors)]
@@ -292,7 +292,9 @@ class LawComparison(Result):
             raise InputError("a mean change takes two motions or more")
         return Difference.of_means(difference)
 
-    def cost(self, law: str, of: Literal["deviation", "angle", "time"], levels: Sequence[float] = QUANTILE_LEVELS) -> Array:
+    def cost(
+        self, law: str, of: Literal["deviation", "angle", "time"], levels: Sequence[float] = QUANTILE_LEVELS
+    ) -> FloatArray:
         """Return (L,) quantiles of the cost of a law for the healthy arm, over the motions that converge under every law.
 
         Args:
@@ -305,9 +307,9 @@ class LawComparison(Result):
         return np.quantile(values, levels) if values.size else np.full(len(levels), np.nan)
 
     @cached_property
-    def comparable(self) -> Flags:
+    def comparable(self) -> BoolArray:
         """(N,) array that is True for the motions that converge under every law without a failure."""
-        return np.asarray(np.all([self.case(name).ended("converged") for name in self.names], axis=0))
+        return np.asarray(np.all([self.case(name).has_outcome("converged") for name in self.names], axis=0))
 
     @cached_property
     def table(self) -> list[dict[str, Any]]:
@@ -332,7 +334,7 @@ class LawComparison(Result):
             row |= _interval_columns(name, case.share(name))
         row["reachable"] = float(case.reachable.mean())
         row |= _interval_columns("converged_reachable", case.share(among_reachable=True))
-        row["converged_within_limits"] = float((case.ended("converged") & ~case.past_limits).mean())
+        row["converged_within_limits"] = float((case.has_outcome("converged") & ~case.past_limits).mean())
         kinds = error_kinds(self.laws[0])
         has_one_kind = len(kinds) == 1
         for column, values in [
@@ -342,13 +344,13 @@ class LawComparison(Result):
             for level in QUANTILE_LEVELS:
                 row[f"{column}_{round(100 * level):02d}"] = _finite_quantile(values, level)
         for kind in kinds:
-            row[f"{kind.key}_astray"] = _finite_quantile(getattr(case, kind.name)[~case.ended("converged")], 0.5)
+            row[f"{kind.key}_astray"] = _finite_quantile(getattr(case, kind.name)[~case.has_outcome("converged")], 0.5)
         for column in (*["closest"] * has_one_kind, "path_ratio", "excursion"):
             row[column] = _finite_quantile(getattr(case, column), 0.5)
         row["past_limits"] = float(case.past_limits.mean())
         if case.contacts is not None:
-            row |= _interval_columns("touched", Interval.of(int(case.touched.sum()), len(self)))
-            row["converged_clear"] = float((case.ended("converged") & ~case.touched).mean())
+            row |= _interval_columns("touched", Interval.from_counts(int(case.has_contact.sum()), len(self)))
+            row["converged_clear"] = float((case.has_outcome("converged") & ~case.has_contact).mean())
         return row
 
     def reasons(self, law: str) -> dict[str, int]:
@@ -376,12 +378,12 @@ def rest_error(law: Law) -> float:
     return CONVERGENCE_TOLERANCE if law.task.angular else CONVERGENCE_TOLERANCE * law.arm.length_unit
 
 
-def _has_converged(case: Case, is_generous: bool) -> Flags:
+def _has_converged(case: Case, is_generous: bool) -> BoolArray:
     """Return (N,) True for the runs that converged, and if generous also for those that may still converge."""
-    return case.ended("converged") | (is_generous & case.ended("undecided") & case.reachable)
+    return case.has_outcome("converged") | (is_generous & case.has_outcome("undecided") & case.reachable)
 
 
-def _finite_quantile(values: Array, level: float) -> float | None:
+def _finite_quantile(values: FloatArray, level: float) -> float | None:
     finite = values[np.isfinite(values)]
     return float(np.quantile(finite, level)) if finite.size else None
 

@@ -22,19 +22,19 @@ from holdfast.result import Result
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import UNDECIDED_REASONS, Reason, RunOutcome
 from holdfast.solvers.inverse_kinematics import solver
+from holdfast.typing import BoolArray, FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Over = Literal["starts", "targets"]
 Progress = Callable[[int, int], None]
 
 TIME_CONSTANTS = 500.0  # 1/Ke
 RUN_TOLERANCE = 1e-8
 NO_CONFIGURATION = 255  # no configuration was found there
-REACH_RESTARTS, REACH_TOLERANCE = 20, 1e-4  # starts that look for the target with the joint locked; m and rad
+REACH_RESTARTS = 20  # starts that look for the target with the joint locked
+REACH_TOLERANCE = 1e-4  # m and rad
 _SLICE_RUNS = 1 << 16  # runs side by side; no result depends on it
 _BY_LOCK = ("code", "reason", "in_reach", "limits_passed")
 _OUTCOME_BY_NAME = {o.name.lower(): o for o in RunOutcome}
@@ -64,15 +64,15 @@ class ConvergenceMap(Result):
     law: Law
     places: Places
     over: Over
-    q0: Array
-    target: Array
+    q0: FloatArray
+    target: FloatArray
     code: NDArray[np.uint8]
     reason: NDArray[np.uint8]
-    in_reach: Flags
-    limits_passed: Flags
+    in_reach: BoolArray
+    limits_passed: BoolArray
     seed: int
     clearance: Clearance | None = None
-    touched: Flags | None = None
+    touched: BoolArray | None = None
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -81,19 +81,19 @@ class ConvergenceMap(Result):
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Words that :meth:`happened` accepts: ``converged`` and so on."""
+        """Words that :meth:`has_outcome` accepts: ``converged`` and so on."""
         return (*_OUTCOME_BY_NAME, "in_reach", "trapped", *(() if self.touched is None else ("touched",)))
 
     @property
-    def known(self) -> Flags:
+    def has_configuration(self) -> BoolArray:
         """(P, C) array that is True where there was a configuration to start from."""
         return np.asarray(self.code[..., 0] != NO_CONFIGURATION)
 
-    def happened(self, outcome: str) -> Flags:
+    def has_outcome(self, outcome: str) -> BoolArray:
         """Return (P, C, n + 1) True where a run ended so.
 
         Args:
-            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; ``in_reach``: it converged, or could have;
+            outcome: ``converged``, ``stuck``, ``moving`` or ``count_undecided``; ``in_reach``: it converged, or could have;
                 ``trapped``: it did not converge although the target was in reach; or, where somebody looked, ``touched``.
 
         Raises:
@@ -102,29 +102,33 @@ class ConvergenceMap(Result):
         if outcome == "touched" and self.touched is not None:
             return self.touched
         if outcome == "trapped":
-            return np.asarray(self.known[..., None] & (self.code != RunOutcome.CONVERGED) & self.in_reach)
+            return np.asarray(self.has_configuration[..., None] & (self.code != RunOutcome.CONVERGED) & self.in_reach)
         if outcome == "in_reach":
             return self.in_reach
         if outcome not in _OUTCOME_BY_NAME:
             raise InputError(f"outcome '{outcome}' is not known; use {', '.join(self.words)}")
         return np.asarray(self.code == _OUTCOME_BY_NAME[outcome])
 
-    def values(self, outcome: str = "converged") -> Array:
+    def values(self, outcome: str = "converged") -> FloatArray:
         """Return (P, n + 1) the fraction of the motions of each place that ended so; NaN where there are none."""
-        motion_counts = self.known.sum(axis=1)
+        motion_counts = self.has_configuration.sum(axis=1)
         with np.errstate(invalid="ignore"):
-            return np.asarray(self.happened(outcome).sum(axis=1) / np.where(motion_counts > 0, motion_counts, np.nan)[:, None])
+            return np.asarray(
+                self.has_outcome(outcome).sum(axis=1) / np.where(motion_counts > 0, motion_counts, np.nan)[:, None]
+            )
 
     def shares(self, outcome: str = "converged", confidence: float = 0.95) -> dict[str, Interval]:
         """Return the fraction of the places' motions that ended so, for each locked joint by name and for ``none``.
 
         Every place counts alike. The motions of one place resemble each other, so the unit is the place: with one motion each
-        the interval is that of a share (:meth:`holdfast.probability.Interval.of`), with several that of a mean of fractions
-        (:meth:`holdfast.probability.Interval.of_fractions`). Both always cover, for places that are a random sample.
+        the interval is that of a share (:meth:`holdfast.probability.Interval.from_counts`), with several that of a mean of
+        fractions (:meth:`holdfast.probability.Interval.of_fractions`). Both always cover, for places that are a random sample.
         """
         check_confidence(confidence)
-        values, motions_per_place = self.values(outcome), int(self.known.sum(axis=1).max(initial=0))
-        return {name: shared(values[:, column], motions_per_place, confidence) for column, name in enumerate(self.columns)}
+        values, motions_per_place = self.values(outcome), int(self.has_configuration.sum(axis=1).max(initial=0))
+        return {
+            name: average_fraction(values[:, column], motions_per_place, confidence) for column, name in enumerate(self.columns)
+        }
 
     def to_xarray(self) -> xr.Dataset:
         """Return the start, the target, and the outcome with each joint locked of each motion from or to each place."""
@@ -136,9 +140,10 @@ class ConvergenceMap(Result):
 
     def describe(self) -> list[str]:
         """Return the outcomes of the motions in a few sentences."""
-        runs = int(self.known.sum())
+        runs = int(self.has_configuration.sum())
         lines = [
-            f"{self.law.describe()} on {self.law.arm.title}: {int(self.known.any(axis=1).sum())} of {len(self.places)} "
+            f"{self.law.describe()} on {self.law.arm.title}: {int(self.has_configuration.any(axis=1).sum())} of "
+            f"{len(self.places)} "
             f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         if runs:
@@ -149,18 +154,18 @@ class ConvergenceMap(Result):
                 f"with {worst_joint} locked fewest converge: {100 * worst.value:.1f} % (95 % interval {100 * worst.low:.1f} to "
                 f"{100 * worst.high:.1f} %); {100 * trapped[worst_joint].value:.1f} % do not, though the target is in reach"
             )
-        counts = self.undecided()
+        counts = self.count_undecided()
         if sum(counts.values()):
             count_text = ", ".join(f"{count} {worst_joint.replace('_', ' ')}" for worst_joint, count in counts.items() if count)
             lines.append(f"undecided runs: {count_text}")
         return lines
 
-    def undecided(self) -> dict[str, int]:
+    def count_undecided(self) -> dict[str, int]:
         """Return the number of undecided runs, by the name of the :class:`holdfast.simulation.Reason` in lower case."""
         return {cause.name.lower(): int((self.reason == cause).sum()) for cause in UNDECIDED_REASONS}
 
 
-def shared(values: Array, motions_per_place: int, confidence: float) -> Interval:
+def average_fraction(values: FloatArray, motions_per_place: int, confidence: float) -> Interval:
     """Return the mean of the fractions (P,) of independent places, NaN excluded, with its interval; of one or several motions
     each.
 
@@ -171,7 +176,7 @@ def shared(values: Array, motions_per_place: int, confidence: float) -> Interval
     if not values.size:
         raise InputError("no configuration was found at any place, so there are no shares; choose places within reach")
     if motions_per_place == 1:
-        return Interval.of(int(values.sum()), values.size, confidence)
+        return Interval.from_counts(int(values.sum()), values.size, confidence)
     return Interval.of_fractions(values, confidence)
 
 
@@ -272,7 +277,7 @@ def convergence_map(
     )
 
 
-def _pick_configurations(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> Array:
+def _pick_configurations(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> FloatArray:
     """Return (P, count, n) configurations of places, NaN where there are none."""
     q = np.full((len(places), count, law.arm.n), np.nan)
     owner, rank, configurations = pick_configurations(law.arm, law.task, places.poses, count, seed, generator)
@@ -282,14 +287,14 @@ def _pick_configurations(law: Law, places: Places, count: int, seed: int, genera
 
 def _simulate_motions(
     law: Law,
-    q: Array,
-    target: Array,
+    q: FloatArray,
+    target: FloatArray,
     time_limit: float | None,
     tolerance: float,
     seed: int,
     progress: Progress | None,
     clearance: Clearance | None,
-) -> tuple[NDArray[np.uint8], NDArray[np.uint8], Flags, Flags, Flags]:
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], BoolArray, BoolArray, BoolArray]:
     """Return codes, reasons, and whether the target was in reach, limits were passed, and contacts occurred, (P, C, n + 1)
     each.
     """
@@ -324,7 +329,9 @@ def _simulate_motions(
     return results[0], results[1], results[2], results[3], results[4]
 
 
-def _is_in_reach(law: Law, code: NDArray[np.uint8], q: Array, pose: Array, locked: NDArray[np.int64], seed: int) -> Flags:
+def _is_in_reach(
+    law: Law, code: NDArray[np.uint8], q: FloatArray, pose: FloatArray, locked: NDArray[np.int64], seed: int
+) -> BoolArray:
     """Return (N,) True where the target was reached, or a configuration on it is found with the joint locked."""
     is_found = np.asarray(code == RunOutcome.CONVERGED)
     engine = solver(law.arm.without_idle_limits, law.task)

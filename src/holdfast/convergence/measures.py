@@ -11,14 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
+
 Index = NDArray[np.intp]
 
 ARC_TOLERANCE_RAD = 1e-9  # rad: this far outside an arc still counts as inside
 Arcs = Sequence[tuple[float, float]]
 
-REACH_NAMES, FINISH_NAMES = ("R100", "Ravg", "Rsens"), ("F100", "Favg", "Fsens")
+REACH_NAMES = ("R100", "Ravg", "Rsens")
+FINISH_NAMES = ("F100", "Favg", "Fsens")
 MEASURE_NAMES = (*REACH_NAMES, *FINISH_NAMES)
 
 
@@ -32,17 +33,17 @@ class Measures:
         spread: (P, ...) greatest minus least: Rsens, Fsens.
     """
 
-    full: Array
-    average: Array
-    spread: Array
+    full: FloatArray
+    average: FloatArray
+    spread: FloatArray
 
     @property
-    def parts(self) -> tuple[Array, Array, Array]:
+    def parts(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Full, average and spread: in the order of the names ``REACH_NAMES`` and ``FINISH_NAMES``."""
         return self.full, self.average, self.spread
 
     @classmethod
-    def of(cls, shares: Array, owner: Index, starts: int) -> Measures:
+    def from_fractions(cls, shares: FloatArray, owner: Index, starts: int) -> Measures:
         """Compute the measures from fractions (R, k) of the motions of starts ``owner`` (R,); NaN fractions are left out."""
         full, average, spread = (np.full((starts, shares.shape[1]), np.nan) for _ in range(3))
         for column_index, column in enumerate(shares.T):
@@ -60,7 +61,7 @@ class Measures:
         return cls(full, average, spread)
 
 
-def is_in_arcs(values: Array, arcs: Arcs, is_revolute: bool) -> Flags:
+def is_in_arcs(values: FloatArray, arcs: Arcs, is_revolute: bool) -> BoolArray:
     """Return True where values lie in one of the arcs (lower, upper); modulo 2 pi for a revolute joint."""
     inside = np.zeros(values.shape, dtype=bool)
     for lower, upper in arcs:
@@ -73,7 +74,7 @@ def is_in_arcs(values: Array, arcs: Arcs, is_revolute: bool) -> Flags:
     return inside
 
 
-def select_spaced(flags: Flags, count: NDArray[np.int64]) -> tuple[Index, Index]:
+def select_spaced(flags: BoolArray, count: NDArray[np.int64]) -> tuple[Index, Index]:
     """Select ``count`` (R,) equally spaced cells of those flagged in each row (K, R): rows and cells, each pair once."""
     passed = np.cumsum(flags, axis=0)
     total = passed[-1]
@@ -89,7 +90,7 @@ def select_spaced(flags: Flags, count: NDArray[np.int64]) -> tuple[Index, Index]
     return np.asarray(pairs // len(flags)), np.asarray(pairs % len(flags))
 
 
-def mean_by_row(values: Array, row: Index, rows: int) -> Array:
+def mean_by_row(values: FloatArray, row: Index, rows: int) -> FloatArray:
     """Return (R,) the mean of the values of each row that are not NaN; NaN where there is none."""
     is_known = ~np.isnan(values)
     count = np.bincount(row[is_known], minlength=rows)

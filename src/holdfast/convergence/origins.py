@@ -34,11 +34,11 @@ from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.registry import LAW_REGISTRY
 from holdfast.result import Result
 from holdfast.simulation.runs import RunOutcome
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 LATTICE_DEFAULTS: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
@@ -67,7 +67,7 @@ class Workspace(Result):
     """
 
     law: Law
-    target: Array
+    target: FloatArray
     places: Places
     bounds: tuple[tuple[tuple[float, float], ...], ...]
     method: Method
@@ -84,33 +84,35 @@ class Workspace(Result):
         return (*self.law.arm.joint_names, "any")
 
     @property
-    def measures(self) -> dict[str, Array]:
+    def measures(self) -> dict[str, FloatArray]:
         """R100, Ravg, Rsens, F100, Favg and Fsens by name, (P, n + 1) each, percent."""
         return dict(zip(MEASURE_NAMES, (*self.reach.parts, *self.finish.parts), strict=True))
 
     @property
-    def simulated(self) -> int:
+    def simulated_count(self) -> int:
         """Number of failures that were simulated."""
         return int(self.ends[:, :END_NO_SINK].sum())
 
     @property
-    def undecided(self) -> float:
+    def undecided_fraction(self) -> float:
         """Fraction of the simulated failures that were undecided at the time limit; NaN if there is none."""
         return (
-            float(self.ends[:, [RunOutcome.UNDECIDED, END_ARRIVING]].sum() / self.simulated) if self.simulated else float("nan")
+            float(self.ends[:, [RunOutcome.UNDECIDED, END_ARRIVING]].sum() / self.simulated_count)
+            if self.simulated_count
+            else float("nan")
         )
 
     @property
-    def saved(self) -> float:
+    def skipped_fraction(self) -> float:
         """Fraction of the failures that did not have to be simulated, because the joint locked where there is no sink."""
         total = int(self.ends.sum())
         return float(self.ends[:, END_NO_SINK].sum() / total) if total else float("nan")
 
-    def means(self) -> dict[str, Array]:
+    def means(self) -> dict[str, FloatArray]:
         """Return the mean of every measure over the starts that have it, (n + 1,) each, percent."""
         return {name: mean_over(values, 0) for name, values in self.measures.items()}
 
-    def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+    def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
         """Return the intervals of the means for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
 
         The unit is the start: configurations and failures of one start are alike, and however many there are, they only
@@ -137,7 +139,7 @@ class Workspace(Result):
         hit_counts = (values >= 100 - 1e-9).sum(axis=0).tolist()
         no_interval = Interval(value=np.nan, low=np.nan, high=np.nan, confidence=confidence)
         return tuple(
-            Interval.of(hit_count, count, confidence) if count else no_interval
+            Interval.from_counts(hit_count, count, confidence) if count else no_interval
             for hit_count, count in zip(hit_counts, known_counts, strict=True)
         )
 
@@ -160,16 +162,17 @@ class Workspace(Result):
         end_counts = dict(zip(FAILURE_ENDS, self.ends.sum(axis=0).tolist(), strict=True))
         if self.ends.sum():
             end_text = ", ".join(f"{end_counts[name]} {name}" for name in FAILURE_ENDS[:3])
-            fraction_text = f" ({100 * self.undecided:.2f} %)" if self.simulated else ""
+            fraction_text = f" ({100 * self.undecided_fraction:.2f} %)" if self.simulated_count else ""
             lines.append(
-                f"{self.simulated} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
+                f"{self.simulated_count} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
                 f"undecided at the time "
                 f"limit{fraction_text}, of which {end_counts['arriving']} next to a solution that attracts, counted "
                 f"as converged"
             )
         if self.method == "procedure":
             lines.append(
-                f"{end_counts['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked away from "
+                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint "
+                f"locked away from "
                 f"every sink, "
                 "which makes convergence very likely but does not prove it"
             )
@@ -314,7 +317,7 @@ def analyse_target(
     )
 
 
-def mean_intervals(values: Array, confidence: float) -> Array:
+def mean_intervals(values: FloatArray, confidence: float) -> FloatArray:
     """Return (C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
     bounds = np.full((values.shape[1], 2), np.nan)
     for index, column in enumerate(values.T):
@@ -324,7 +327,7 @@ def mean_intervals(values: Array, confidence: float) -> Array:
     return bounds
 
 
-def mean_over(values: Array, axis: int) -> Array:
+def mean_over(values: FloatArray, axis: int) -> FloatArray:
     """Return the mean along an axis of the values that are not NaN; NaN where there is none."""
     is_known = ~np.isnan(values)
     count = is_known.sum(axis=axis)

@@ -18,17 +18,19 @@ from holdfast.solvers import joint_space
 from holdfast.solvers.curve_tracing import CURVE_TOLERANCE, Component
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.solvers.self_motions import fibres
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from holdfast.solvers.self_motions import SelfMotion
 
-Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 LATTICE_POINTS = 52  # points along an edge: 2032 inside the circle
-_CURVE_SPACING_RAD, _SEED_STARTS = 0.1, 48  # of traced self-motions, rad, and starts of inverse kinematics for each place
+# _CURVE_SPACING_RAD and _SEED_STARTS: of traced self-motions, rad, and starts of inverse kinematics for each place
+_CURVE_SPACING_RAD = 0.1
+_SEED_STARTS = 48
 _TRIES_PER_CONFIGURATION = 8  # random starts of inverse kinematics for each configuration that is wanted
 
 
@@ -42,15 +44,15 @@ class Places:
         axes: Coordinates (C,) of the columns and rows of the lattice along the task's two rows, m; None likewise.
     """
 
-    poses: Array
+    poses: FloatArray
     cells: Index | None = None
-    axes: tuple[Array, Array] | None = None
+    axes: tuple[FloatArray, FloatArray] | None = None
 
     def __len__(self) -> int:
         return len(self.poses)
 
     @property
-    def points(self) -> Array:
+    def points(self) -> FloatArray:
         """(P, 3) tool points in the world, m."""
         return self.poses[:, :3, 3]
 
@@ -136,7 +138,7 @@ def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, gen
     return Places(poses)
 
 
-def _make_poses(points: Array) -> Array:
+def _make_poses(points: FloatArray) -> FloatArray:
     poses = np.tile(np.eye(4), (len(points), 1, 1))
     poses[:, :3, 3] = points
     return poses
@@ -145,7 +147,7 @@ def _make_poses(points: Array) -> Array:
 # ---- configurations there ----------------------------------------------------------------------------------------
 
 
-def configurations_at(arm: Arm, task: Task, places: Array, *, count: int, seed: int) -> tuple[Index, Array]:
+def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, seed: int) -> tuple[Index, FloatArray]:
     """Return configurations of places (P, 4, 4): the place of each (R,), and the configurations (R, n), in order of places.
 
     With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
@@ -191,14 +193,14 @@ def configurations_at(arm: Arm, task: Task, places: Array, *, count: int, seed: 
     return owner[order], joint_space.wrap_joints(arm, solutions[order])
 
 
-def sample_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, Array]:
+def sample_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, FloatArray]:
     """Return points at the middle of ``count`` equal parts of each curve: the motion of each (R,), and the points (R, n)."""
     owner = [number for number, motion in enumerate(motions) for _ in motion.components]
     points = [_space_evenly(arm, component, count) for motion in motions for component in motion.components]
     return np.repeat(np.array(owner, dtype=np.intp), count), np.concatenate([np.empty((0, arm.n)), *points])
 
 
-def _space_evenly(arm: Arm, curve: Component, count: int) -> Array:
+def _space_evenly(arm: Arm, curve: Component, count: int) -> FloatArray:
     q = curve.q
     if curve.closed:
         q = np.concatenate([q, q[-1:] + joint_space.joint_difference(arm, q[:1], q[-1:])])
@@ -208,8 +210,8 @@ def _space_evenly(arm: Arm, curve: Component, count: int) -> Array:
 
 
 def pick_configurations(
-    arm: Arm, task: Task, places: Array, count: int, seed: int, generator: np.random.Generator
-) -> tuple[Index, Index, Array]:
+    arm: Arm, task: Task, places: FloatArray, count: int, seed: int, generator: np.random.Generator
+) -> tuple[Index, Index, FloatArray]:
     """Pick at random at most ``count`` configurations of each of the places (P, 4, 4) from :func:`configurations_at`.
 
     Returns:

@@ -15,8 +15,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec, single_joints
 from holdfast.solvers.inverse_kinematics import solver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _BLOCK_MOTIONS = 256  # motions drawn at a time: the first ones of a seed do not depend on how many are asked for
 _MAX_BLOCKS = 400  # blocks without enough motions before giving up
@@ -37,10 +36,10 @@ class PointToPoint:
     """
 
     arm: Arm
-    q0: Array
-    target: Array
+    q0: FloatArray
+    target: FloatArray
     _: KW_ONLY
-    q_target: Array
+    q_target: FloatArray
     drawn: int
     constraints: str
 
@@ -48,7 +47,7 @@ class PointToPoint:
         return len(self.q0)
 
     @property
-    def distance(self) -> Array:
+    def distance(self) -> FloatArray:
         """(N,) distances from the tool at the start to the tool at the target, m."""
         start_points = self.arm.forward_kinematics(self.q0)[:, :3, 3]
         return np.asarray(np.linalg.norm(self.target[:, :3, 3] - start_points, axis=1))

@@ -23,8 +23,7 @@ from holdfast.notice import report_work
 from holdfast.simulation.closed_loop import DEFAULT_TOLERANCE, TARGET_RADIUS_M, simulate
 from holdfast.simulation.runs import RunOutcome, Runs
 from holdfast.simulation.system import prescribed_offset
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_arguments
@@ -139,7 +138,7 @@ def _index_by_label(laws: Sequence[Law]) -> dict[str, Law]:
     return law_by_label
 
 
-def _to_poses(law: Law, targets: Array) -> Array:
+def _to_poses(law: Law, targets: FloatArray) -> FloatArray:
     """Return targets as tool poses (N, 4, 4); the orientation of targets given as task components does not matter."""
     if targets.shape[-2:] == (4, 4):
         return check_poses(targets)
@@ -148,7 +147,7 @@ def _to_poses(law: Law, targets: Array) -> Array:
     return poses
 
 
-def _find_least_errors(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> Array:
+def _find_least_errors(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> FloatArray:
     """Return (F N,) least errors over all laws, which share them because joints are locked where they started."""
     least_errors = np.full(len(runs[0]), np.inf)
     for law_runs in runs:

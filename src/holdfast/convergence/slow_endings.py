@@ -16,15 +16,13 @@ from numpy.typing import NDArray
 from holdfast.control.law import Law
 from holdfast.equilibria.solutions import SolutionSearch
 from holdfast.equilibria.stability import linearisation
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 SOLUTION_DISTANCE = 0.1  # rad (and m): how far the solution may be
 MIN_DECAY_RATE = 1e-9  # 1/Ke: slower than this is not told from rest
 
 
-def is_near_attracting_solution(law: Law, q: Array, pose: Array, joint: NDArray[np.int64]) -> Flags:
+def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint: NDArray[np.int64]) -> BoolArray:
     """Return (N,) True where a run at q (N, n) is next to a solution that attracts, with ``joint`` (N,) locked.
 
     The solution is found by damped least squares over the healthy joints from q, and must be within 0.1 rad; all eigenvalues

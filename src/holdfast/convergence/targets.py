@@ -25,15 +25,16 @@ from holdfast.convergence.places import Places, read_places
 from holdfast.notice import reports_progress
 from holdfast.probability.intervals import check_confidence
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 LATTICE_DEFAULTS: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
 SAMPLE_DEFAULTS: tuple[str | int, int] = (50, 4)  # and where they are sampled
-DEFAULT_STARTS, DEFAULT_POINTS = 20, 2
+DEFAULT_STARTS = 20
+DEFAULT_POINTS = 2
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -53,20 +54,20 @@ class TargetMeasures(Result):
     law: Law
     targets: Places
     starts: Places
-    values: dict[str, Array]
+    values: dict[str, FloatArray]
     configurations: NDArray[np.int64]
     ends: NDArray[np.int64]
 
     @property
-    def measures(self) -> dict[str, Array]:
+    def measures(self) -> dict[str, FloatArray]:
         """Mean of each measure for each target over the starts that have it, (T, n + 1) each, percent."""
         return {name: mean_over(columns, 1) for name, columns in self.values.items()}
 
-    def means(self) -> dict[str, Array]:
+    def means(self) -> dict[str, FloatArray]:
         """Return the mean of every measure over the targets that have it, (n + 1,) each, percent."""
         return {name: mean_over(columns, 0) for name, columns in self.measures.items()}
 
-    def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+    def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
         """Return the intervals of :meth:`means` for targets that are a random sample: (n + 1, 2) each, percent, for these very
         starts.
 
@@ -75,7 +76,7 @@ class TargetMeasures(Result):
         check_confidence(confidence)
         return {name: mean_intervals(columns, confidence) for name, columns in self.measures.items()}
 
-    def target_intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+    def target_intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
         """Return intervals of the ``measures`` of each target for starts that are a random sample: (T, n + 1, 2) each, percent.
 
         The unit is the start, as in :meth:`holdfast.Workspace.intervals`.

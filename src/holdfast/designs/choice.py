@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from holdfast.typing import FloatArray
 from holdfast.words import format_number, format_percent
-
-Array = NDArray[np.float64]
 
 SAME_VALUE_TOLERANCE = (
     1e-3  # of the greatest value: guarantees so near to one another print alike, and fresh poses hardly tell them apart
@@ -17,7 +15,7 @@ _ACCEPTABLE_LOSS = 0.05  # of the guarantee: what somebody might give up for rea
 _WORTHWHILE_GAIN = 0.02  # of the reach: what somebody might give it up for
 
 
-def choose_best_design(guaranteed: Array, reach: Array) -> int:
+def choose_best_design(guaranteed: FloatArray, reach: FloatArray) -> int:
     """Return the number of the design with the greatest guaranteed value (D,), or of the farthest-reaching one of several
     within 0.1 % of it.
 
@@ -30,7 +28,7 @@ def choose_best_design(guaranteed: Array, reach: Array) -> int:
     return int(candidates[np.lexsort((guaranteed[candidates], reach[candidates]))[-1]]) if guaranteed.max() > _ZERO_INDEX else 0
 
 
-def describe_farther_design(guaranteed: Array, reach: Array, best: int) -> str:
+def describe_farther_design(guaranteed: FloatArray, reach: FloatArray, best: int) -> str:
     """Describe the design that reaches farthest for a little less than the best guarantee; the text is empty if
     there is none.
     """

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -27,13 +27,14 @@ from holdfast.notice import reports_progress
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.registry import LAW_REGISTRY
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 Aim = Literal["guaranteed", "converged"]
 
 RING_COUNT = 40
-DEFAULT_TARGETS, FAILURES_PER_JOINT = 12, 2  # of a sampled search; each failure is one of every joint
+DEFAULT_TARGETS = 12  # of a sampled search
+FAILURES_PER_JOINT = 2  # each failure is one of every joint
 _CHUNK_DESIGNS = 16  # designs that are looked at, and remembered, together
 _CHECK_TARGET_FACTOR = 8  # times as many targets in the check of a sampled search
 
@@ -62,15 +63,15 @@ class ConvergenceDesigns(Result):
 
     law: Law
     space: DesignSpace
-    values: Array
-    measures: dict[str, Array]
+    values: FloatArray
+    measures: dict[str, FloatArray]
     objective: Aim
     exact: bool
     best: int
     checked: tuple[Interval, Interval, Difference] | None
     searched: dict[str, Any] = field(default_factory=dict)
     _rest: PlanarStationarySets | None = field(repr=False, default=None)
-    _rings: Array | None = field(repr=False, default=None)
+    _rings: FloatArray | None = field(repr=False, default=None)
 
     def arm(self, design: int | None = None) -> Arm:
         """Return the arm of a design, by default the best one, without inertial data."""
@@ -206,7 +207,7 @@ def _make_planar_rest(law: Law, space: DesignSpace) -> PlanarStationarySets:
     return planar_rest
 
 
-def _make_ring_radii(planar_rest: PlanarStationarySets, targets: ArrayLike | int | None) -> Array:
+def _make_ring_radii(planar_rest: PlanarStationarySets, targets: ArrayLike | int | None) -> FloatArray:
     distances = np.asarray([0.0, planar_rest.lengths.sum()] if targets is None else targets, dtype=np.float64)
     if distances.shape != (2,) or not np.isfinite(distances).all() or not 0 <= distances[0] < distances[1]:
         raise InputError(
@@ -216,7 +217,7 @@ def _make_ring_radii(planar_rest: PlanarStationarySets, targets: ArrayLike | int
     return np.asarray(np.linspace(float(distances[0]), float(distances[1]), RING_COUNT + 1))
 
 
-def _make_link_lengths(planar_rest: PlanarStationarySets, space: DesignSpace, values: Array) -> Array:
+def _make_link_lengths(planar_rest: PlanarStationarySets, space: DesignSpace, values: FloatArray) -> FloatArray:
     lengths = np.tile(planar_rest.lengths, (len(values), 1))
     lengths[:, [int(name[1:]) - 1 for name in space.names]] = values
     return lengths
@@ -225,14 +226,14 @@ def _make_link_lengths(planar_rest: PlanarStationarySets, space: DesignSpace, va
 def _search_exactly(
     planar_rest: PlanarStationarySets,
     bounds: DesignBounds,
-    radii: Array,
+    radii: FloatArray,
     objective: Aim,
     designs: int,
     local_searches: int,
     seed: int,
     progress: Progress | None,
 ) -> ConvergenceDesigns:
-    def measure_designs(values: Array) -> dict[str, Array]:
+    def measure_designs(values: FloatArray) -> dict[str, FloatArray]:
         return planar_measures(planar_rest.radial(_make_link_lengths(planar_rest, bounds.space, values), radii))
 
     priorities = ("guaranteed", "free", "converged") if objective == "guaranteed" else ("converged",)
@@ -254,7 +255,7 @@ def _search_exactly(
     )
 
 
-def planar_measures(radial: Radial) -> dict[str, Array]:
+def planar_measures(radial: Radial) -> dict[str, FloatArray]:
     """Return the measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, weighted by the areas of the rings."""
     area = radial.area
     in_reach, stuck = ((area * x).sum(axis=2) for x in (radial.in_reach, radial.stuck))
@@ -268,7 +269,7 @@ def planar_measures(radial: Radial) -> dict[str, Array]:
     }
 
 
-def _choose_best(measures: dict[str, Array], priorities: tuple[str, ...]) -> int:
+def _choose_best(measures: dict[str, FloatArray], priorities: tuple[str, ...]) -> int:
     # Of measures that differ by less than 0.1 % the next one decides.
     keys = [np.round(measures[name], 3) for name in priorities[:-1]] + [measures[priorities[-1]]]
     return int(np.lexsort([-key for key in reversed(keys)])[0])
@@ -287,7 +288,7 @@ def _search_by_sampling(
 ) -> ConvergenceDesigns:
     if store is not None:
         LAW_REGISTRY.label(law)  # says so where there is none
-    design_law = LawOfDesigns(law, DesignJoints.of(bounds.space))
+    design_law = LawOfDesigns(law, DesignJoints.from_space(bounds.space))
     search_seed, check_seed = np.random.SeedSequence(seed).spawn(2)
     requested = DEFAULT_TARGETS if targets is None else targets
     search_targets = read_places(law.arm, law.task, requested, np.random.default_rng(search_seed))
@@ -304,13 +305,13 @@ def _search_by_sampling(
     def recall_part(name: str, make: Callable[[], Parts]) -> Parts:
         return make() if memory is None else memory.recall_or_compute(name, make)
 
-    def evaluate_chunk(values: Array) -> Parts:
+    def evaluate_chunk(values: FloatArray) -> Parts:
         outcomes = trials.simulate_designs(values)
         with np.errstate(invalid="ignore"):
             free_fraction = outcomes.converged.sum(axis=(1, 2, 3)) / (outcomes.known.sum(axis=(1, 2)) * law.arm.n)
         return {"free": free_fraction, "arrival": outcomes.mean_fraction, "reached": outcomes.reached_fraction}
 
-    def measure_designs(values: Array) -> dict[str, Array]:
+    def measure_designs(values: FloatArray) -> dict[str, FloatArray]:
         # What a design is worth does not depend on its company, so that a stopped search loses little.
         chunks = [values[start : start + _CHUNK_DESIGNS] for start in range(0, len(values), _CHUNK_DESIGNS)]
         results = [recall_part(f"designs {next(part_numbers)}", lambda c=c: evaluate_chunk(c)) for c in chunks]  # type: ignore[misc]
@@ -345,7 +346,7 @@ def _make_search_plan(law: Law, space: DesignSpace, options: dict[str, Any]) -> 
     return {
         "kind": "design for convergence",
         "arm": to_dict(law.arm),
-        **law.stored(),
+        **law.to_stored(),
         "vary": [parameter.option_text for parameter in space.parameters],
         **options,
     }

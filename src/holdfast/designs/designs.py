@@ -17,9 +17,8 @@ from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 from holdfast.words import format_count, format_number, indefinite_article
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,9 @@ class HeldOutResult:
     guaranteed: Interval
 
     @classmethod
-    def of(cls, value: Array, reached: NDArray[Any], weights: Array, *, level: float, heaviest: float = 0.0) -> HeldOutResult:
+    def from_values(
+        cls, value: FloatArray, reached: NDArray[Any], weights: FloatArray, *, level: float, heaviest: float = 0.0
+    ) -> HeldOutResult:
         """Return the distribution on held-out poses, and its quantile with the order statistics that enclose it.
 
         Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
@@ -53,7 +54,7 @@ class HeldOutResult:
 
         is_reached = reached.astype(bool)
         if weights.size:
-            distribution = Distribution.of(
+            distribution = Distribution.from_values(
                 value[is_reached],
                 "larger",
                 int((~is_reached).sum()),
@@ -62,7 +63,7 @@ class HeldOutResult:
                 heaviest=heaviest,
             )
         else:
-            distribution = Distribution.of(value[is_reached], "larger", int((~is_reached).sum()))
+            distribution = Distribution.from_values(value[is_reached], "larger", int((~is_reached).sum()))
         sample_count, fraction, confidence = int(distribution.effective() + 1e-9), 1 - level, 0.95
         end_fractions = (
             np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], sample_count, fraction)) / sample_count
@@ -114,10 +115,10 @@ class Designs(Result):
     """
 
     space: DesignSpace
-    values: Array
-    guaranteed: Array
-    reach: Array
-    reached: Array
+    values: FloatArray
+    guaranteed: FloatArray
+    reach: FloatArray
+    reached: FloatArray
     front: NDArray[np.intp]
     best: int
     checked: HeldOutCheck

@@ -16,8 +16,8 @@ from holdfast.arm.configurations import make_limits_finite
 from holdfast.designs.family import Family
 from holdfast.kernels.compiled import expect_rows
 from holdfast.solvers.optimum import FIRST_STEPS, INITIAL_RADIUS, LAST_STEPS, best_per_owner, default_starts
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 POSE_TOLERANCE = 1e-6  # of the pose, m and rad; of an arm that is shorter than 1 m as much less
@@ -26,8 +26,12 @@ _KEPT_CONFIGURATIONS = 2  # configurations of a design and pose that the next de
 _START_DIVISOR = 8  # of a design with neighbours: the given number of random starts by this, besides what the neighbours found
 _IK_RESTARTS = 24  # more starts of inverse kinematics where nothing was found
 _POOL_SIZE = 1 << 12
-_POSE_STRIDE, _START_STRIDE = 2654435761, 40503  # odd: each pose walks through the whole pool of starts
-_IK_ROWS, _ASCENT_ROWS = 500, 100  # steps for each design and pose (measured: 519 and 113)
+# _POSE_STRIDE and _START_STRIDE: odd: each pose walks through the whole pool of starts
+_POSE_STRIDE = 2654435761
+_START_STRIDE = 40503
+# _IK_ROWS and _ASCENT_ROWS: steps for each design and pose (measured: 519 and 113)
+_IK_ROWS = 500
+_ASCENT_ROWS = 100
 _BATCH_ROWS = 1 << 16  # starts side by side; no result depends on it
 
 
@@ -44,12 +48,12 @@ class Evaluated:
         kept: (D, P, K, n) configurations to begin from nearby, best first; NaN where there are fewer.
     """
 
-    values: Array
-    q: Array
-    value: Array
+    values: FloatArray
+    q: FloatArray
+    value: FloatArray
     reached: NDArray[np.bool_]
-    miss: Array
-    kept: Array
+    miss: FloatArray
+    kept: FloatArray
 
     def take(self, designs: Any) -> Evaluated:
         """Return some of the designs."""
@@ -61,7 +65,7 @@ class Evaluated:
         return Evaluated(**{name: np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__})
 
     @property
-    def signed_index(self) -> Array:
+    def signed_index(self) -> FloatArray:
         """(D, P) index; where the pose is not reached, minus the pose error of the end effector, one per m and rad.
 
         So that a search is drawn towards poses that a design does not reach yet.
@@ -82,14 +86,14 @@ class Evaluator:
         starts: Random starts of a design that has no neighbours, as :func:`holdfast.optimise` takes.
     """
 
-    def __init__(self, family: Family, poses: Array, seed: int = 0) -> None:
+    def __init__(self, family: Family, poses: FloatArray, seed: int = 0) -> None:
         self.family, self.poses = family, poses
         self.starts = default_starts(family.arm, family.task)
         self._tolerance = POSE_TOLERANCE * min(family.space.arm.length_unit, 1.0)
         self._targets = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
         self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(4,))).random((_POOL_SIZE, family.arm.n))
 
-    def __call__(self, values: Array, near: Evaluated | None = None, fresh: int | None = None) -> Evaluated:
+    def __call__(self, values: FloatArray, near: Evaluated | None = None, fresh: int | None = None) -> Evaluated:
         """Evaluate designs.
 
         Args:
@@ -129,7 +133,7 @@ class Evaluator:
             kept=np.empty((0, pose_count, _KEPT_CONFIGURATIONS, n)),
         )
 
-    def _search_near(self, values: Array, neighbours: Evaluated, random_count: int) -> Evaluated:
+    def _search_near(self, values: FloatArray, neighbours: Evaluated, random_count: int) -> Evaluated:
         space = self.family.space
         width = space.upper - space.lower
         distance = np.linalg.norm((values[:, None] - neighbours.values) / width, axis=2)
@@ -145,7 +149,7 @@ class Evaluator:
 
     # ---- configurations ----------------------------------------------------------------------------------------------
 
-    def _search_configurations(self, values: Array, given_starts: Array, random_count: int) -> Evaluated:
+    def _search_configurations(self, values: FloatArray, given_starts: FloatArray, random_count: int) -> Evaluated:
         """Find the best configurations from given starts (D, P, S, n), NaN where there is none, and from some random starts."""
         design_count, pose_count, n = len(values), len(self.poses), self.family.arm.n
         all_rows = np.arange(design_count * pose_count)
@@ -191,7 +195,7 @@ class Evaluator:
             kept=kept_q.reshape(*shape, _KEPT_CONFIGURATIONS, n),
         )
 
-    def _sample_starts(self, values: Array, owner: Index, start_number: Index) -> Array:
+    def _sample_starts(self, values: FloatArray, owner: Index, start_number: Index) -> FloatArray:
         """Return start ``start_number`` of each design and pose: a fraction of the joint ranges that depends on the
         pose alone.
         """
@@ -200,13 +204,13 @@ class Evaluator:
         fractions = self._pool[(pose * _POSE_STRIDE + start_number * _START_STRIDE) % _POOL_SIZE]
         return np.asarray(lower[design] + fractions * (upper - lower)[design])
 
-    def finite_limits(self, values: Array) -> tuple[Array, Array]:
+    def finite_limits(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return limits (D, n) to sample between; see ``holdfast.arm.configurations.finite_limits``."""
         return make_limits_finite(*self.family.limits(values), self.family.prismatic)
 
     def _solve_inverse_kinematics(
-        self, values: Array, owner: Index, q: Array, nearest: Array, pose_errors: Array
-    ) -> tuple[Index, Array]:
+        self, values: FloatArray, owner: Index, q: FloatArray, nearest: FloatArray, pose_errors: FloatArray
+    ) -> tuple[Index, FloatArray]:
         """Solve inverse kinematics from starts q (R, n) and return the converged ones; the nearest end of the others is
         recorded.
         """
@@ -220,7 +224,7 @@ class Evaluator:
         nearest[owner[best_rows]], pose_errors[owner[best_rows]] = run.state[best_rows], error_sizes[best_rows]
         return owner[run.done], run.state[run.done]
 
-    def _maximise_index(self, values: Array, owner: Index, q: Array) -> tuple[Index, Array, Array]:
+    def _maximise_index(self, values: FloatArray, owner: Index, q: FloatArray) -> tuple[Index, FloatArray, FloatArray]:
         """Move q along the poses to the best configurations; return the owners, configurations, and values of those still on
         their pose.
         """
@@ -237,7 +241,9 @@ class Evaluator:
         is_valid = self.on_pose(values, owner, q)
         return owner[is_valid], q[is_valid], self.value(values, owner[is_valid], q[is_valid])
 
-    def _ascend_index(self, values: Array, owner: Index, q: Array, steps: int, radius: Array) -> tuple[Array, Array]:
+    def _ascend_index(
+        self, values: FloatArray, owner: Index, q: FloatArray, steps: int, radius: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         n = self.family.arm.n
         design, pose = np.divmod(owner, len(self.poses))
         position, rotation, design_values = self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3), values[design]
@@ -253,12 +259,12 @@ class Evaluator:
 
     # ---- facts -------------------------------------------------------------------------------------------------------
 
-    def value(self, values: Array, owner: Index, q: Array) -> Array:
+    def value(self, values: FloatArray, owner: Index, q: FloatArray) -> FloatArray:
         """Return the index (R,) of rows ``owner`` (design times P plus pose) at q (R, n); 0 where the arm is singular."""
         index_values = self.family.value.rows(q, values[owner // len(self.poses)])
         return np.asarray(np.nan_to_num(index_values.min(axis=1), nan=0.0, posinf=0.0, neginf=0.0))
 
-    def on_pose(self, values: Array, owner: Index, q: Array) -> NDArray[np.bool_]:
+    def on_pose(self, values: FloatArray, owner: Index, q: FloatArray) -> NDArray[np.bool_]:
         """Return (R,) True where q is on its pose and within the limits of its design."""
         design, pose = np.divmod(owner, len(self.poses))
         lower, upper = self.family.limits(values)
@@ -267,7 +273,7 @@ class Evaluator:
         inside = ((q >= lower[design]) & (q <= upper[design])).all(axis=1)
         return np.asarray(inside & (errors <= self._tolerance).all(axis=1))
 
-    def rows(self, owner: Index, values: Array) -> tuple[Array, Array, Array]:
+    def rows(self, owner: Index, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return position (R, 3), rotation (R, 3, 3), and design (R, k) of rows."""
         design, pose = np.divmod(owner, len(self.poses))
         return self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3), values[design]

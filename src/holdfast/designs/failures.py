@@ -14,10 +14,11 @@ from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import RunOutcome
 from holdfast.simulation.system import scale_errors
 from holdfast.solvers import joint_space
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-RUN_TIME_CONSTANTS, RUN_TOLERANCE = 500.0, 1e-8  # of a run, as in a convergence map
+# RUN_TIME_CONSTANTS and RUN_TOLERANCE: of a run, as in a convergence map
+RUN_TIME_CONSTANTS = 500.0
+RUN_TOLERANCE = 1e-8
 CONVERGED_DISTANCE = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has converged
 _STARTS_PER_CONFIGURATION = 40  # random starts of inverse kinematics for each configuration that is wanted
 
@@ -38,12 +39,12 @@ class ConvergenceOutcomes:
     ends: NDArray[np.int64]
 
     @property
-    def reached_fraction(self) -> Array:
+    def reached_fraction(self) -> FloatArray:
         """(D,) fraction of the targets for which a configuration was found."""
         return np.asarray(self.known.any(axis=2).mean(axis=1))
 
     @property
-    def fraction_by_target(self) -> Array:
+    def fraction_by_target(self) -> FloatArray:
         """(D, T) fraction of the failures of a target after which it is still reached; NaN where it is out of reach."""
         count = self.known.sum(axis=2)
         with np.errstate(invalid="ignore"):
@@ -51,7 +52,7 @@ class ConvergenceOutcomes:
         return np.asarray(fractions)
 
     @property
-    def mean_fraction(self) -> Array:
+    def mean_fraction(self) -> FloatArray:
         """(D,) mean over the targets; targets out of reach count as 0."""
         return np.asarray(np.nan_to_num(self.fraction_by_target).mean(axis=1))
 
@@ -69,7 +70,7 @@ class FailureTrials:
         seed: Of the random numbers.
     """
 
-    def __init__(self, law: LawOfDesigns, poses: Array, count: int, seed: int) -> None:
+    def __init__(self, law: LawOfDesigns, poses: FloatArray, count: int, seed: int) -> None:
         self.law, self.poses, self.count = law, poses, count
         self._solutions = SolutionSearch(law)
         lower, upper = finite_limits(law.joints.arm)
@@ -77,7 +78,7 @@ class FailureTrials:
         self._guesses = generator.uniform(lower, upper, (len(poses), count * _STARTS_PER_CONFIGURATION, lower.size))
         self._starts = generator.uniform(lower, upper, (len(poses), count, lower.size, lower.size))
 
-    def simulate_designs(self, values: Array) -> ConvergenceOutcomes:
+    def simulate_designs(self, values: FloatArray) -> ConvergenceOutcomes:
         """Simulate the failures with designs (D, k)."""
         joints, poses = self.law.joints, self.poses
         n, shape = joints.arm.n, (len(values), len(poses), self.count)
@@ -106,7 +107,7 @@ class FailureTrials:
         np.add.at(outcome_counts, (design, np.where(has_converged, RunOutcome.CONVERGED, runs.code)), 1)
         return ConvergenceOutcomes(converged, is_known, outcome_counts)
 
-    def _find_target_configurations(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _find_target_configurations(self, values: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Return configurations (D, T, C, n) at the targets within the limits, and which of them (D, T, C) exist."""
         joints = self.law.joints
         arm, count = joints.arm, self.count

@@ -30,8 +30,7 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import factor_householder
 from holdfast.solvers.inverse_kinematics import damped_step, smooth_error, task_error
 from holdfast.solvers.optimum import ascent_step
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +94,7 @@ def make_symbolic_arm(space: DesignSpace, x: SX) -> SymbolicArm:
     return SymbolicArm(f"designs of {space.arm.name}", tuple(joints), base=table.base, tool=tool, limits=(lower, upper))
 
 
-def _make_tool_transform(tool: Array, open_symbols: dict[str, SX]) -> SX:
+def _make_tool_transform(tool: FloatArray, open_symbols: dict[str, SX]) -> SX:
     """Return the tool transform (4, 4) with symbols for the open ones of x, y, z, roll, pitch, and yaw."""
     from scipy.spatial.transform import Rotation
 
@@ -183,7 +182,7 @@ class Family:
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 
-    def limits(self, values: Array) -> tuple[Array, Array]:
+    def limits(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return lower and upper limits (D, n) of designs (D, k); infinite where there is none."""
         sides = []
         for kind, default in (("lower", -np.inf), ("upper", np.inf)):

@@ -21,13 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.designs.evaluation import Evaluated, Evaluator
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_NEWTON_STEPS = 10
+_DESIGN_NEWTON_STEPS = 10
 _DIFFERENCE_STEP = 1e-5  # rad or m: for second derivatives, which only say how fast Newton's method converges, not where to
-_MAX_JOINT_STEP = 0.1  # rad or m: largest change of a joint in one step
+_MAX_DESIGN_JOINT_STEP = 0.1  # rad or m: largest change of a joint in one step
 _PROGRAM_CURVATURE = 1e-2  # of the quadratic program: steps of this size are worth a change of the score by their slope
 _CONDITION_TOLERANCE = 1e-8  # what counts as 0 of the conditions
 
@@ -44,9 +44,9 @@ class Sensitivity:
             the configuration as it was given.
     """
 
-    q: Array
-    value: Array
-    gradient: Array
+    q: FloatArray
+    value: FloatArray
+    gradient: FloatArray
     exact: NDArray[np.bool_]
 
 
@@ -68,7 +68,7 @@ def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensit
     return Sensitivity(q=q, value=value, gradient=gradient, exact=exact)
 
 
-def _compute_limit_gradient(evaluator: Evaluator, force: Array) -> Array:
+def _compute_limit_gradient(evaluator: Evaluator, force: FloatArray) -> FloatArray:
     """Return the contribution of varied limits to a gradient, from the ``force`` (R, n) of joints at their limits."""
     contribution = np.zeros((len(force), len(evaluator.family.space.parameters)))
     for index, parameter in enumerate(evaluator.family.space.parameters):
@@ -83,22 +83,22 @@ def _compute_limit_gradient(evaluator: Evaluator, force: Array) -> Array:
 
 
 def _solve_missed_poses(
-    evaluator: Evaluator, values: Array, owner: Index, q: Array
-) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+    evaluator: Evaluator, values: FloatArray, owner: Index, q: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
     """Return minus the pose error and its gradient, at the nearest configuration, by Newton's method within the limits."""
     family = evaluator.family
     position, rotation, design_values = evaluator.rows(owner, values)
     lower, upper = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
     m, n = family.task.m, family.arm.n
 
-    def evaluate_pull(q: Array) -> tuple[Array, Array, Array]:
+    def evaluate_pull(q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the error (R, m), its force on the joints (R, n), and the derivative of half its square by the design."""
         outputs = np.nan_to_num(family.misses.rows(q, position, rotation, design_values))
         return outputs[:, :m], outputs[:, m : m + n], outputs[:, m + n :]
 
     error, pull, by_design = evaluate_pull(q)
-    trust = np.full(len(q), _MAX_JOINT_STEP)
-    for _ in range(_NEWTON_STEPS):
+    trust = np.full(len(q), _MAX_DESIGN_JOINT_STEP)
+    for _ in range(_DESIGN_NEWTON_STEPS):
         is_blocked = ((q <= lower) & (pull < 0)) | ((q >= upper) & (pull > 0))
         curvature = np.stack(
             [
@@ -136,8 +136,8 @@ def _solve_missed_poses(
 
 
 def _solve_reached_poses(
-    evaluator: Evaluator, values: Array, owner: Index, q: Array
-) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+    evaluator: Evaluator, values: FloatArray, owner: Index, q: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
     family = evaluator.family
     position, rotation, design_values = evaluator.rows(owner, values)
     lower, upper = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
@@ -160,10 +160,10 @@ def _solve_reached_poses(
 class _OptimumPoint:
     """Configurations with multipliers of the failures, of the pose, and of the limits (above 0 at an upper limit)."""
 
-    q: Array
-    failures: Array
-    pose: Array
-    force: Array
+    q: FloatArray
+    failures: FloatArray
+    pose: FloatArray
+    force: FloatArray
 
     def replace_rows(self, is_chosen: NDArray[np.bool_], other: _OptimumPoint) -> _OptimumPoint:
         """Return the point with the rows of another point where ``is_chosen`` is true."""
@@ -180,7 +180,13 @@ class _OptimumConditions:
     """Optimality conditions of R rows, side by side."""
 
     def __init__(
-        self, evaluator: Evaluator, position: Array, rotation: Array, design_values: Array, lower: Array, upper: Array
+        self,
+        evaluator: Evaluator,
+        position: FloatArray,
+        rotation: FloatArray,
+        design_values: FloatArray,
+        lower: FloatArray,
+        upper: FloatArray,
     ) -> None:
         self._family, self._position, self._rotation, self._design_values, self._lower, self._upper = (
             evaluator.family,
@@ -192,16 +198,16 @@ class _OptimumConditions:
         )
         self._n, self._m = evaluator.family.arm.n, evaluator.family.task.m
 
-    def _evaluate_conditions(self, q: Array) -> tuple[Array, Array, Array, Array]:
+    def _evaluate_conditions(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return scores (R, F), their gradients (R, F, n), the pose error (R, m), and its Jacobian (R, m, n)."""
         scores, gradients, error, jacobian = self._family.conditions(q, self._position, self._rotation, self._design_values)
         return scores, gradients.reshape(len(q), -1, self._n), error.reshape(len(q), -1), jacobian.reshape(len(q), -1, self._n)
 
-    def evaluate_index(self, point: _OptimumPoint) -> Array:
+    def evaluate_index(self, point: _OptimumPoint) -> FloatArray:
         """Return the index (R,)."""
         return np.asarray(self.evaluate_derivatives(point)[:, 0])
 
-    def evaluate_derivatives(self, point: _OptimumPoint) -> Array:
+    def evaluate_derivatives(self, point: _OptimumPoint) -> FloatArray:
         """Return (R, 2 + k): the index, its derivative by the score, and that of the Lagrangian by the design
         without limits.
         """
@@ -210,7 +216,7 @@ class _OptimumConditions:
             family.by_design.rows(point.q, self._position, self._rotation, self._design_values, point.failures, point.pose)
         )
 
-    def guess_multipliers(self, q: Array) -> _OptimumPoint:
+    def guess_multipliers(self, q: FloatArray) -> _OptimumPoint:
         """Return multipliers at nearly optimal configurations, by a small quadratic program for each."""
         scores, gradients, _, jacobian = self._evaluate_conditions(q)
         null_space = compute_null_spaces(jacobian)
@@ -227,7 +233,9 @@ class _OptimumConditions:
         return _OptimumPoint(q, failures, self._solve_pose_multipliers(gradients, jacobian, failures, force), force)
 
     @staticmethod
-    def _solve_pose_multipliers(gradients: Array, jacobian: Array, failures: Array, force: Array) -> Array:
+    def _solve_pose_multipliers(
+        gradients: FloatArray, jacobian: FloatArray, failures: FloatArray, force: FloatArray
+    ) -> FloatArray:
         """Return the pose multipliers of the balance ``slopes' failures - J' mu - force = 0``, by least squares."""
         pull = np.einsum("rfi,rf->ri", gradients, failures) - force
         inverse = np.linalg.pinv(np.nan_to_num(jacobian))
@@ -244,7 +252,7 @@ class _OptimumConditions:
         f = failures.shape[1]
         exact = np.zeros(len(q), dtype=bool)
         pose = start.pose
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_DESIGN_NEWTON_STEPS):
             scores, gradients, error, jacobian = (np.nan_to_num(a) for a in self._evaluate_conditions(q))
             null_space = compute_null_spaces(jacobian)
             r = null_space.shape[2]
@@ -291,7 +299,7 @@ class _OptimumConditions:
             step = np.linalg.solve(a, b[:, :, None])[:, :, 0]
             step = np.where(np.isfinite(step), step, 0.0)
             move = correction + np.einsum("ric,rc->ri", null_space, step[:, :r])
-            shrink = np.minimum(1.0, _MAX_JOINT_STEP / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
+            shrink = np.minimum(1.0, _MAX_DESIGN_JOINT_STEP / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
             move = move * shrink
             is_open = ~exact[:, None]
             failures = np.where(is_open, step[:, r + 1 : r + 1 + f], failures)
@@ -316,7 +324,7 @@ class _OptimumConditions:
         _, gradients, _, jacobian = (np.nan_to_num(a) for a in self._evaluate_conditions(q))
         return _OptimumPoint(q, failures, self._solve_pose_multipliers(gradients, jacobian, failures, force), force), exact
 
-    def _compute_curvature(self, q: Array, null_space: Array, failures: Array, pose: Array) -> Array:
+    def _compute_curvature(self, q: FloatArray, null_space: FloatArray, failures: FloatArray, pose: FloatArray) -> FloatArray:
         """Return the second derivative (R, r, r) of the Lagrangian along the null space, by differences of its
         exact gradient.
         """
@@ -333,13 +341,15 @@ class _OptimumConditions:
         return np.asarray((curvature + curvature.swapaxes(1, 2)) / 2)
 
 
-def compute_null_spaces(jacobian: Array) -> Array:
+def compute_null_spaces(jacobian: FloatArray) -> FloatArray:
     """Return orthonormal null-space bases (R, n, n - m) of Jacobians (R, m, n) of full rank."""
     m = jacobian.shape[1]
     return np.asarray(np.linalg.svd(np.nan_to_num(jacobian))[2][:, m:].swapaxes(1, 2))
 
 
-def solve_multiplier_program(gap: Array, along: Array, null_space: Array, above: Array, below: Array) -> tuple[Array, Array]:
+def solve_multiplier_program(
+    gap: FloatArray, along: FloatArray, null_space: FloatArray, above: FloatArray, below: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Return the multipliers of ``max t - |z|^2 / (2 c)`` subject to ``gap_k + along_k z >= t`` and ``-below <= null_space z <=
     above``.
 

@@ -20,8 +20,7 @@ from holdfast.control.law import Law
 from holdfast.designs.space import DesignSpace
 from holdfast.errors import InputError
 from holdfast.kernels.program import SX
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _X_AXIS, _Y_AXIS, _Z_AXIS = np.eye(3)
 
@@ -44,7 +43,7 @@ class DesignJoints:
     varied: NDArray[np.intp]
 
     @classmethod
-    def of(cls, space: DesignSpace) -> DesignJoints:
+    def from_space(cls, space: DesignSpace) -> DesignJoints:
         """Insert a joint for each parameter.
 
         Raises:
@@ -77,7 +76,7 @@ class DesignJoints:
         """Baseline arm."""
         return self.space.arm
 
-    def configurations(self, values: Array, q: Array) -> Array:
+    def configurations(self, values: FloatArray, q: FloatArray) -> FloatArray:
         """Return configurations (N, n + k) of the whole arm, for designs (k,) or (N, k) and configurations (n,) or (N, n) of
         the baseline arm.
         """
@@ -87,7 +86,7 @@ class DesignJoints:
         return combined
 
     @cached_property
-    def mask(self) -> Array:
+    def mask(self) -> FloatArray:
         """(n + k,) 1 for the arm's own joints, 0 for those of the design."""
         values = np.zeros(self.whole.n)
         values[self.moving] = 1.0
@@ -115,7 +114,7 @@ class LawOfDesigns(Law):
         return ca.SX(ca.DM(np.eye(self.arm.n)[:, self.joints.moving])) @ rates
 
 
-def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, Array, bool, float, Joint | None]]:
+def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, FloatArray, bool, float, Joint | None]]:
     """Yield name, axis, whether it is prismatic, value, and the arm's own joint if it is one, of every step from the base to
     the tool.
     """
@@ -135,7 +134,7 @@ def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, Array, bool, float
         yield f"tool.{name}", axis, False, float(value), None
 
 
-def _make_transform(axis: Array, is_prismatic: bool, value: float) -> Array:
+def _make_transform(axis: FloatArray, is_prismatic: bool, value: float) -> FloatArray:
     from scipy.spatial.transform import Rotation
 
     transform = np.eye(4)

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from holdfast.designs.space import DesignSpace
 from holdfast.errors import InputError
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-MeasureFunction = Callable[[Array], dict[str, Array]]
+MeasureFunction = Callable[[FloatArray], dict[str, FloatArray]]
 
-_FIRST_STEP, _LAST_STEP = 1 / 8, 1 / 128  # steps of the pattern search, of the width of the bounds
+# _FIRST_STEP and _LAST_STEP: steps of the pattern search, of the width of the bounds
+_FIRST_STEP = 1 / 8
+_LAST_STEP = 1 / 128
 _BOUND_TOLERANCE = 1e-9
 _MAX_DRAW_FACTOR = 64  # times as many drawn as wanted, at most, where the sum is kept
 
@@ -54,13 +56,13 @@ class DesignBounds:
         """(k,) True for parameters that are link lengths."""
         return np.array([parameter.kind == "a" for parameter in self.space.parameters])
 
-    def contains(self, values: Array) -> NDArray[np.bool_]:
+    def contains(self, values: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) whether designs (N, k) are within the bounds."""
         return np.asarray(
             ((values >= self.space.lower - _BOUND_TOLERANCE) & (values <= self.space.upper + _BOUND_TOLERANCE)).all(axis=1)
         )
 
-    def sample_designs(self, count: int, seed: int) -> Array:
+    def sample_designs(self, count: int, seed: int) -> FloatArray:
         """Return designs (count, k) of a scrambled Sobol sequence; with a fixed sum the last length follows from the others."""
         from scipy.stats import qmc
 
@@ -77,7 +79,7 @@ class DesignBounds:
                 break
         return designs
 
-    def equalise_lengths(self, values: Array) -> Array:
+    def equalise_lengths(self, values: FloatArray) -> FloatArray:
         """Return designs (M, k) with two lengths of designs (N, k) replaced by their mean, for every pair, if within the
         bounds.
         """
@@ -89,7 +91,7 @@ class DesignBounds:
         designs = np.concatenate(equalised)
         return designs[self.contains(designs)]
 
-    def list_directions(self) -> Array:
+    def list_directions(self) -> FloatArray:
         """Return the directions (M, k) of the pattern search: one number up or down, or two together or against each other."""
         dimension = self.size
         directions = [] if self.length_sum is not None else [sign * unit for unit in np.eye(dimension) for sign in (1, -1)]
@@ -116,7 +118,7 @@ def search_patterns(
     local_searches: int,
     seed: int,
     progress: Callable[[int, int], None] | None = None,
-) -> tuple[Array, dict[str, Array]]:
+) -> tuple[FloatArray, dict[str, FloatArray]]:
     """Screen designs, then improve the best of them by pattern search.
 
     Args:

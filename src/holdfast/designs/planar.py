@@ -22,7 +22,6 @@ from itertools import pairwise
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.dh import DH
@@ -35,16 +34,15 @@ from holdfast.equilibria.stability import ZERO_BAND
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 from holdfast.reach.closed_form import ThreeLinks
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 FULL_TURN_RAD = 2 * np.pi
 _MIN_INTERVAL_FRACTION = 1e-7  # of the reach: intervals of radii shorter than this are rounding
 ANGLE_COUNT = 120  # values of the angle that is run through, in half a turn
 _CHUNK_DESIGNS = 16  # designs analysed together
 # Of each locked joint: the angle that is run through and the one that is solved for, as joints from 0.
-_SWEPT_JOINTS, _SOLVED_JOINTS = (1, 1, 2), (2, 2, 1)
+_SWEPT_JOINTS = (1, 1, 2)
+_SOLVED_JOINTS = (2, 2, 1)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,21 +59,21 @@ class Radial:
         reached: (D, K) the healthy arm reaches the ring.
     """
 
-    radii: Array
-    in_reach: Array
-    stuck: Array
-    clear: Flags
-    reached: Flags
+    radii: FloatArray
+    in_reach: FloatArray
+    stuck: FloatArray
+    clear: BoolArray
+    reached: BoolArray
 
     @property
-    def guaranteed(self) -> Flags:
+    def guaranteed(self) -> BoolArray:
         """(D, K) True where the healthy arm reaches the ring and, for any locked joint, nothing stops the arm short of a
         reachable target.
         """
         return np.asarray(self.reached & self.clear.all(axis=1))
 
     @property
-    def area(self) -> Array:
+    def area(self) -> FloatArray:
         """(K,) fraction of each ring in the total area."""
         squares = self.radii**2
         return np.asarray(np.diff(squares) / (squares[-1] - squares[0]))
@@ -108,7 +106,7 @@ class PlanarStationarySets:
         self.law, self.lengths = law, arm_links.lengths
         self._joint_weights, self._damping = np.diag(quadratic[0]), quadratic[1]
         rows = [DH(a=1.0, alpha=0.0) for _ in range(3)]
-        self._design_joints = DesignJoints.of(
+        self._design_joints = DesignJoints.from_space(
             design_space(Arm.from_dh(rows), {f"a{number}": (0.0, 2.0) for number in (1, 2, 3)})
         )
 
@@ -127,7 +125,7 @@ class PlanarStationarySets:
             Kernel("rest slopes", [q, v], [ca.jacobian(rates, q)[:, moving], tool_rates]),
         )
 
-    def radial(self, lengths: Array, radii: Array, angles: int = ANGLE_COUNT) -> Radial:
+    def radial(self, lengths: FloatArray, radii: FloatArray, angles: int = ANGLE_COUNT) -> Radial:
         """Compute the effect of locks on targets in rings.
 
         Args:
@@ -144,12 +142,12 @@ class PlanarStationarySets:
         reached = (radii[:-1] >= 2 * longest - total - 1e-9) & (radii[1:] <= total + 1e-9)
         return Radial(radii=radii, in_reach=in_reach, stuck=stuck, clear=clear > 0, reached=reached)
 
-    def _analyse_chunk(self, lengths: Array, radii: Array, angles: int) -> tuple[Array, Array, Array]:
+    def _analyse_chunk(self, lengths: FloatArray, radii: FloatArray, angles: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         parts = [self._analyse_lock(_RestShapes.build(self, lengths, joint, angles), radii, angles) for joint in range(3)]
         in_reach, stuck, clear = (np.stack([part[k] for part in parts], axis=1) for k in range(3))
         return in_reach, stuck, clear
 
-    def _analyse_lock(self, shapes: _RestShapes, radii: Array, angles: int) -> tuple[Array, Array, Array]:
+    def _analyse_lock(self, shapes: _RestShapes, radii: FloatArray, angles: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return in-reach and stuck fractions and the clear flags (D, K) of one locked joint."""
         clear = ~shapes.find_sink_rings(radii)
         in_reach, stuck = np.zeros((2, len(shapes.lengths), radii.size - 1))
@@ -164,7 +162,7 @@ class PlanarStationarySets:
             clear[:, index] &= ~stuck_at.any(axis=1)
         return in_reach, stuck, clear.astype(float)
 
-    def _find_stuck_angles(self, shapes: _RestShapes, r: float, angles: int) -> tuple[Array, Flags, Flags]:
+    def _find_stuck_angles(self, shapes: _RestShapes, r: float, angles: int) -> tuple[FloatArray, BoolArray, BoolArray]:
         """Return the locked angles (A,), and (D, A) where targets at distance r are in reach, and where the arm can also get
         stuck.
         """
@@ -177,7 +175,9 @@ class PlanarStationarySets:
             is_stuck |= self._find_traps(shapes.lengths, r, locked)
         return locked, in_reach, is_stuck & in_reach
 
-    def analyse_distance(self, lengths: Array, r: float, angles: int = ANGLE_COUNT) -> list[tuple[Array, Flags, Flags]]:
+    def analyse_distance(
+        self, lengths: FloatArray, r: float, angles: int = ANGLE_COUNT
+    ) -> list[tuple[FloatArray, BoolArray, BoolArray]]:
         """Return the effect of locks at every angle on the targets at one distance, for one design.
 
         Args:
@@ -195,7 +195,7 @@ class PlanarStationarySets:
         ]
         return [(angle, in_reach[0], is_stuck[0]) for angle, in_reach, is_stuck in results]
 
-    def _find_traps(self, lengths: Array, r: float, locked: Array) -> Flags:
+    def _find_traps(self, lengths: FloatArray, r: float, locked: FloatArray) -> BoolArray:
         """Return (D, A) whether a singular trap attracts the arm, with joint 1 at angles (A,) from the direction to
         the target.
         """
@@ -235,33 +235,33 @@ class _RestShapes:
         lower, upper: (D, 2, S) between which distances from the middle they reach.
     """
 
-    lengths: Array
+    lengths: FloatArray
     joint: int
-    angle: Array
-    tool: Array
-    direction: Array
-    trace: tuple[Array, Array]
-    det: tuple[Array, Array, Array]
-    reach_terms: tuple[Array, Array]
-    lower: Array
-    upper: Array
+    angle: FloatArray
+    tool: FloatArray
+    direction: FloatArray
+    trace: tuple[FloatArray, FloatArray]
+    det: tuple[FloatArray, FloatArray, FloatArray]
+    reach_terms: tuple[FloatArray, FloatArray]
+    lower: FloatArray
+    upper: FloatArray
 
     @classmethod
-    def build(cls, planar_rest: PlanarStationarySets, lengths: Array, joint: int, angles: int) -> _RestShapes:
+    def build(cls, planar_rest: PlanarStationarySets, lengths: FloatArray, joint: int, angles: int) -> _RestShapes:
         shape_kernel, linear_kernel = planar_rest._kernels
         joints, count = planar_rest._design_joints, len(lengths)
         # The other half turn is the mirror image.
         angle = (np.arange(angles) + 0.5) / angles * np.pi
         healthy = [index for index in range(3) if index != joint]
 
-        def make_configurations(solved: Array | float) -> Array:
+        def make_configurations(solved: FloatArray | float) -> FloatArray:
             q = np.zeros((count, angles, joints.whole.n))
             q[..., joints.varied] = lengths[:, None]
             q[..., joints.moving[_SWEPT_JOINTS[joint]]] = angle
             q[..., joints.moving[_SOLVED_JOINTS[joint]]] = solved
             return q.reshape(-1, joints.whole.n)
 
-        def healthy_determinant(solved: float) -> Array:
+        def healthy_determinant(solved: float) -> FloatArray:
             j, _ = shape_kernel(make_configurations(solved))
             return np.asarray(np.linalg.det(j[:, :, healthy]).reshape(count, angles))
 
@@ -302,7 +302,7 @@ class _RestShapes:
         reach_terms = (offset * direction).sum(-1), (offset**2).sum(-1)
         return cls(lengths, joint, angle, tool, direction, (t0, t1), (d0, d1, d2), reach_terms, lower, upper)
 
-    def are_sinks(self, offsets: Array) -> Flags:
+    def are_sinks(self, offsets: FloatArray) -> BoolArray:
         """Return (D, 2, S) whether the stationary point is a sink whose target is ``offsets`` (D, 2, S) along b, and is in
         reach.
         """
@@ -315,34 +315,34 @@ class _RestShapes:
             return np.asarray(is_sink & (distance >= self.lower**2) & (distance <= self.upper**2))
 
     @cached_property
-    def _line_terms(self) -> tuple[Array, Array]:
+    def _line_terms(self) -> tuple[FloatArray, FloatArray]:
         projection = (self.tool * self.direction).sum(-1)
         return projection, projection**2 - (self.tool**2).sum(-1)
 
-    def _find_target_offsets(self, r: float) -> Array:
+    def _find_target_offsets(self, r: float) -> FloatArray:
         """Return both distances (D, 2, 2, S) along b to a target at distance r; NaN where there is none."""
         projection, root_offset = self._line_terms
         with np.errstate(invalid="ignore"):
             half_chord = np.sqrt(root_offset + r * r)
         return np.stack([-projection - half_chord, -projection + half_chord], axis=2)
 
-    def have_sinks(self, r: float) -> Flags:
+    def have_sinks(self, r: float) -> BoolArray:
         """Return (D, 2, 2, S) whether there is a sink for targets at distance r, on each branch and in both directions."""
         offsets = self._find_target_offsets(r)
         return np.stack([self.are_sinks(offsets[:, :, side]) for side in range(2)], axis=2)
 
-    def are_in_reach(self, r: float) -> Flags:
+    def are_in_reach(self, r: float) -> BoolArray:
         """Return (D, S) whether targets at distance r are in reach with joint 2 or 3 locked at the swept angles."""
         return np.asarray((self.lower[:, 0] <= r) & (r <= self.upper[:, 0]))
 
-    def are_in_reach_first(self, r: float, locked: Array) -> Flags:
+    def are_in_reach_first(self, r: float, locked: FloatArray) -> BoolArray:
         """Return (D, A) whether targets at distance r are in reach with joint 1 locked at angles (A,) from the direction to the
         target.
         """
         distance = np.abs(r * np.exp(1j * locked) - self.lengths[:, :1])
         return np.asarray((self.lower[:, 0, :1] <= distance) & (distance <= self.upper[:, 0, :1]))
 
-    def have_sinks_first(self, r: float, cells: int) -> Flags:
+    def have_sinks_first(self, r: float, cells: int) -> BoolArray:
         """Return (D, cells) whether there is a sink, by the angle of joint 1 from the direction to a target at distance r."""
         offsets, has_sink = self._find_target_offsets(r), self.have_sinks(r)
         position = self.tool[:, :, None] + offsets[..., None] * self.direction[:, :, None]
@@ -359,10 +359,10 @@ class _RestShapes:
         design = np.broadcast_to(np.arange(len(offsets))[:, None, None, None], both.shape)
         np.add.at(edges, (design[both], first[both]), 1)
         np.add.at(edges, (design[both], last[both] + 1), -1)
-        covered: Flags = np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(offsets), 5, cells).any(axis=1))
+        covered: BoolArray = np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(offsets), 5, cells).any(axis=1))
         return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
-    def find_sink_rings(self, radii: Array) -> Flags:
+    def find_sink_rings(self, radii: FloatArray) -> BoolArray:
         """Return (D, K) whether any target in a ring has a sink within its reach, by intervals of lambda, exact at
         each shape.
         """
@@ -397,14 +397,14 @@ class _RestShapes:
         return np.asarray(np.cumsum(changes, axis=1)[:, 1:-1] > 0.5)
 
 
-def _make_lock_angles(angles: int) -> Array:
+def _make_lock_angles(angles: int) -> FloatArray:
     """Return the angles at which joint 1 locks, over a full turn; the grid is fine because the target angle can change quickly
     along a curve.
     """
     return np.asarray((np.arange(6 * angles) + 0.5) / (6 * angles) * FULL_TURN_RAD)
 
 
-def _solve_quadratic(a: Array, b: Array, c: Array) -> list[Array]:
+def _solve_quadratic(a: FloatArray, b: FloatArray, c: FloatArray) -> list[FloatArray]:
     """Return the two roots of ``a x^2 + b x + c``; NaN where there are none."""
     q = -0.5 * (b + np.where(b >= 0, 1.0, -1.0) * np.sqrt(b * b - 4 * a * c))
     return [q / a, c / q]

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
-def compute_lower_quantile(value: Array, level: float, weights: Array | None = None) -> Array:
+def compute_lower_quantile(value: FloatArray, level: float, weights: FloatArray | None = None) -> FloatArray:
     """Return the value that at least a fraction ``level`` of the poses has: the ``1 - level`` quantile of each design.
 
     Args:
@@ -29,7 +28,7 @@ def compute_lower_quantile(value: Array, level: float, weights: Array | None = N
     return np.asarray(np.take_along_axis(value, order, axis=1)[np.arange(len(value)), np.minimum(ranks, pose_count - 1)])
 
 
-def compute_quantile_weights(value: Array, level: float, weights: Array | None = None) -> Array:
+def compute_quantile_weights(value: FloatArray, level: float, weights: FloatArray | None = None) -> FloatArray:
     """Return the weights (D, P), which sum to 1, of the values in a smooth estimate of the lower quantile.
 
     Each is the derivative of the estimate by its value. Where the sample quantile is one value, and jumps from pose to pose as

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.caching import cached_property
@@ -16,8 +15,7 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import dot_product
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _START_COUNT = 16
 _MAX_SWEEPS = 400
@@ -39,7 +37,7 @@ class ReachEvaluator:
         self._family = family
         self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,))).random((_START_COUNT, family.arm.n))
 
-    def __call__(self, values: Array, limits: tuple[Array, Array]) -> tuple[Array, Array]:
+    def __call__(self, values: FloatArray, limits: tuple[FloatArray, FloatArray]) -> tuple[FloatArray, FloatArray]:
         """Return the reach (D,), m, and its gradient (D, k) by the designs.
 
         Args:
@@ -57,7 +55,7 @@ class ReachEvaluator:
             values, q[best], outputs[best, 1 + len(self._family.space.parameters) :]
         )
 
-    def _compute_limit_gradient(self, values: Array, q: Array, gradient: Array) -> Array:
+    def _compute_limit_gradient(self, values: FloatArray, q: FloatArray, gradient: FloatArray) -> FloatArray:
         """Return the contribution of varied limits: a joint that is pushed against its limit follows the limit."""
         lower, upper = self._family.limits(values)
         contribution = np.zeros_like(values)

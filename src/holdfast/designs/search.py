@@ -28,8 +28,8 @@ from holdfast.failures import FailureSpec
 from holdfast.indices.own_file import plan_entries
 from holdfast.notice import reports_progress
 from holdfast.regions.region import Region, default_region
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 _FIRST_DESIGNS = 64  # designs that grow from one another; all later ones begin from the nearest of these
@@ -171,7 +171,7 @@ def design(
     best = choose_best_design(merged["guaranteed"], merged["reach"])
     checks = recall_part(f"check {best}", lambda: search.evaluate_held_out(all_values[[0, best]], check_poses))
     baseline, chosen = (
-        HeldOutResult.of(
+        HeldOutResult.from_values(
             checks["value"][position], checks["reached"][position], checks["weights"], level=level, heaviest=region.heaviest
         )
         for position in (0, 1)
@@ -197,7 +197,7 @@ def design(
     )
 
 
-def find_pareto_front(reach: Array, value: Array) -> NDArray[np.intp]:
+def find_pareto_front(reach: FloatArray, value: FloatArray) -> NDArray[np.intp]:
     """Return the numbers of the designs that no other beats in both reach and value, from the shortest reach."""
     order = np.lexsort((-value, -reach))  # from the farthest reach; of equal reach the best value first
     front, best_value = [], -np.inf
@@ -208,7 +208,7 @@ def find_pareto_front(reach: Array, value: Array) -> NDArray[np.intp]:
     return np.array(front[::-1], dtype=np.intp)
 
 
-def sample_comparison_poses(region: Region, count: int, seed: int) -> tuple[Array, Array | None]:
+def sample_comparison_poses(region: Region, count: int, seed: int) -> tuple[FloatArray, FloatArray | None]:
     """Return the poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all count alike.
 
     Low-discrepancy points where the region is a box, else random ones.
@@ -219,20 +219,20 @@ def sample_comparison_poses(region: Region, count: int, seed: int) -> tuple[Arra
     return sample_poses(region, count, seed, "sobol" if region.kind == "box" else "random")
 
 
-def sample_poses(region: Region, count: int, seed: int, sampling: Any = "random") -> tuple[Array, Array | None]:
+def sample_poses(region: Region, count: int, seed: int, sampling: Any = "random") -> tuple[FloatArray, FloatArray | None]:
     """Return poses (P, 4, 4) of a region and their weights (P,), or None if all count alike."""
     if region.kind == "joints":
         raise InputError("a region of joints fixes the configurations, so designs have no poses to reach; give a box of poses")
-    samples: list[Array] = []
+    samples: list[FloatArray] = []
     blocks = region.blocks(0, seed, sampling, count=count)
     while sum(len(sample) for sample in samples) < count:
         samples.append(next(blocks))
     sample = np.concatenate(samples)[:count]
-    return region.poses(sample), region.weights(sample) if region.weighted(count) else None
+    return region.poses(sample), region.weights(sample) if region.has_weights(count) else None
 
 
 def _choose_local_starts(
-    smooth: Array, reach: Array, values: Array, space: DesignSpace, local_searches: int
+    smooth: FloatArray, reach: FloatArray, values: FloatArray, space: DesignSpace, local_searches: int
 ) -> list[tuple[int, float]]:
     """Return the starts of the local searches, each with the least reach to keep: the best distinct designs, then the best
     beyond each reach.
@@ -266,10 +266,10 @@ class _DesignSearch:
         sampled_poses, self._weights = sample_comparison_poses(region, poses, seed)
         self.evaluator = Evaluator(family, sampled_poses, seed)
         self._reach_evaluator = ReachEvaluator(family, seed)
-        self._first_values: Array | None = None
+        self._first_values: FloatArray | None = None
         self._first_evaluated: Evaluated | None = None
 
-    def set_neighbours(self, values: Array) -> None:
+    def set_neighbours(self, values: FloatArray) -> None:
         """Let later designs begin from the configurations of these designs."""
         self._first_values = values
 
@@ -280,7 +280,7 @@ class _DesignSearch:
             self._first_evaluated = self.evaluator(self._first_values)
         return None if self._first_values is None else self._first_evaluated
 
-    def evaluate_designs(self, values: Array) -> Parts:
+    def evaluate_designs(self, values: FloatArray) -> Parts:
         """Return the measures of designs."""
         evaluated = self.evaluator(values, self._neighbours)
         if self._first_values is None:
@@ -297,17 +297,17 @@ class _DesignSearch:
             "reach": self._reach_evaluator(evaluated.values, self.evaluator.finite_limits(evaluated.values))[0],
         }
 
-    def search_locally(self, start: Array, least_reach: float) -> Array:
+    def search_locally(self, start: FloatArray, least_reach: float) -> FloatArray:
         """Return the best design (k,) near a start whose reach is at least ``least_reach``."""
         from scipy.optimize import minimize
 
         space = self.family.space
         width = space.upper - space.lower
         trail: list[Evaluated] = [self.evaluator(start[None], self._neighbours)]
-        point_cache: dict[bytes, tuple[float, Array, float, Array]] = {}
-        trials: list[tuple[float, float, Array]] = []
+        point_cache: dict[bytes, tuple[float, FloatArray, float, FloatArray]] = {}
+        trials: list[tuple[float, float, FloatArray]] = []
 
-        def evaluate_point(u: Array) -> tuple[float, Array, float, Array]:
+        def evaluate_point(u: FloatArray) -> tuple[float, FloatArray, float, FloatArray]:
             """Return the smooth quantile and the reach with their gradients, at a point of the unit cube."""
             key = u.tobytes()
             if key not in point_cache:
@@ -339,7 +339,7 @@ class _DesignSearch:
         feasible = [(value, design_values) for value, reach, design_values in trials if reach >= least_reach - 1e-6]
         return max(feasible, key=lambda entry: entry[0])[1] if feasible else start
 
-    def evaluate_smooth_quantile(self, evaluated: Evaluated) -> tuple[float, Array]:
+    def evaluate_smooth_quantile(self, evaluated: Evaluated) -> tuple[float, FloatArray]:
         """Return the smooth quantile of one design, and its exact gradient (k,)."""
         extended = evaluated.signed_index[0]
         weights = compute_quantile_weights(extended[None], self.level, self._weights)[0]
@@ -349,12 +349,12 @@ class _DesignSearch:
         weights = compute_quantile_weights(extended[None], self.level, self._weights)[0]
         return float(weights @ extended), weights[rows] @ sensitivities.gradient
 
-    def evaluate_thoroughly(self, values: Array) -> Parts:
+    def evaluate_thoroughly(self, values: FloatArray) -> Parts:
         """Return the measures of designs, each searched from as many random starts as :func:`holdfast.optimise` uses."""
         neighbours = self.evaluator(values, self._neighbours)
         return self._summarise(self.evaluator(values, neighbours, self.evaluator.starts))
 
-    def evaluate_held_out(self, values: Array, count: int) -> Parts:
+    def evaluate_held_out(self, values: FloatArray, count: int) -> Parts:
         """Evaluate designs on held-out poses, from random starts alone: index (D, P), reached (D, P), and weights
         (P,) if any.
         """

@@ -8,7 +8,7 @@ from dataclasses import KW_ONLY, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arm.machine import Link
 from holdfast.arm.model import Arm
@@ -16,8 +16,7 @@ from holdfast.arm.urdf import rpy_rotation
 from holdfast.arms.dh_rows import DHTable, dh_table
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 ROW_PARAMETERS = ("a", "alpha", "d", "theta", "lower", "upper")
 TOOL_PARAMETERS = ("x", "y", "z", "roll", "pitch", "yaw")
@@ -153,7 +152,7 @@ class DesignSpace:
             parameter.row for parameter in self.parameters if parameter.kind in ("lower", "upper") and parameter.row is not None
         }:
             if lower[joint] >= upper[joint]:
-                factor, unit = self.arm.joints[joint].shown
+                factor, unit = self.arm.joints[joint].display_unit
                 raise InputError(
                     f"the limits of joint '{self.arm.joints[joint].name}' can cross: lower{joint + 1} may be as high as "
                     f"{lower[joint] * factor:.6g} {unit} and upper{joint + 1} as low as {upper[joint] * factor:.6g} "
@@ -174,17 +173,17 @@ class DesignSpace:
         return tuple(parameter.name for parameter in self.parameters)
 
     @cached_property
-    def lower(self) -> Array:
+    def lower(self) -> FloatArray:
         """(k,) lower bounds, rad or m."""
         return np.array([parameter.lower for parameter in self.parameters])
 
     @cached_property
-    def upper(self) -> Array:
+    def upper(self) -> FloatArray:
         """(k,) upper bounds, rad or m."""
         return np.array([parameter.upper for parameter in self.parameters])
 
     @cached_property
-    def start(self) -> Array:
+    def start(self) -> FloatArray:
         """(k,) values of the baseline arm; an angle is given by the equivalent angle within its bounds."""
         values = []
         rpy = dict(zip(TOOL_PARAMETERS[3:], _compute_roll_pitch_yaw(self.table.tool[:3, :3]), strict=True))
@@ -207,7 +206,7 @@ class DesignSpace:
             values.append(value)
         return np.array(values)
 
-    def check(self, values: ArrayLike) -> Array:
+    def check(self, values: ArrayLike) -> FloatArray:
         """Return designs as float64, (k,) or (D, k).
 
         Raises:
@@ -291,11 +290,11 @@ class DesignSpace:
         frames = [
             np.linalg.inv(a) @ b for a, b in zip(table_arm.frames_at_zero[:-1], self.arm.frames_at_zero[:-1], strict=True)
         ]
-        links = [None if link is None else link.moved(frame) for link, frame in zip(self.arm.links, frames, strict=True)]
+        links = [None if link is None else link.in_frame(frame) for link, frame in zip(self.arm.links, frames, strict=True)]
         payload = self.arm.payload
-        return links, None if payload is None else payload.moved(np.linalg.inv(table_arm.flange) @ frames[-1])
+        return links, None if payload is None else payload.in_frame(np.linalg.inv(table_arm.flange) @ frames[-1])
 
-    def draw(self, count: int, seed: int = 0) -> Array:
+    def draw(self, count: int, seed: int = 0) -> FloatArray:
         """Return designs (count, k) spread over the bounds, from a scrambled Sobol sequence; a larger count begins with the
         same designs.
         """
@@ -405,7 +404,7 @@ def _parse_parameter_name(name: str, prefix: str = "") -> tuple[str, int | None]
     raise InputError(f"{prefix}'{name}' is not a parameter of an arm; write {_PARAMETER_EXAMPLES}")
 
 
-def _compute_roll_pitch_yaw(rotation: Array) -> tuple[float, float, float]:
+def _compute_roll_pitch_yaw(rotation: FloatArray) -> tuple[float, float, float]:
     """Return roll, pitch, and yaw, rad; at a pitch of 90 deg only the combination of roll and yaw is determined,
     and yaw is 0.
     """

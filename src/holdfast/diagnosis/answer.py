@@ -80,7 +80,7 @@ class Diagnosis(Result):
         )
 
     @property
-    def off(self) -> tuple[str, ...]:
+    def unmonitored(self) -> tuple[str, ...]:
         """Signals that are not monitored, because the recording or the bounds lack them."""
         bounds = self.bounds
         has_bound = {"torque": bool(np.isfinite(bounds.torque).all()), "tool": bool(np.isfinite(bounds.position))}
@@ -121,8 +121,8 @@ class Diagnosis(Result):
         if self.gaps:
             unmonitored = sum(gap_end - gap_start for gap_start, gap_end in self.gaps)
             lines.append(f"nothing was looked at for {unmonitored:.4g} s: there the record has no numbers of the joints")
-        if self.off:
-            lines.append(f"not watched: {', '.join(self.off)}")
+        if self.unmonitored:
+            lines.append(f"not watched: {', '.join(self.unmonitored)}")
         if self.beyond:
             lines.append(f"faster than calibrated, so that an alarm proves little: {', '.join(self.beyond)}")
         return lines

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -22,13 +22,15 @@ from holdfast.files.output import replace_file
 from holdfast.files.sealed import read_sealed
 from holdfast.notice import reports_progress, track
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-BOUND_FACTOR, BOUND_FACTOR_SENSORS_ALONE = 1.5, 2.5  # on the largest healthy residual; with joint sensors alone
+BOUND_FACTOR = 1.5  # on the largest healthy residual
+BOUND_FACTOR_SENSORS_ALONE = 2.5  # with joint sensors alone
 RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
 _SECONDS_PER_HOUR = 3600.0
-_UNSEALED_FORMAT, _SEALED_FORMAT = 1, 2  # the first has no digest
+# _UNSEALED_FORMAT and _SEALED_FORMAT: the first has no digest
+_UNSEALED_FORMAT = 1
+_SEALED_FORMAT = 2
 _JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
 _MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
 
@@ -59,16 +61,16 @@ class Bounds(Result):
     fingerprint: str
     joints: tuple[str, ...]
     rate: float
-    torque: Array
-    change: Array
-    tracking: Array
+    torque: FloatArray
+    change: FloatArray
+    tracking: FloatArray
     position: float
     angle: float
-    coulomb: Array
-    viscous: Array
-    scales: Array
+    coulomb: FloatArray
+    viscous: FloatArray
+    scales: FloatArray
     factor: float
-    speed: Array
+    speed: FloatArray
     hours: float
     logs: int
     alarms: int | None
@@ -87,7 +89,7 @@ class Bounds(Result):
 
         return self.alarms / self.hours, float(chi2.ppf(0.95, 2 * self.alarms + 2) / (2 * self.hours))
 
-    def lock_delays(self) -> Array:
+    def lock_delays(self) -> FloatArray:
         """Return the time (n,) in s from a lock to the alarm of joint sensors, at half the calibrated speed.
 
         The joint falls behind by ``v t``, whose excess over the tracking bound ``b`` reaches the limit ``L`` after
@@ -224,7 +226,7 @@ def _read_number(value: Any) -> float:
     return np.inf if value is None else float(value)
 
 
-def _require_between(name: str, value: Array, minimum: float, requirement: str) -> None:
+def _require_between(name: str, value: FloatArray, minimum: float, requirement: str) -> None:
     wrong = np.flatnonzero(~((value >= minimum) & (value <= _MAX_VALUE)))
     if wrong.size:
         raise InputError(f"{name} is {value[wrong[0]]:g}; it must be {requirement} and at most {_MAX_VALUE:g}")

@@ -16,14 +16,15 @@ from holdfast.diagnosis.gaps import count_cycles
 from holdfast.diagnosis.kinds import SCALE, FaultClassifier, FaultVerdict
 from holdfast.diagnosis.observer import FRICTION_TRANSITION_RATE
 from holdfast.diagnosis.sensors import Sensors
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-ISOLATION_TIME_S, CLASSIFICATION_TIME_S = 0.020, 0.100  # s after the alarm, s after that
-SENSOR_REVISION_TIME_S, POSE_MONITORING_TIME_S = (
-    0.5,
-    2.0,
-)  # s after the alarm: the tool's pose may still call it a sensor, and may name that
+# ISOLATION_TIME_S and CLASSIFICATION_TIME_S: s after the alarm, s after that
+ISOLATION_TIME_S = 0.020
+CLASSIFICATION_TIME_S = 0.100
+# SENSOR_REVISION_TIME_S and POSE_MONITORING_TIME_S: s after the alarm: the tool's pose may still call it a sensor, and may name
+# that
+SENSOR_REVISION_TIME_S = 0.5
+POSE_MONITORING_TIME_S = 2.0
 SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
 WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
 _RANK_TOLERANCE = 1e-9  # of the largest: a direction in which a force loads no joint
@@ -53,7 +54,7 @@ class AlarmDecision:
         sensors: Sensors,
         *,
         time: float,
-        level: Array,
+        level: FloatArray,
         joints: NDArray[np.bool_],
         torques: bool,
         tool: bool,
@@ -82,11 +83,11 @@ class AlarmDecision:
 
     def add_cycle(
         self,
-        q: Array,
-        reference: Array,
-        signals: tuple[Array, Array, Array, Array],
-        scaled_torque: Array,
-        scaled_tracking: Array,
+        q: FloatArray,
+        reference: FloatArray,
+        signals: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+        scaled_torque: FloatArray,
+        scaled_tracking: FloatArray,
     ) -> None:
         """Add the signals of one control cycle.
 
@@ -115,7 +116,7 @@ class AlarmDecision:
                 (residual, torque, gravity),
             )
 
-    def add_tool_pose(self, scaled_residual: float, residual: Array, jacobian: Array) -> None:
+    def add_tool_pose(self, scaled_residual: float, residual: FloatArray, jacobian: FloatArray) -> None:
         """Add a sample of the tool's pose in the cycle that :meth:`add_cycle` was given last.
 
         What each joint leaves unexplained, ``c = -J_i b`` with an error of its own for each sample, for a sensor that is
@@ -139,7 +140,7 @@ class AlarmDecision:
         elif self._pose_count > 1:
             self._best_joint = 0, np.inf
 
-    def _isolate_joint(self, q: Array) -> None:
+    def _isolate_joint(self, q: FloatArray) -> None:
         """Select the joint with the largest residuals, and compare it with a force on a link as the cause of the residual
         torques.
         """
@@ -214,7 +215,7 @@ class AlarmDecision:
         return FaultVerdict(True, self._alarm_time, joint=joint, kind="sensor", candidates=candidates, evidence=reasons)
 
 
-def _force_advantage(arm: Arm, q: Array, change: Array, scale: Array) -> float:
+def _force_advantage(arm: Arm, q: FloatArray, change: FloatArray, scale: FloatArray) -> float:
     """Return by how many squared deviations a force at the far end of a link explains residual torques better than one joint.
 
     Args:

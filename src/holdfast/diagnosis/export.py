@@ -12,7 +12,6 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_arguments
 from holdfast.arm import kinematics
@@ -36,8 +35,7 @@ from holdfast.kernels.c_backend import c_number
 from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.notice import reports_progress
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 # As the enum in C has them.
 _KIND_WORDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
@@ -172,7 +170,7 @@ def _c_constants(arm: Arm, bounds: Bounds, sensors: Sensors) -> dict[str, str]:
     return {**replacements, **{f"CONST_{name}": value for name, value in literals.items()}}
 
 
-def _c_array(name: str, values: Array) -> str:
+def _c_array(name: str, values: FloatArray) -> str:
     return f"static const double {name}[{len(values)}] = {{{', '.join(map(c_number, values))}}};\n"
 
 
@@ -240,7 +238,7 @@ def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -
     )
 
 
-def _pose_weights(sensors: Sensors) -> Array:
+def _pose_weights(sensors: Sensors) -> FloatArray:
     return np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
 
 

@@ -8,7 +8,6 @@ from functools import partial
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.kinematics import joint_symbols
 from holdfast.arm.machine import Link
@@ -17,18 +16,17 @@ from holdfast.diagnosis.gaps import LogSegment, complete_rows, log_segments
 from holdfast.diagnosis.observer import OBSERVER_GAIN_PER_S, momentum_terms, observe_residuals
 from holdfast.faults.log import Log
 from holdfast.kernels.kernel import Kernel
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MASS_PRIOR_DEVIATION = 0.1  # prior deviation of the scale of a link's mass
-_FRICTION_PRIOR_DEVIATION, _FIXED_FRICTION_DEVIATION = (
-    1.0,
-    1e-4,
-)  # N m (N), N m s/rad (N s/m): prior deviations, and that of what is kept
+# _FRICTION_PRIOR_DEVIATION and _FIXED_FRICTION_DEVIATION: N m (N), N m s/rad (N s/m): prior deviations, and that of what is
+# kept
+_FRICTION_PRIOR_DEVIATION = 1.0
+_FIXED_FRICTION_DEVIATION = 1e-4
 _SCALE_STEP = 0.5  # of a scale: residuals are linear in it, so that any step does
 
 
-def scale_masses(arm: Arm, scales: Array) -> Arm:
+def scale_masses(arm: Arm, scales: FloatArray) -> Arm:
     """Return the arm with its links' masses and inertias multiplied by (n,) scales, or the same arm if all scales are 1."""
     if np.all(scales == 1):
         return arm
@@ -39,7 +37,9 @@ def scale_masses(arm: Arm, scales: Array) -> Arm:
     return replace(arm, links=tuple(links))
 
 
-def fit_masses_and_friction(arm: Arm, logs: Sequence[Log], coulomb: Array, viscous: Array) -> tuple[Array, Array, Array]:
+def fit_masses_and_friction(
+    arm: Arm, logs: Sequence[Log], coulomb: FloatArray, viscous: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Fit scales of the links' masses and dry and viscous friction, (n,) each, to the residuals of recordings.
 
     Ridge: masses are believed to 10 %, friction to 1 N m and 1 N m s/rad, and dry friction that is given is kept; residuals
@@ -64,7 +64,7 @@ def fit_masses_and_friction(arm: Arm, logs: Sequence[Log], coulomb: Array, visco
         np.full(joint_count, _FRICTION_PRIOR_DEVIATION),
     ]
     normal, right_side = np.diag(prior**-2.0), np.zeros(3 * joint_count)
-    deviation: Array | None = None
+    deviation: FloatArray | None = None
     for log in logs:
         if log.tau is None:
             continue
@@ -92,7 +92,9 @@ def fit_masses_and_friction(arm: Arm, logs: Sequence[Log], coulomb: Array, visco
     return np.asarray(1 + solution[:joint_count]), np.maximum(dry_friction, 0.0), np.maximum(viscous_friction, 0.0)
 
 
-def _sample_residuals(kernel: Kernel, coulomb: Array, viscous: Array, *, segments: Sequence[LogSegment], rate: float) -> Array:
+def _sample_residuals(
+    kernel: Kernel, coulomb: FloatArray, viscous: FloatArray, *, segments: Sequence[LogSegment], rate: float
+) -> FloatArray:
     """Return residuals of a recording, one for each time constant of the observer."""
     residuals_of = partial(observe_residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
     segment_residuals = [

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from holdfast.diagnosis.observer import FILTER_BANDWIDTH_RAD_S, low_pass
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 MAX_BRIDGED_GAP_S = 0.050  # s without a number; over shorter gaps lines are drawn
 
@@ -22,8 +21,8 @@ class LogSegment:
     """R rows of a recording without a long gap; short gaps are interpolated linearly."""
 
     rows: slice
-    q: Array  # (R, n) rad and m
-    tau: Array | None  # (R, n) N m and N
+    q: FloatArray  # (R, n) rad and m
+    tau: FloatArray | None  # (R, n) N m and N
     settling: int  # rows until residuals begin: but for the first stretch it begins in the midst of motion
 
 
@@ -57,7 +56,7 @@ def log_segments(log: Log, is_complete: NDArray[np.bool_]) -> Iterator[LogSegmen
         yield LogSegment(row_range, q, tau, settling=max_gap + 2 if index else 1)
 
 
-def _fill_torque_gaps(tau: Array, is_known: NDArray[np.bool_], dt: float) -> Array:
+def _fill_torque_gaps(tau: FloatArray, is_known: NDArray[np.bool_], dt: float) -> FloatArray:
     """Fill gaps in torques with the state of their filter, or with their mean over gaps in which all torques are known."""
     filled, filter_state, filtered_to = tau.copy(), tau[0], 0
     edges = np.flatnonzero(np.diff(is_known)) + 1

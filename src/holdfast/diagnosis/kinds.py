@@ -7,8 +7,12 @@ from typing import Any
 
 import numpy as np
 
-STILL, PART, NOISE_FACTOR = 2e-3, 0.15, 12.0  # rad or m; of the reference's travel; deviations of the sensor
-ALL, FRICTION_LOSS_RANGE = 0.93, (0.8, 1.2)  # losses: of the whole motor; that friction may hide
+# STILL, PART and NOISE_FACTOR: rad or m; of the reference's travel; deviations of the sensor
+STILL = 2e-3
+PART = 0.15
+NOISE_FACTOR = 12.0
+ALL = 0.93  # losses: of the whole motor
+FRICTION_LOSS_RANGE = (0.8, 1.2)  # that friction may hide
 MORE = 1.1  # of a motor's torque: no fault of its own takes so much
 TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
 AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -34,8 +34,7 @@ from holdfast.diagnosis.signals import (
     tool_residual,
 )
 from holdfast.faults.log import Log
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_arguments
@@ -101,7 +100,9 @@ class Monitor:
         verdict = FaultVerdict(False) if scaled.alarm is None else self._decide_from_log(log, signals, scaled, *scaled.alarm)
         return Diagnosis(arm=self.arm, log=log, bounds=bounds, signals=signals, scaled=scaled, verdict=verdict)
 
-    def _start_decision(self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], level: Array) -> AlarmDecision:
+    def _start_decision(
+        self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], level: FloatArray
+    ) -> AlarmDecision:
         available = {"torques": "torque" in levels, "tool": "tool" in levels}
         return AlarmDecision(
             self.arm,
@@ -148,7 +149,7 @@ class Monitor:
         self._filtered_rates = self._residual = self._last_momentum = self._gravity_torque = self._filtered_torque = (
             self._twice_filtered_torque
         ) = self._residual_level = np.zeros(self.arm.n)
-        self._last_q: Array | None = None
+        self._last_q: FloatArray | None = None
         self._skipped_torque_sum = np.zeros(self.arm.n)  #  torques of cycles that were passed over
         self._skipped_cycles, self._skipped_with_torque, self._settling_cycles, self._past_positions = (
             0,
@@ -156,7 +157,7 @@ class Monitor:
             0,
             np.full((self._latency_cycles + 1, self.arm.n), np.nan),
         )
-        self._last_reference: Array | None = None
+        self._last_reference: FloatArray | None = None
         self._pose_residuals = np.zeros((SMOOTHING_SAMPLES, 6))
         self._is_monitored = np.ones(self.arm.n, dtype=bool)
         self.rearm()
@@ -267,7 +268,7 @@ class Monitor:
         is_tool_stale = self._pose_count > 0 and self._cycle_count - self._last_pose_cycle > self._max_gap_cycles
         return ("joints",) * (self._skipped_cycles > self._max_gap_cycles) + ("tool",) * is_tool_stale
 
-    def _bridge_skipped_cycles(self, q: Array, tau: Array | None) -> None:
+    def _bridge_skipped_cycles(self, q: FloatArray, tau: FloatArray | None) -> None:
         """Interpolate linearly over skipped cycles; after too many of them restart the observer, and wait until the filters
         have settled.
         """
@@ -284,7 +285,7 @@ class Monitor:
                 self._update_observer(start_position + skipped * position_step, None if tau is None else torque)
         self._skipped_cycles, self._skipped_with_torque, self._skipped_torque_sum = 0, 0, np.zeros(len(q))
 
-    def _scaled_tracking(self, reference: Array, q: Array, elapsed: float, *, alone: bool) -> Array:
+    def _scaled_tracking(self, reference: FloatArray, q: FloatArray, elapsed: float, *, alone: bool) -> FloatArray:
         """Return tracking errors in units of their bounds; with joint sensors alone NaN unless all references were slow for a
         while.
         """
@@ -295,7 +296,7 @@ class Monitor:
             return np.full(len(q), np.nan)
         return np.asarray(np.abs(reference - q) / self.bounds.tracking)
 
-    def _add_pose_sample(self, q: Array, pose: Array) -> tuple[float, Array] | None:
+    def _add_pose_sample(self, q: FloatArray, pose: FloatArray) -> tuple[float, FloatArray] | None:
         """Return the smoothed residual of a tool pose sample in units of the bounds, and the residual of this sample."""
         if not (np.isfinite(pose).all() and np.isfinite(q).all()):
             return None
@@ -314,7 +315,7 @@ class Monitor:
         self._pose_count, self._last_pose_cycle = self._pose_count + 1, self._cycle_count
         return scaled_residual, residual
 
-    def _update_observer(self, q: Array, tau: Array | None) -> None:
+    def _update_observer(self, q: FloatArray, tau: FloatArray | None) -> None:
         joint_count, period = self.arm.n, self._period
         is_settling = self._last_q is None or self._settling_cycles > 0
         if self._last_q is not None:  # the arm moves when it is seen again: its first rate is not filtered

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import statics
 from holdfast.arm.dynamics import inertial_torques
@@ -20,8 +19,7 @@ from holdfast.arm.machine import ArmData
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 OBSERVER_GAIN_PER_S = 40.0  # 1/s, K_O
 FILTER_BANDWIDTH_RAD_S = 2 * np.pi * 20  # rad/s, of the filter on rates and torques
@@ -46,12 +44,12 @@ def momentum_terms(arm: ArmData, q: SX, v: SX) -> tuple[SX, SX, SX]:
     return momentum, ca.gradient(energy, q), gravity
 
 
-def friction_torque(v: Array, coulomb: Array, viscous: Array) -> Array:
+def friction_torque(v: FloatArray, coulomb: FloatArray, viscous: FloatArray) -> FloatArray:
     """Return the assumed friction, N m or N: dry friction ``coulomb`` and ``viscous`` times the rate, (..., n)."""
     return np.asarray(coulomb * np.tanh(v / FRICTION_TRANSITION_RATE) + viscous * v)
 
 
-def low_pass(signal: Array, dt: float, band: float, initial: Array) -> Array:
+def low_pass(signal: FloatArray, dt: float, band: float, initial: FloatArray) -> FloatArray:
     """Filter a signal (T, n) by ``y += min(1, band dt) (x - y)`` from ``initial`` (n,) on."""
     from scipy.signal import lfilter
 
@@ -60,14 +58,14 @@ def low_pass(signal: Array, dt: float, band: float, initial: Array) -> Array:
     return np.asarray(filtered)
 
 
-def residual_level(residual: Array, dt: float) -> Array:
+def residual_level(residual: FloatArray, dt: float) -> FloatArray:
     """Return the slowly varying levels (T, n) of residuals (T, n), from 0 on, which errors of the masses cause, unlike faults
     and external forces.
     """
     return low_pass(residual, dt, LEVEL_BANDWIDTH_RAD_S, np.zeros(residual.shape[1]))
 
 
-def filtered_rates(q: Array, dt: float, *, moving: bool = False) -> Array:
+def filtered_rates(q: FloatArray, dt: float, *, moving: bool = False) -> FloatArray:
     """Return filtered rates (T, n) of joint positions (T, n), from rest, or from the first rate of a joint that is moving."""
     raw_rates = np.diff(q, axis=0, prepend=q[:1]) / dt
     if moving:
@@ -76,8 +74,8 @@ def filtered_rates(q: Array, dt: float, *, moving: bool = False) -> Array:
 
 
 def observe_residuals(
-    kernel: Kernel, q: Array, tau: Array, *, dt: float, coulomb: Array, viscous: Array, settling: int = 1
-) -> tuple[Array, Array, Array, Array]:
+    kernel: Kernel, q: FloatArray, tau: FloatArray, *, dt: float, coulomb: FloatArray, viscous: FloatArray, settling: int = 1
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return residuals, filtered rates, gravity torques, and torques through both filters of a recording, (T, n) each.
 
     The observer is linear in what the kernel gives, and so a filter: ``r_k = (1 - K dt) r_{k-1} + K (p_k - p_{k-1} - dt u_k)``
@@ -108,7 +106,7 @@ def observe_residuals(
     )
 
 
-def accumulate_excess(scaled: Array, dt: float | Array) -> Array:
+def accumulate_excess(scaled: FloatArray, dt: float | FloatArray) -> FloatArray:
     """Return the accumulated excess, s, of a signal (T, ...) above 1: ``G <- max(0, G + (z - 1) dt)``; NaN counts as 1."""
     increments = np.nan_to_num(np.asarray(scaled) - 1.0, nan=0.0, posinf=0.0) * dt
     total = np.cumsum(increments, axis=0)

@@ -12,8 +12,7 @@ from holdfast.arm.model import Arm
 from holdfast.diagnosis.signals import compute_signals
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _FULL_TURN_RAD = 2 * np.pi
 _TURN_TOLERANCE_RAD = 0.5  # a leap within this distance of whole turns is a wrapped angle, no motion
@@ -30,7 +29,9 @@ _RATIO_CORRELATION = 0.98
 _FOLLOWING_CORRELATION = 0.9  # least correlation of a joint with its own reference
 _SWAPPED_JOINT_CORRELATION = 0.99  # correlation with another joint's reference that names a swapped order
 _TORQUE_CORRELATION = 0.97
-_MIN_TORQUE_SCALE, _MAX_TORQUE_SCALE = 0.25, 4.0  # of a recorded torque to that of the model
+# _MIN_TORQUE_SCALE and _MAX_TORQUE_SCALE: of a recorded torque to that of the model
+_MIN_TORQUE_SCALE = 0.25
+_MAX_TORQUE_SCALE = 4.0
 _MIN_LOAD_FRACTION = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
 _MIN_GRAVITY_FRACTION = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
 _CONFIGURATION_COUNT = 200  # at which gravity torques are computed
@@ -89,7 +90,7 @@ def require_following(arm: Arm, logs: Sequence[Log]) -> None:
             raise InputError("tau never changes while joints move; leave tau out if it was not recorded")
 
 
-def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous: Array) -> None:
+def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: FloatArray, viscous: FloatArray) -> None:
     """Raise an error if the model of a healthy arm does not explain its torques: another sign, unit, or order.
 
     The observer's residual is the model's torque less the recorded one, and without torques the model's alone.
@@ -97,7 +98,7 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
     Raises:
         InputError: The message names the joints and the probable cause.
     """
-    torque_pairs: list[tuple[Array, Array]] = []
+    torque_pairs: list[tuple[FloatArray, FloatArray]] = []
     checked_s = 0.0
     for log in logs:
         if log.tau is not None and checked_s < _CHECKED_S:
@@ -147,7 +148,7 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: Array, viscous:
         )
 
 
-def _largest_gravity_torques(arm: Arm) -> Array:
+def _largest_gravity_torques(arm: Arm) -> FloatArray:
     """Return the largest gravity torque (n,) of each joint at random configurations, N m and N."""
     default_bound = np.where(arm.prismatic, 1.0, np.pi)
     lower, upper = (
@@ -162,7 +163,7 @@ def _quote_names(arm: Arm, chosen: NDArray[np.bool_]) -> str:
     return ", ".join(f"'{name}'" for name, is_chosen in zip(arm.joint_names, chosen, strict=True) if is_chosen)
 
 
-def _best_order(recorded: Array, model: Array) -> list[int] | None:
+def _best_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:
     """Return the joints to which the columns of recorded torques belong, if another order explains them."""
     from scipy.optimize import linear_sum_assignment
 
@@ -173,7 +174,7 @@ def _best_order(recorded: Array, model: Array) -> list[int] | None:
     return order if explained and order != sorted(order) else None
 
 
-def _compare_motions(reference: Array, measured: Array) -> tuple[float, float]:
+def _compare_motions(reference: FloatArray, measured: FloatArray) -> tuple[float, float]:
     """Return the slope of measured over reference values, and their correlation; zeros without motion."""
     is_measured = np.isfinite(reference) & np.isfinite(measured)
     if is_measured.sum() < 2 or np.ptp(reference[is_measured]) <= _MIN_TRAVEL or np.ptp(measured[is_measured]) == 0:
@@ -207,7 +208,7 @@ def _unwrap_angles(arm: Arm, log: Log) -> Log:
     return log if is_unchanged else replace(log, q_ref=references, q=positions)
 
 
-def _turns_to_limits(arm: Arm, joint: int, angles: Array) -> int:
+def _turns_to_limits(arm: Arm, joint: int, angles: FloatArray) -> int:
     """Return the full turns that bring angles within the limits of a joint; 0 if none does or they are there already."""
     lowest, highest = np.fmin.reduce(angles), np.fmax.reduce(angles)
     return next(
@@ -220,7 +221,7 @@ def _turns_to_limits(arm: Arm, joint: int, angles: Array) -> int:
     )
 
 
-def _full_turns(steps: Array) -> Array:
+def _full_turns(steps: FloatArray) -> FloatArray:
     """Return the full turns in steps of an angle, 0 where a step is not near full turns."""
     rounded = np.rint(steps / _FULL_TURN_RAD)
     return np.where(np.abs(steps - _FULL_TURN_RAD * rounded) < _TURN_TOLERANCE_RAD, rounded, 0.0)

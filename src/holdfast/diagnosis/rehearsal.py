@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.mjcf import import_mujoco, silence_mujoco
@@ -21,8 +21,7 @@ from holdfast.notice import reports_progress, track
 from holdfast.physics.body import Body
 from holdfast.physics.drives import Drives
 from holdfast.physics.servos import Servos
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _CYCLE_S = 1e-3  # s
 _MAX_AMPLITUDE = 0.6  # rad or m to either side of the middle, at most; and half of the room to the limits
@@ -169,7 +168,7 @@ class _RecordedRobot:
     def __init__(
         self,
         arm: Arm,
-        reference: Array,
+        reference: FloatArray,
         rng: np.random.Generator,
         body: Body,
         faults: Sequence[FaultEvent],
@@ -218,7 +217,7 @@ def _make_logs(arm: Arm, robots: Sequence[_RecordedRobot], pose: bool) -> list[L
     return logs
 
 
-def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[Array, Array, Array]:
+def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Run R robots in lockstep; return measured and true positions and torques (T, R, n)."""
     advance, cycle_count, joint_count = import_mujoco().mj_step, len(robots[0].reference), arm.n
     times = np.arange(cycle_count, dtype=np.float64) * _CYCLE_S
@@ -245,7 +244,7 @@ def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[Array, Arra
         np.add(positions_now, noise[cycle], out=measured_now)
         for robot_index, robot in enumerate(robots if affected else ()):
             measured_now[robot_index] = (
-                robot.injector.read(positions_now[robot_index], reference=reference[cycle, robot_index])
+                robot.injector.read_sensors(positions_now[robot_index], reference=reference[cycle, robot_index])
                 + noise[cycle, robot_index]
             )
         drives.sense(measured_now, positions_now)
@@ -264,7 +263,7 @@ def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[Array, Arra
     return measured, true_positions[:-1], drives.compute_torque(commands, np.diff(true_positions, axis=0))
 
 
-def _sine_references(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> Array:
+def _sine_references(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> FloatArray:
     """Return sines about the middle of each range, from rest: their phase accelerates within half a second."""
     if duration is None or not 0 < duration < np.inf:
         raise InputError(f"duration is {duration}; it must be a finite number of seconds above 0")
@@ -279,12 +278,12 @@ def _sine_references(arm: Arm, duration: float | None, speed: float, rng: np.ran
     )
 
 
-def _measured_tool_poses(arm: Arm, q: Array, robot: _RecordedRobot) -> tuple[Array, Array]:
+def _measured_tool_poses(arm: Arm, q: FloatArray, robot: _RecordedRobot) -> tuple[FloatArray, FloatArray]:
     """Return tool poses with noise, NaN between samples."""
     from scipy.spatial.transform import Rotation
 
     sample_interval = round(1 / (_POSE_RATE_HZ * _CYCLE_S))
-    poses = robot.body.measured(arm.forward_kinematics(q[::sample_interval]), robot.rng)
+    poses = robot.body.measure_poses(arm.forward_kinematics(q[::sample_interval]), robot.rng)
     positions, quaternions = np.full((len(q), 3), np.nan), np.full((len(q), 4), np.nan)
     positions[::sample_interval], quaternions[::sample_interval] = (
         poses[:, :3, 3],

@@ -15,15 +15,14 @@ from holdfast.arm.poses import rotation_vectors, rotations_of_quaternions
 from holdfast.diagnosis.gaps import MAX_BRIDGED_GAP_S, complete_rows, log_segments
 from holdfast.diagnosis.observer import accumulate_excess, filtered_rates, momentum_kernel, observe_residuals, residual_level
 from holdfast.faults.log import Log
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 EXCESS_LIMITS_S = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
 SMOOTHING_SAMPLES = 5  # samples of the tool's pose
-MAX_SLOW_RATE, CALM_TIME_S = (
-    0.6,
-    0.1,
-)  # rad/s or m/s, s: with joint sensors alone, tracking counts while all references were so slow for so long
+# MAX_SLOW_RATE and CALM_TIME_S: rad/s or m/s, s: with joint sensors alone, tracking counts while all references were so slow
+# for so long
+MAX_SLOW_RATE = 0.6
+CALM_TIME_S = 0.1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -37,10 +36,10 @@ class ScaledResiduals:
         alarm: Row of the first alarm, and the levels that alarm there; None if there is none.
     """
 
-    torque: Array
-    tracking: Array
-    tool: Array
-    excess: dict[str, Array]
+    torque: FloatArray
+    tracking: FloatArray
+    tool: FloatArray
+    excess: dict[str, FloatArray]
     alarm: tuple[int, tuple[str, ...]] | None
 
 
@@ -62,15 +61,15 @@ class Signals:
 
     dt: float
     seen: NDArray[np.bool_]
-    torque: Array
-    tracking: Array
-    tool: Array
-    v: Array
-    gravity: Array
-    asked: Array
+    torque: FloatArray
+    tracking: FloatArray
+    tool: FloatArray
+    v: FloatArray
+    gravity: FloatArray
+    asked: FloatArray
     levels: tuple[str, ...]
 
-    def largest_residual(self, name: str) -> Array | float:
+    def largest_residual(self, name: str) -> FloatArray | float:
         """Return the largest ``torque``, its ``change``, or ``tracking``, (n,), or the largest ``position`` or ``angle`` error
         of the tool.
 
@@ -86,7 +85,7 @@ class Signals:
         part = self.tool[:, :3] if name == "position" else self.tool[:, 3:]
         return float(np.nanmax(np.linalg.norm(part, axis=1))) if "tool" in self.levels else np.inf
 
-    def scale_by_bounds(self, torque: Array, tracking: Array, position: float, angle: float) -> ScaledResiduals:
+    def scale_by_bounds(self, torque: FloatArray, tracking: FloatArray, position: float, angle: float) -> ScaledResiduals:
         """Return the residuals in units of their bounds, with the first alarm."""
         scaled_torque, scaled_tracking = np.abs(self.torque) / torque, np.abs(self.tracking) / tracking
         tool_sizes = [np.linalg.norm(self.tool[:, :3], axis=1) / position, np.linalg.norm(self.tool[:, 3:], axis=1) / angle]
@@ -110,7 +109,7 @@ class Signals:
             torque=scaled_torque, tracking=scaled_tracking, tool=scaled_tool, excess=excess_times, alarm=alarm
         )
 
-    def _tool_excess(self, scaled: Array) -> Array:
+    def _tool_excess(self, scaled: FloatArray) -> FloatArray:
         """Accumulate the tool's excess; each pose sample counts for the time since the previous sample, but for at
         most 50 ms.
         """
@@ -124,7 +123,7 @@ class Signals:
         return total
 
 
-def compute_signals(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body: Arm | None = None) -> Signals:
+def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatArray, body: Arm | None = None) -> Signals:
     """Compute the residuals of a recording.
 
     Args:
@@ -174,14 +173,14 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: Array, viscous: Array, body:
     return Signals(dt=period, seen=is_complete, **fields, levels=tuple(levels))
 
 
-def tool_residual(arm: Arm, q: Array, x: Array, rotations: Array) -> Array:
+def tool_residual(arm: Arm, q: FloatArray, x: FloatArray, rotations: FloatArray) -> FloatArray:
     """Return measured tool poses less those of the joints, (N, 6): ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
     poses = arm.forward_kinematics(q)
     rotation_errors = rotation_vectors(rotations @ poses[:, :3, :3].transpose(0, 2, 1))
     return np.concatenate([x - poses[:, :3, 3], rotation_errors], axis=1)
 
 
-def find_calm_rows(reference: Array, is_complete: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
+def find_calm_rows(reference: FloatArray, is_complete: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
     """Return (T,) True where all references (T, n) were slow for a while, counting only the rows that have them."""
     row_indices, is_calm = np.flatnonzero(is_complete), np.zeros(len(is_complete), dtype=bool)
     steps = np.abs(np.diff(reference[row_indices], axis=0, prepend=reference[row_indices[:1]]))
@@ -192,7 +191,7 @@ def find_calm_rows(reference: Array, is_complete: NDArray[np.bool_], dt: float) 
     return is_calm
 
 
-def _smooth_poses(rows: Array) -> Array:
+def _smooth_poses(rows: FloatArray) -> FloatArray:
     """Return means of the last samples, fewer at the beginning."""
     cumulative = np.cumsum(np.vstack([np.zeros(rows.shape[1]), rows]), axis=0)
     window_ends = np.arange(1, len(rows) + 1)

@@ -5,16 +5,14 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.enclosure.boxes import Blocked, BoxContractor
 from holdfast.notice import report_work, reports_progress
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 _BOX_WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: boxes of about this size are joined
 _MAX_JOINED_BOXES = 20_000  # boxes at most
@@ -30,7 +28,7 @@ def prove_leg_impossible(
     pose: ArrayLike,
     *,
     way: ArrayLike,
-    limits: tuple[Array, Array],
+    limits: tuple[FloatArray, FloatArray],
     tolerance: tuple[float, float] = (0.0, 0.0),
     time_limit: float = 10.0,
     most_boxes: int = 20_000_000,
@@ -92,7 +90,7 @@ def prove_leg_impossible(
     return None
 
 
-def _connected_to_both_ends(boxes: Array) -> Flags | None:
+def _connected_to_both_ends(boxes: FloatArray) -> BoolArray | None:
     """Return (N,) True for boxes (N, 2, n) in a chain of touching boxes from the last joint at 0 to the last joint at 1.
 
     None if too many touch.

@@ -32,7 +32,6 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
@@ -42,8 +41,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import Cholesky
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 ROUNDING_M_RAD = 1e-9  # m and rad by which every bound is widened; the kernel's own errors are 1e-13
 _GRAM_REGULARIZATION = 1e-30  # keeps the inverse finite where a box and its remainder are nothing
@@ -226,7 +224,7 @@ def is_last_joint_idle(arm: Arm, parts: BoundedTask) -> bool:
     return bool(not last.prismatic and is_on_axis and not orienting_joints(arm, parts)[-1])
 
 
-def _nearest_axis_point(arm: Arm) -> Array | None:
+def _nearest_axis_point(arm: Arm) -> FloatArray | None:
     """Return the point of the last axis nearest to the axis before it, in the last link's frame; None if the last joint is
     prismatic.
 
@@ -244,7 +242,7 @@ def _nearest_axis_point(arm: Arm) -> Array | None:
     return np.asarray(axis_coordinate * last.axis)
 
 
-def _axis_distance_bounds(arm: Arm, jacobian: SX, box: tuple[SX, SX], is_revolute: list[bool], point: Array) -> list[SX]:
+def _axis_distance_bounds(arm: Arm, jacobian: SX, box: tuple[SX, SX], is_revolute: list[bool], point: FloatArray) -> list[SX]:
     """Return ``rho`` of every joint, for a point given in the last link's frame."""
     max_distances, half_widths = _max_axis_distances(arm, point, *box), box[1]
     rho: list[SX] = [ca.SX(1)] * arm.n
@@ -256,7 +254,7 @@ def _axis_distance_bounds(arm: Arm, jacobian: SX, box: tuple[SX, SX], is_revolut
     return rho
 
 
-def _max_axis_distances(arm: Arm, point: Array, centers: SX, half_widths: SX) -> list[SX]:
+def _max_axis_distances(arm: Arm, point: FloatArray, centers: SX, half_widths: SX) -> list[SX]:
     """Bound the distance of the point from each joint's axis over the box by the lengths of the links beyond the axis.
 
     Slides count as far as the box goes, not the arm's limits: a lock may be outside them.

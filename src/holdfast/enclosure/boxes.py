@@ -13,10 +13,9 @@ from holdfast.arm.task import Task
 from holdfast.enclosure.box_bounds import BoundedTask, box_kernel, is_last_joint_idle
 from holdfast.errors import TaskError
 from holdfast.kernels.kernel import Kernel
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Blocked = Callable[[Array, Array], Flags]
+Blocked = Callable[[FloatArray, FloatArray], BoolArray]
 """Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
 
 _BATCH_ROWS = 4096  # boxes looked at together
@@ -36,13 +35,13 @@ class ContractedBoxes:
         widest_joint: (N,) joint to be halved.
     """
 
-    box: Array
-    original: Array
-    inside: Flags
-    volume: Array
+    box: FloatArray
+    original: FloatArray
+    inside: BoolArray
+    volume: FloatArray
     widest_joint: NDArray[np.intp]
 
-    def __getitem__(self, selection: Flags) -> ContractedBoxes:
+    def __getitem__(self, selection: BoolArray) -> ContractedBoxes:
         return ContractedBoxes(
             self.box[selection],
             self.original[selection],
@@ -51,7 +50,7 @@ class ContractedBoxes:
             self.widest_joint[selection],
         )
 
-    def bisect(self) -> Array:
+    def bisect(self) -> FloatArray:
         """Return the boxes (K, 2, n) to check next: contracted ones as they are, the others in two halves."""
         shrunk = self.volume < _CONTRACTION_RATIO
         upper = self.box[~shrunk]
@@ -89,12 +88,12 @@ class BoxContractor:
         self,
         arm: Arm,
         task: Task,
-        pose: Array,
+        pose: FloatArray,
         *,
         tolerance: tuple[float, float],
-        limits: tuple[Array, Array],
+        limits: tuple[FloatArray, FloatArray],
         blocked: Blocked | None,
-        way: Array | None = None,
+        way: FloatArray | None = None,
     ) -> None:
         lower, upper = limits[0].copy(), limits[1].copy()
         self.parts = parts = BoundedTask.from_task(arm, task)
@@ -116,7 +115,7 @@ class BoxContractor:
         self.low, self.high = lower, upper
         self.checked = self.blocked_count = 0
 
-    def pop_batch(self, stack: list[Array]) -> Array:
+    def pop_batch(self, stack: list[FloatArray]) -> FloatArray:
         """Remove the last boxes of a stack, up to the size of a batch, and return them."""
         boxes = stack.pop()
         while len(boxes) < _BATCH_ROWS and stack:
@@ -125,7 +124,7 @@ class BoxContractor:
             stack.append(boxes[:-_BATCH_ROWS])
         return boxes[-_BATCH_ROWS:]
 
-    def contract(self, boxes: Array) -> ContractedBoxes:
+    def contract(self, boxes: FloatArray) -> ContractedBoxes:
         """Contract boxes (N, 2, n) and leave out those that are empty."""
         self.checked += len(boxes)
         n = boxes.shape[2]

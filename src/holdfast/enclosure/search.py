@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits
@@ -19,14 +19,13 @@ from holdfast.enclosure.boxes import Blocked, BoxContractor, ContractedBoxes
 from holdfast.errors import InputError
 from holdfast.notice import report_work, reports_progress
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not halved any more
-_NEWTON_STEPS = 30
+_POLISHING_STEPS = 30
 _ISOLATION_SIZE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
 _LOOSE_TOLERANCE = 1e-4  # m and rad: what is met within more fills boxes that are as small as boxes get
-_DUPLICATE_TOLERANCE = 1e-5  # rad and m: solutions nearer than this are one
+_SOLUTION_TOLERANCE = 1e-5  # rad and m: solutions nearer than this are one
 
 
 class SearchOutcome(IntEnum):
@@ -71,11 +70,11 @@ class Configurations(Result):
 
     arm: Arm
     task: Task
-    pose: Array
-    lower: Array
-    upper: Array
+    pose: FloatArray
+    lower: FloatArray
+    upper: FloatArray
     finding: SearchOutcome
-    q: Array
+    q: FloatArray
     boxes: int
     open: int
     widest: float
@@ -173,7 +172,7 @@ def all_configurations(
     )
 
 
-def _read_limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[Array, Array]:
+def _read_limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[FloatArray, FloatArray]:
     arm_limits = finite_limits(arm)
     if limits is None:
         return arm_limits
@@ -200,11 +199,11 @@ class _BoxSearch:
         self._is_redundant = int(self._free.sum()) > boxes.parts.m
         self._has_loose_tolerance = bool(boxes.kernel_inputs[2].max() > _LOOSE_TOLERANCE)
         self._stack = [np.stack([(self._low + self._high) / 2, (self._high - self._low) / 2])[None]]
-        self._small_boxes: list[Array] = []  # boxes that are not halved any more, (K, 2, n)
+        self._small_boxes: list[FloatArray] = []  # boxes that are not halved any more, (K, 2, n)
         self.solutions = np.zeros((0, self._n))
 
     @property
-    def _open_boxes(self) -> Array:
+    def _open_boxes(self) -> FloatArray:
         return np.concatenate([*self._stack, *self._small_boxes, np.zeros((0, 2, self._n))])
 
     @property
@@ -250,10 +249,10 @@ class _BoxSearch:
         if len(halves):
             self._stack.append(halves)
 
-    def _refine_solutions(self, q: Array, boxes: Array) -> None:
+    def _refine_solutions(self, q: FloatArray, boxes: FloatArray) -> None:
         """Refine q (N, n) in boxes (N, 2, n) by Newton's method; a box without a solution stays open."""
         start_half_width = np.where(self._free, 1e-4, 0.0)
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_POLISHING_STEPS):
             outputs = self._boxes.kernel.rows(q, np.broadcast_to(start_half_width, q.shape), *self._boxes.kernel_inputs)
             step = outputs[:, 2 * self._n + 4 : 3 * self._n + 4]
             q = np.clip(q + step, self._low, self._high)
@@ -264,7 +263,7 @@ class _BoxSearch:
         in_box = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + MIN_BOX_SIZE).all(axis=1)
         is_solution = in_box & within_tolerance
         for solution in q[is_solution]:
-            if not len(self.solutions) or np.abs(self.solutions - solution).max(axis=1).min() > _DUPLICATE_TOLERANCE:
+            if not len(self.solutions) or np.abs(self.solutions - solution).max(axis=1).min() > _SOLUTION_TOLERANCE:
                 self.solutions = np.concatenate([self.solutions, solution[None]])
         if not is_solution.all():
             self._small_boxes.append(boxes[~is_solution])

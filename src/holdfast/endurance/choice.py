@@ -7,15 +7,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.endurance.grid import CurveNodes, compute_squared_distances
 from holdfast.notice import track
 from holdfast.solvers import joint_space
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 _RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
 _MAX_DENSE_MOVES = (
@@ -33,10 +30,10 @@ class NodeMoves:
         excesses: (M,) how much farther than allowed a joint goes, rad and m; below 0 where none does.
     """
 
-    targets: Index
-    sources: Index
-    squared_distances: Array
-    excesses: Array
+    targets: IndexArray
+    sources: IndexArray
+    squared_distances: FloatArray
+    excesses: FloatArray
 
 
 class BestPathTable:
@@ -48,12 +45,12 @@ class BestPathTable:
         last_pose: The last pose to which any motion leads, if it is not the last of all.
     """
 
-    def __init__(self, gains: list[Array], extra: float = 0.0) -> None:
+    def __init__(self, gains: list[FloatArray], extra: float = 0.0) -> None:
         self.gains, self.allowed_excess = gains, extra
         self.last_pose: int | None = None
         self._tie_tolerance = _RELATIVE_TIE_TOLERANCE * sum(float(gain.max()) for gain in gains)
         self._totals, self._path_lengths = gains[0], np.zeros(len(gains[0]))
-        self._predecessors: list[Index] = []
+        self._predecessors: list[IndexArray] = []
 
     def advance_to_next_pose(self, moves: NodeMoves) -> None:
         """Advance the best motions to the next pose."""
@@ -82,7 +79,7 @@ class BestPathTable:
         """Total gain of the best motion; NaN if none leads to the last pose."""
         return float(self._totals.max()) if self.last_pose is None else float("nan")
 
-    def trace_best_motion(self) -> Index:
+    def trace_best_motion(self) -> IndexArray:
         """Return the node of every pose (T,) along the best motion."""
         best = np.flatnonzero(self._totals >= self._totals.max() - self._tie_tolerance)
         chosen = [int(best[self._path_lengths[best].argmin()])]
@@ -91,7 +88,7 @@ class BestPathTable:
         return np.array(chosen[::-1])
 
 
-def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: Array, path_tables: Sequence[BestPathTable]) -> None:
+def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: FloatArray, path_tables: Sequence[BestPathTable]) -> None:
     """Advance tables of best motions from the first pose to the last.
 
     Args:
@@ -107,7 +104,7 @@ def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: Array, path_tab
             path_table.advance_to_next_pose(moves)
 
 
-def _max_by_group(values: Array, group_indices: Index, group_count: int) -> Array:
+def _max_by_group(values: FloatArray, group_indices: IndexArray, group_count: int) -> FloatArray:
     """Return (G,) the largest value of each group (M,), in sorted order; -inf for an empty group."""
     maxima = np.full(group_count, -np.inf)
     if group_indices.size:
@@ -117,7 +114,7 @@ def _max_by_group(values: Array, group_indices: Index, group_count: int) -> Arra
 
 
 def _find_moves(
-    arm: Arm, nodes_after: CurveNodes, nodes_before: CurveNodes, max_steps: Array, allowed_excess: float
+    arm: Arm, nodes_after: CurveNodes, nodes_before: CurveNodes, max_steps: FloatArray, allowed_excess: float
 ) -> NodeMoves:
     """Return the moves from ``nodes_before`` to ``nodes_after`` within the limits plus ``allowed_excess``, or short ones
     without a limit.
@@ -150,12 +147,12 @@ def _find_moves(
     return NodeMoves(targets[is_selected], sources[is_selected], move_distances[is_selected], excesses[is_selected])
 
 
-def _bound_move_length(nodes_before: CurveNodes, nearest: Array, max_steps: Array) -> float:
+def _bound_move_length(nodes_before: CurveNodes, nearest: FloatArray, max_steps: FloatArray) -> float:
     """Return the greatest length of a move of joints without a limit; ``nearest`` (P,) are the distances to the next pose."""
     return np.inf if np.isfinite(max_steps).all() else 3 * nodes_before.spacing + 2 * float(np.median(nearest))
 
 
-def _measure_excess(arm: Arm, q: Array, before: Array, max_steps: Array) -> Array:
+def _measure_excess(arm: Arm, q: FloatArray, before: FloatArray, max_steps: FloatArray) -> FloatArray:
     """Return (...) the greatest excess over the limits of a joint's motion from ``before`` to q (..., n)."""
     excesses = np.full(np.broadcast_shapes(q.shape, before.shape)[:-1], -np.inf)
     for joint_index in np.flatnonzero(np.isfinite(max_steps)):
@@ -166,7 +163,7 @@ def _measure_excess(arm: Arm, q: Array, before: Array, max_steps: Array) -> Arra
     return excesses
 
 
-def _find_close_pairs(arm: Arm, b: Array, a: Array, reach: Array) -> tuple[Index, Index]:
+def _find_close_pairs(arm: Arm, b: FloatArray, a: FloatArray, reach: FloatArray) -> tuple[IndexArray, IndexArray]:
     """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``reach`` (n,) in any joint, in order."""
     from scipy.spatial import KDTree
 

@@ -22,9 +22,7 @@ from holdfast.solvers.clear_parts import CurveConstraint
 from holdfast.solvers.curve_tracing import ManifoldTracer
 from holdfast.solvers.self_motions import SelfMotion
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 _SAMPLED_CONFIGURATIONS = 8  # configurations, drawn, at which it is asked whether self-motion changes what is kept
 _UNCHANGED_TOLERANCE = 1e-9  # m and rad per rad
@@ -90,7 +88,7 @@ class MotionConditions:
             return None
         return ConstraintManifold(self.arm, self.left_to_arm, self.arm.upper > self.arm.lower, finite_limits(self.arm))
 
-    def are_met(self, q: Array, slack: float = 0.0) -> Flags:
+    def are_met(self, q: FloatArray, slack: float = 0.0) -> BoolArray:
         """Return (N,) True where configurations (N, n) on the path meet the conditions, with a slack of the clearance in m."""
         is_met = np.ones(len(q), dtype=bool)
         if self.required_clearance is not None:
@@ -99,18 +97,18 @@ class MotionConditions:
             is_met[is_met] = self.manifold.is_satisfied(q[is_met])
         return is_met
 
-    def find_violation(self, q: Array) -> tuple[int, str] | None:
+    def find_violation(self, q: FloatArray) -> tuple[int, str] | None:
         """Return the first of configurations (N, n) that violates a constraint, and the violation as a phrase."""
         return _find_first_violation(self.constraints, self.arm.forward_kinematics(q))
 
-    def meet_constraints(self, q: Array) -> Flags:
+    def meet_constraints(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where configurations (N, n) meet the tool constraints."""
         poses = self.arm.forward_kinematics(q)
         return np.array(
             [not any(constraint.trouble(pose[None]) for constraint in self.constraints) for pose in poses], dtype=bool
         )
 
-    def find_path_violation(self, q: Array) -> tuple[int, str] | None:
+    def find_path_violation(self, q: FloatArray) -> tuple[int, str] | None:
         """Return the first violation of the constraints that the path alone decides, for any configurations (T, n) on it."""
         return _find_first_violation(self.set_by_path, self.arm.forward_kinematics(q))
 
@@ -137,12 +135,12 @@ class MotionConditions:
         q = np.concatenate([component.q for component in parts]) if parts else self_motion.q[:0]
         return replace(self_motion, components=parts, q=q, status=self_motion.status if parts else Status.INFEASIBLE)
 
-    def project_configurations(self, q: Array, poses: Array) -> Array:
+    def project_configurations(self, q: FloatArray, poses: FloatArray) -> FloatArray:
         """Project q (N, n) towards the constraints left to the arm and the rows of poses (N, 4, 4); some may not converge."""
         if self.manifold is None:
             return q
 
-        def evaluate_path_rows(trial: Array, pose_indices: NDArray[np.intp]) -> tuple[Array, Array]:
+        def evaluate_path_rows(trial: FloatArray, pose_indices: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
             current_poses, jacobian, target_poses = (
                 self.arm.forward_kinematics(trial),
                 self.arm.jacobian(trial),
@@ -156,7 +154,7 @@ class MotionConditions:
         return self.manifold.project(q, evaluate_path_rows)
 
 
-def _find_first_violation(constraints: Sequence[ToolConstraint], poses: Array) -> tuple[int, str] | None:
+def _find_first_violation(constraints: Sequence[ToolConstraint], poses: FloatArray) -> tuple[int, str] | None:
     for index, pose in enumerate(poses if constraints else []):
         violations = [violation for constraint in constraints if (violation := constraint.trouble(pose[None]))]
         if violations:
@@ -190,7 +188,7 @@ def _is_set_by_path(arm: Arm, task: Task, constraint: ToolConstraint) -> bool:
     return bool(np.abs(rotations).max(initial=0.0) <= _UNCHANGED_TOLERANCE)
 
 
-def _world_task_rows(task: Task, poses: Array) -> Array:
+def _world_task_rows(task: Task, poses: FloatArray) -> FloatArray:
     """Return the rows (N, m, 6) of a task for twists in the world, with the tool at poses (N, 4, 4)."""
     rows = np.broadcast_to(task.rows, (len(poses), *task.rows.shape))
     if task.frame == "base":
@@ -199,12 +197,12 @@ def _world_task_rows(task: Task, poses: Array) -> Array:
     return np.concatenate([rows[..., :3] @ inverse_rotations, rows[..., 3:] @ inverse_rotations], axis=2)
 
 
-def compute_task_jacobian(arm: Arm, task: Task, q: Array) -> Array:
+def compute_task_jacobian(arm: Arm, task: Task, q: FloatArray) -> FloatArray:
     """Return the Jacobian (N, m, n) of the rows of a task, m and rad, at q (N, n)."""
     return np.asarray(_world_task_rows(task, arm.forward_kinematics(q)) @ arm.jacobian(q))
 
 
-def fix_tool_axis(task: Task, path: TimedPath, axis: Array, direction: Array) -> tuple[Task, TimedPath] | None:
+def fix_tool_axis(task: Task, path: TimedPath, axis: FloatArray, direction: FloatArray) -> tuple[Task, TimedPath] | None:
     """Return the task and path with an axis (3,) of the tool fixed along a direction (3,) in the world, unit vectors.
 
     None where the task prescribes other rows than the position, or the path waits or turns in a place.
@@ -221,7 +219,7 @@ def fix_tool_axis(task: Task, path: TimedPath, axis: Array, direction: Array) ->
     return Task(f"{task.name} with the axis held", rows, "tool", length=task.length), oriented_path
 
 
-def _complete_axes(first: Array) -> Array:
+def _complete_axes(first: FloatArray) -> FloatArray:
     """Return right-handed axes (3, 3), in columns, from the first one."""
     second = np.linalg.svd(first[None])[2][1]
     return np.column_stack([first, second, np.cross(first, second)])

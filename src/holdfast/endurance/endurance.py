@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -26,13 +25,12 @@ from holdfast.notice import reports_progress
 from holdfast.paths.timed_path import TimedPath
 from holdfast.probability.intervals import Interval
 from holdfast.result import Result
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 from holdfast.words import format_percent
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
-
-_SMALL_MOTION, _STANDSTILL_TOLERANCE = 0.3, 1e-6  # rad and m along a whole curve
+# _SMALL_MOTION and _STANDSTILL_TOLERANCE: rad and m along a whole curve
+_SMALL_MOTION = 0.3
+_STANDSTILL_TOLERANCE = 1e-6
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _KIND_PREFIXES: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
 
@@ -57,10 +55,10 @@ class SearchBounds:
     bound: float
     interval: tuple[float, float]
     spacing: float
-    nodes: Sequence[Array]
-    curve: Sequence[Index]
-    survives: Sequence[Flags]
-    moved: Array
+    nodes: Sequence[FloatArray]
+    curve: Sequence[IndexArray]
+    survives: Sequence[BoolArray]
+    moved: FloatArray
     held: dict[str, float] = field(default_factory=dict)
 
 
@@ -78,7 +76,7 @@ class BaselineMotion:
 
     name: str
     survival: float
-    curve: Array
+    curve: FloatArray
     off: float
 
 
@@ -114,10 +112,10 @@ class LockSurvival(Result):
     path: TimedPath
     mode: Mode
     rates: FailureRates
-    time: Array
-    poses: Array
-    q: Array
-    survives: Flags
+    time: FloatArray
+    poses: FloatArray
+    q: FloatArray
+    survives: BoolArray
     kept: tuple[Clearance, float] | None = None
     keep: tuple[ToolConstraint, ...] = ()
     found: SearchBounds | None = None
@@ -127,7 +125,9 @@ class LockSurvival(Result):
     _problem: SurvivalProblem = field(repr=False)
 
     @classmethod
-    def of(cls, problem: SurvivalProblem, q: Array, *, survives: Flags, found: SearchBounds | None = None) -> LockSurvival:
+    def for_motion(
+        cls, problem: SurvivalProblem, q: FloatArray, *, survives: BoolArray, found: SearchBounds | None = None
+    ) -> LockSurvival:
         """Return the result for a motion (T, n) and the survival (T, n) of its locks."""
         return cls(
             arm=problem.arm,
@@ -152,21 +152,21 @@ class LockSurvival(Result):
         return self._weighted_mean(self.curve())
 
     @property
-    def bound(self) -> float | None:
+    def survival_bound(self) -> float | None:
         """Upper bound on the survival of any motion, up to the grid; None for a given motion, and where no bound is known."""
         return None if self.found is None or self.kind == "lower bound" else self.found.bound
 
     @property
     def gap(self) -> float | None:
         """Upper bound on the distance of the motion from the optimum."""
-        return None if self.bound is None else max(self.bound - self.survival, 0.0)
+        return None if self.survival_bound is None else max(self.survival_bound - self.survival, 0.0)
 
     @property
     def interval(self) -> tuple[float, float] | None:
         """Survival of the best motions of the grid, within the velocity limits and with the spacing on top; see ``found``."""
         return None if self.found is None else self.found.interval
 
-    def curve(self) -> Array:
+    def curve(self) -> FloatArray:
         """Return the probability (T,) that a lock at that time is survived, averaged over the joints."""
         return np.asarray(np.round(self.survives @ self.rates.each / self.rates.total, 12))
 
@@ -179,7 +179,7 @@ class LockSurvival(Result):
         }
 
     @property
-    def guaranteed(self) -> bool:
+    def survives_all_locks(self) -> bool:
         """True if every lock at every sample is survived, for joints that can fail."""
         return bool((self.curve() >= 1 - _PROBABILITY_TOLERANCE).all())
 
@@ -203,7 +203,7 @@ class LockSurvival(Result):
         return float(self.time[sample]), float(self.curve()[sample])
 
     @property
-    def lost(self) -> float | None:
+    def loss_probability(self) -> float | None:
         """Probability that a lock occurs and loses the path, with rates per second; None without."""
         if not self.rates.per_second:
             return None
@@ -225,7 +225,7 @@ class LockSurvival(Result):
         return None
 
     @cached_property
-    def rates_of_joints(self) -> Array:
+    def rates_of_joints(self) -> FloatArray:
         """Joint velocities (T, n) in rad/s and m/s, by differences."""
         return np.asarray(np.gradient(self.q, self.time, axis=0, edge_order=2 if len(self.time) > 2 else 1))
 
@@ -287,7 +287,7 @@ class LockSurvival(Result):
             survived=survived,
             expected=expected,
             told=expected == self.survives[sample_before + 1, locked_joints],
-            interval=Interval.of(float(survived.sum()), locks),
+            interval=Interval.from_counts(float(survived.sum()), locks),
         )
 
     def to_csv(self, file: str | Path) -> Path:
@@ -300,7 +300,7 @@ class LockSurvival(Result):
         rows = np.column_stack([self.time, self.q, self.curve()])
         return write_table(file, "motion", header, rows, ["%.12g"] * len(header))
 
-    def _weighted_mean(self, values: Array) -> float:
+    def _weighted_mean(self, values: FloatArray) -> float:
         weights = self.rates.weights(self.time)
         return round(float(weights @ values / weights.sum()), 12)  # all of them are 1, not almost
 
@@ -324,10 +324,12 @@ class LockSurvival(Result):
     @property
     def headline(self) -> str:
         """Answer in a sentence."""
-        if self.guaranteed:
+        if self.survives_all_locks:
             return "every lock of a joint, at any sample of the path, is survived"
         bound_text = (
-            "" if self.bound is None else f"; no motion along this path survives more than {format_percent(self.bound)}"
+            ""
+            if self.survival_bound is None
+            else f"; no motion along this path survives more than {format_percent(self.survival_bound)}"
         )
         return (
             f"{_KIND_PREFIXES[self.kind]}{format_percent(self.survival)} of all locks of a joint on the way are "
@@ -360,7 +362,7 @@ class LockSurvival(Result):
         if self.keep:
             task_text = "" if self._problem.conditions.left_to_arm else ", by the rows of the path alone"
             lines.append(f"kept at every sample, before a lock and after it{task_text}: {'; '.join(map(str, self.keep))}")
-        if not self.guaranteed:
+        if not self.survives_all_locks:
             worst_time, worst_probability = self.worst
             lines.append(
                 f"by joint: {', '.join(f'{name} {format_percent(value)}' for name, value in self.by_joint.items())}; "
@@ -388,8 +390,8 @@ class LockSurvival(Result):
         lines += self._explain_pose_limits()
         if self.speed > 1 + _PROBABILITY_TOLERANCE:
             lines.append(f"the motion takes {self.speed:.3g} times the velocity limit of a joint: slow the path down")
-        if self.lost is not None:
-            lines.append(f"probability that a lock loses the path: {self.lost:.3g}")
+        if self.loss_probability is not None:
+            lines.append(f"probability that a lock loses the path: {self.loss_probability:.3g}")
         if self.kind == "upper bound":
             condition_text = "that keep what is kept" if self.keep else "among obstacles"
             lines.append(f"detours {condition_text} were not looked for: every probability is an upper bound")

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -28,8 +28,7 @@ from holdfast.motion.trajectory import Trajectory
 from holdfast.notice import reports_progress
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.self_motions import TRACING_STARTS
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 LEAST_NORM = "least-norm"
 
@@ -115,7 +114,7 @@ def evaluate_motion(
     broken = problem.conditions.find_violation(q)
     if broken is not None:
         raise InputError(f"the motion breaks what is kept: at {problem.time[broken[0]]:.4g} s the tool is {broken[1]}")
-    return LockSurvival.of(problem, q, survives=problem.evaluate_locks(q))
+    return LockSurvival.for_motion(problem, q, survives=problem.evaluate_locks(q))
 
 
 def with_baselines(
@@ -162,10 +161,10 @@ def _follow_objective(
     )
 
 
-def _evaluate_baseline(problem: SurvivalProblem, name: str, q: Array) -> BaselineMotion:
+def _evaluate_baseline(problem: SurvivalProblem, name: str, q: FloatArray) -> BaselineMotion:
     """Evaluate the locks that a motion survives; where it is off the path or violates a condition, it survives none."""
     is_invalid = problem.is_off_path(q)
     is_invalid[~is_invalid] = ~problem.conditions.meet_constraints(q[~is_invalid])
     survives = problem.evaluate_locks(np.where(is_invalid[:, None], np.nan, q))
-    result = LockSurvival.of(problem, q, survives=survives)
+    result = LockSurvival.for_motion(problem, q, survives=survives)
     return BaselineMotion(name=name, survival=result.survival, curve=result.curve(), off=float(is_invalid.mean()))

@@ -7,19 +7,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.solvers import joint_space
 from holdfast.solvers.self_motions import SelfMotion
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,12 +33,12 @@ class CurveNodes:
     """
 
     arm: Arm
-    q: Array
-    curve: Index
-    previous: Index
-    following: Index
-    pieces: Array
-    embedded: Array
+    q: FloatArray
+    curve: IndexArray
+    previous: IndexArray
+    following: IndexArray
+    pieces: FloatArray
+    embedded: FloatArray
     spacing: float
 
     @classmethod
@@ -67,13 +63,15 @@ class CurveNodes:
         )
 
     @classmethod
-    def from_configuration(cls, arm: Arm, q: Array, spacing: float) -> CurveNodes:
+    def from_configuration(cls, arm: Arm, q: FloatArray, spacing: float) -> CurveNodes:
         """Return a single configuration (n,) as nodes."""
         zero = np.zeros(1, dtype=np.int64)
         return cls._create(arm, q[None], spacing, zero, zero, zero)
 
     @classmethod
-    def _create(cls, arm: Arm, q: Array, spacing: float, curve: Index, previous: Index, following: Index) -> CurveNodes:
+    def _create(
+        cls, arm: Arm, q: FloatArray, spacing: float, curve: IndexArray, previous: IndexArray, following: IndexArray
+    ) -> CurveNodes:
         return cls(
             arm,
             q,
@@ -89,7 +87,7 @@ class CurveNodes:
     def _search_tree(self) -> KDTree:
         return joint_space.build_tree(self.arm, self.q)
 
-    def locate(self, q: Array) -> tuple[Index, Array, Flags]:
+    def locate(self, q: FloatArray) -> tuple[IndexArray, FloatArray, BoolArray]:
         """Return for q (N, n) the node behind it along its curve (N,), the fraction of the segment to the next node (N,), 0 to
         1, and a flag (N,) that is True on a curve.
         """
@@ -117,13 +115,13 @@ def make_nodes(arm: Arm, self_motions: Sequence[SelfMotion]) -> list[CurveNodes]
     return [CurveNodes.from_self_motion(arm, self_motion) for self_motion in self_motions]
 
 
-def embed_configurations(arm: Arm, q: Array) -> Array:
+def embed_configurations(arm: Arm, q: FloatArray) -> FloatArray:
     """Return coordinates (N, e) of q (N, n): unlimited revolute joints as cosine and sine, the others unchanged."""
     turning = joint_space.is_unlimited(arm)
     return np.concatenate([q[:, ~turning], np.cos(q[:, turning]), np.sin(q[:, turning])], axis=1)
 
 
-def compute_squared_distances(a: Array, b: Array) -> Array:
+def compute_squared_distances(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return squared distances (N, P) of rows a (N, e) from rows b (P, e), clipped at 0 against rounding."""
     product = a @ b.T
     product *= -2

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.endurance import tables
 from holdfast.endurance.problem import MAX_CHANGING_SETS, SurvivalProblem
@@ -13,10 +12,7 @@ from holdfast.notice import ProgressCount
 from holdfast.probability.intervals import Interval
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 _ARC_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
 _DURATION_WEIGHT_RAD = 5.0  # what the duration counts beside joints, rad
@@ -37,11 +33,11 @@ class LockTests:
         interval: Of the probability that a lock is survived.
     """
 
-    time: Array
-    joint: Index
-    survived: Flags
-    expected: Flags
-    told: Flags
+    time: FloatArray
+    joint: IndexArray
+    survived: BoolArray
+    expected: BoolArray
+    told: BoolArray
     interval: Interval
 
     @property
@@ -56,7 +52,7 @@ class LockTests:
         return list(zip(self.time[is_different].tolist(), self.joint[is_different].tolist(), strict=True))
 
 
-def sample_locks(problem: SurvivalProblem, lock_count: int, generator: np.random.Generator) -> tuple[Array, Index]:
+def sample_locks(problem: SurvivalProblem, lock_count: int, generator: np.random.Generator) -> tuple[FloatArray, IndexArray]:
     """Sample times (N,) and joints (N,): joints by their rates; times uniformly, or as first failures within the duration."""
     rates, duration = problem.rates, problem.path.duration
     joints = generator.choice(problem.arm.n, size=lock_count, p=rates.each / rates.total)
@@ -67,7 +63,9 @@ def sample_locks(problem: SurvivalProblem, lock_count: int, generator: np.random
     return uniform_values * duration, joints
 
 
-def can_finish_path(problem: SurvivalProblem, q: Array, lock_times: Array, locked_joints: Index, *, q_start: Array) -> Flags:
+def can_finish_path(
+    problem: SurvivalProblem, q: FloatArray, lock_times: FloatArray, locked_joints: IndexArray, *, q_start: FloatArray
+) -> BoolArray:
     """Return (N,) True where the arm, at q (N, n) on the path at time (N,) with joint (N,) locked there, finishes the path.
 
     Its motion began at ``q_start`` (n,).
@@ -93,7 +91,9 @@ def can_finish_path(problem: SurvivalProblem, q: Array, lock_times: Array, locke
     return survived
 
 
-def _can_finish_changing(problem: SurvivalProblem, q: Array, lock_times: Array, locked_joints: Index) -> Flags:
+def _can_finish_changing(
+    problem: SurvivalProblem, q: FloatArray, lock_times: FloatArray, locked_joints: IndexArray
+) -> BoolArray:
     """Return (N,) True where a redundant arm, which may fix other joints at every sample, finishes the path."""
     configurations, lock_indices = q[:0], np.empty(0, dtype=np.int64)
     first_samples = np.searchsorted(problem.time, lock_times, side="right")
@@ -119,8 +119,8 @@ def _can_finish_changing(problem: SurvivalProblem, q: Array, lock_times: Array, 
 
 
 def _reaches_last_pose(
-    problem: SurvivalProblem, q: Array, lock_times: Array, locked_joints: Index, fixed_joints: tuple[int, ...]
-) -> Flags:
+    problem: SurvivalProblem, q: FloatArray, lock_times: FloatArray, locked_joints: IndexArray, fixed_joints: tuple[int, ...]
+) -> BoolArray:
     """Return (N,) True where the branch through (joints, time) leads to the last pose."""
     end_configurations, has_arrived = _follow_branch(
         problem, q, lock_times, (locked_joints, fixed_joints), problem.path.duration
@@ -130,8 +130,12 @@ def _reaches_last_pose(
 
 
 def _follow_branch(
-    problem: SurvivalProblem, q: Array, lock_times: Array, stopped_joints: tuple[Index, tuple[int, ...]], end_time: float
-) -> tuple[Array, Flags]:
+    problem: SurvivalProblem,
+    q: FloatArray,
+    lock_times: FloatArray,
+    stopped_joints: tuple[IndexArray, tuple[int, ...]],
+    end_time: float,
+) -> tuple[FloatArray, BoolArray]:
     """Follow the branch through (joints, time) to a time; return its end and whether it gets there.
 
     It is followed by its arc length, with Runge and Kutta's steps of fourth order. Where time turns back on it the branch ends:
@@ -172,7 +176,7 @@ def _follow_branch(
     return end_configurations, reached
 
 
-def _are_on_last_pose(problem: SurvivalProblem, q: Array) -> Flags:
+def _are_on_last_pose(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
     """Return True for branches that passed the end on the last pose."""
     last_poses = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
     return np.asarray(
@@ -181,8 +185,12 @@ def _are_on_last_pose(problem: SurvivalProblem, q: Array) -> Flags:
 
 
 def _compute_tangent(
-    problem: SurvivalProblem, state: Array, stopped_joints: tuple[Index, tuple[int, ...]], previous: Array, scale: float
-) -> Array:
+    problem: SurvivalProblem,
+    state: FloatArray,
+    stopped_joints: tuple[IndexArray, tuple[int, ...]],
+    previous: FloatArray,
+    scale: float,
+) -> FloatArray:
     """Return the unit tangent (N, n + 1) of the branch at (joints, scaled time), in the direction of ``previous``."""
     arm, task = problem.arm, problem.task
     n, rows = arm.n, np.arange(len(state))
@@ -208,7 +216,7 @@ def _compute_tangent(
     return np.asarray(tangent / np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), 1e-300))
 
 
-def interpolate_motion(problem: SurvivalProblem, q: Array, times: Array) -> Array:
+def interpolate_motion(problem: SurvivalProblem, q: FloatArray, times: FloatArray) -> FloatArray:
     """Return a motion (T, n) at times (N,), brought to the pose of that time and back within the joint limits.
 
     A motion that holds the axis of a cone at its samples does so between them.

@@ -6,15 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.curve_tracing import ManifoldTracer
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 _MAX_NEWTON_STEPS = 10
 _POSE_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's own
@@ -43,13 +39,18 @@ class LockedFollower:
 
     arm: Arm
     tracer: ManifoldTracer
-    poses: Array
-    intermediate_poses: Array
-    conditions_met: Callable[[Array], Flags]
+    poses: FloatArray
+    intermediate_poses: FloatArray
+    conditions_met: Callable[[FloatArray], BoolArray]
 
     @classmethod
     def on_path(
-        cls, arm: Arm, tracer: ManifoldTracer, path: TimedPath, times: Array, conditions_met: Callable[[Array], Flags]
+        cls,
+        arm: Arm,
+        tracer: ManifoldTracer,
+        path: TimedPath,
+        times: FloatArray,
+        conditions_met: Callable[[FloatArray], BoolArray],
     ) -> LockedFollower:
         """Return the follower of a path at times (T,), s."""
         fractions = np.arange(1, _SUBSTEPS + 1) / _SUBSTEPS
@@ -58,7 +59,7 @@ class LockedFollower:
             arm, tracer, path.pose(times), path.pose(fine_times.ravel()).reshape(*fine_times.shape, 4, 4), conditions_met
         )
 
-    def step(self, q: Array, locked_joints: Index, pose_index: int | Index) -> tuple[Array, Flags]:
+    def step(self, q: FloatArray, locked_joints: IndexArray, pose_index: int | IndexArray) -> tuple[FloatArray, BoolArray]:
         """Step from q (N, n) on pose t, one or (N,), with joint (N,) locked to the next pose; return the result and its
         success.
 
@@ -69,11 +70,11 @@ class LockedFollower:
             q, locked_joints, np.broadcast_to(pose_index, len(q)), targets, self.tracer.newton_step(q, *_split_poses(targets))
         )
 
-    def solve_poses(self, q: Array, locked_joints: Index, poses: Array) -> tuple[Array, Flags]:
+    def solve_poses(self, q: FloatArray, locked_joints: IndexArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Solve poses (N, 4, 4) near configurations (N, n) without moving joint (N,); return the result and its success."""
         return self._solve_newton(q, locked_joints, poses, self.tracer.newton_step(q, *_split_poses(poses)))
 
-    def step_all_joints(self, q: Array, pose_indices: Index) -> tuple[Array, Flags]:
+    def step_all_joints(self, q: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, BoolArray]:
         """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), the locked joint second, and success (N,
         n).
         """
@@ -90,8 +91,13 @@ class LockedFollower:
         return next_q.reshape(len(q), n, n), has_arrived.reshape(len(q), n)
 
     def _step_with_retries(
-        self, q: Array, locked_joints: Index, pose_indices: Index, targets: Array, evaluation: tuple[Array, Array, Array]
-    ) -> tuple[Array, Flags]:
+        self,
+        q: FloatArray,
+        locked_joints: IndexArray,
+        pose_indices: IndexArray,
+        targets: FloatArray,
+        evaluation: tuple[FloatArray, FloatArray, FloatArray],
+    ) -> tuple[FloatArray, BoolArray]:
         """Take the step at once, and in smaller steps where that seems to leave the branch."""
         next_q, has_arrived = self._solve_newton(q, locked_joints, targets, evaluation)
         retried = np.flatnonzero(~has_arrived & (np.abs(evaluation[2][np.arange(len(q)), locked_joints]) > _ZERO_NULL_ENTRY))
@@ -113,8 +119,12 @@ class LockedFollower:
         return next_q, has_arrived
 
     def _solve_newton(
-        self, q: Array, locked_joints: Index, targets: Array, evaluation: tuple[Array, Array, Array]
-    ) -> tuple[Array, Flags]:
+        self,
+        q: FloatArray,
+        locked_joints: IndexArray,
+        targets: FloatArray,
+        evaluation: tuple[FloatArray, FloatArray, FloatArray],
+    ) -> tuple[FloatArray, BoolArray]:
         """Continue Newton's method from its first evaluation; return the result and whether it stayed on the branch."""
         steps_back, errors, null_vectors = evaluation
         next_q, final_null_vectors = q.copy(), null_vectors.copy()
@@ -152,5 +162,5 @@ class LockedFollower:
         )
 
 
-def _split_poses(poses: Array) -> tuple[Array, Array]:
+def _split_poses(poses: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])

@@ -8,7 +8,6 @@ from itertools import combinations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, task_of_path
@@ -26,10 +25,7 @@ from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.solvers.self_motions import SelfMotion, make_tracer, trace_self_motions
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 Mode = Literal["on-path", "detour"]
 Kind = Literal["exact", "upper bound", "lower bound"]
@@ -38,13 +34,15 @@ PATH_TOLERANCE = 1e-3  # m and rad that a configuration given may be off the pat
 _IMMOBILE_RANGE = 1e-9  # rad and m between the limits of a joint that does not move, or in a motion
 _MAX_FIXED_SETS = 24  # of joints that a failed arm may hold
 MAX_CHANGING_SETS = 8  # of these, between which it may change on its way
-_FIRST_CONFIGURATIONS, _FIRST_POSE_STARTS = 3, 64  # configurations of the first pose that are tried, of so many starts
-_LOCKED_IK_RESTARTS, _LOCKED_IK_TOLERANCE = (
-    30,
-    1e-6,
-)  # of inverse kinematics with a joint locked; rad, and lengths in units of the arm's own
+# _FIRST_CONFIGURATIONS and _FIRST_POSE_STARTS: configurations of the first pose that are tried, of so many starts
+_FIRST_CONFIGURATIONS = 3
+_FIRST_POSE_STARTS = 64
+_LOCKED_IK_RESTARTS = 30  # of inverse kinematics with a joint locked
+_LOCKED_IK_TOLERANCE = 1e-6  # rad, and lengths in units of the arm's own
 _RANK_TOLERANCE = 1e-6  # of the largest singular value
-_COARSE_SPACING_RAD, _MIN_COARSE_POSES = 0.15, 11  # rad between nodes, and poses, of what is only tried
+# _COARSE_SPACING_RAD and _MIN_COARSE_POSES: rad between nodes, and poses, of what is only tried
+_COARSE_SPACING_RAD = 0.15
+_MIN_COARSE_POSES = 11
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,7 +61,7 @@ class SurvivalProblem:
     task: Task
     mode: Mode
     rates: FailureRates
-    time: Array
+    time: FloatArray
     lock: LockedFollower
     conditions: MotionConditions
     spacing: float
@@ -102,7 +100,7 @@ class SurvivalProblem:
         order = np.random.default_rng(np.random.SeedSequence(self.seed)).permutation(len(all_sets))
         return [all_sets[index] for index in order[:_MAX_FIXED_SETS]]
 
-    def leaves_one_redundancy(self, q: Array, fixed_joints: Sequence[int]) -> bool:
+    def leaves_one_redundancy(self, q: FloatArray, fixed_joints: Sequence[int]) -> bool:
         """Return True if one degree of redundancy remains at q (n,) if other joints are fixed there.
 
         More are left where one of them could not move anyway, such as a roll joint that the tool's axis sets.
@@ -111,7 +109,7 @@ class SurvivalProblem:
         singular_values = np.linalg.svd(compute_task_jacobian(self.arm, self.task, q[None])[0][:, mobile], compute_uv=False)
         return bool(singular_values[-1] > _RANK_TOLERANCE * singular_values[0])
 
-    def with_fixed_axis(self, axis: Array) -> SurvivalProblem | None:
+    def with_fixed_axis(self, axis: FloatArray) -> SurvivalProblem | None:
         """Return the problem with the tool axis that a cone leaves free fixed along ``axis`` (3,), a unit vector in the world.
 
         Two rows more, so that less is looked at and what is found does more; every motion and every way on is one of this
@@ -128,7 +126,7 @@ class SurvivalProblem:
         )
         return replace(self, path=path, task=task, conditions=conditions, lock=lock)
 
-    def with_axis_at(self, q: Array) -> SurvivalProblem | None:
+    def with_axis_at(self, q: FloatArray) -> SurvivalProblem | None:
         """Return the problem of :meth:`with_fixed_axis` with the axis fixed in its direction at q (n,)."""
         if not self.conditions.left_to_arm:
             return None
@@ -141,7 +139,7 @@ class SurvivalProblem:
         lock = LockedFollower.on_path(self.arm, self.lock.tracer, self.path, times, self.conditions.are_met)
         return replace(self, time=times, lock=lock, spacing=max(self.spacing, _COARSE_SPACING_RAD))
 
-    def find_first_configurations(self) -> Array:
+    def find_first_configurations(self) -> FloatArray:
         """Return a few configurations (K, n) of the first pose, far apart."""
         q = self.lock.tracer.find_seeds(self.lock.poses[:1], np.zeros(1, dtype=np.intp), self.seed, _FIRST_POSE_STARTS)[1]
         q = self.conditions.project_configurations(q, np.broadcast_to(self.lock.poses[0], (len(q), 4, 4)))
@@ -154,7 +152,7 @@ class SurvivalProblem:
             chosen.append(int(distances.argmax()))
         return np.asarray(q[chosen])
 
-    def evaluate_locks(self, q: Array) -> Flags:
+    def evaluate_locks(self, q: FloatArray) -> BoolArray:
         """Return (T, n) True for the locks of a motion (T, n) that are survived; False where it is NaN."""
         if self.mode == "on-path":
             return self.follow_locks(q)
@@ -170,7 +168,7 @@ class SurvivalProblem:
             ]
         )
 
-    def can_regain_path(self, q: Array, first_pose: Index, locked_joints: Index) -> Flags:
+    def can_regain_path(self, q: FloatArray, first_pose: IndexArray, locked_joints: IndexArray) -> BoolArray:
         """Return (N,) True where inverse kinematics solves all poses from ``first_pose`` (N,) on with joint (N,) as at q (N,
         n).
         """
@@ -192,7 +190,7 @@ class SurvivalProblem:
         survived[lock_indices[~is_solved]] = False
         return survived
 
-    def follow_locks(self, q: Array) -> Flags:
+    def follow_locks(self, q: FloatArray) -> BoolArray:
         """Return (T, n) the locks of a motion (T, n) that are survived without leaving the path.
 
         With more than one degree of redundancy the failed arm goes on with further joints held, the same all the way or others
@@ -221,7 +219,7 @@ class SurvivalProblem:
             survives |= tables.follow_changing_locks(followers, q, is_undecided)
         return survives
 
-    def has_stopped_moving(self, q: Array) -> Flags:
+    def has_stopped_moving(self, q: FloatArray) -> BoolArray:
         """Return (T, n) True where a motion (T, n) exists to its end and no longer moves the joint, and redundancy remains."""
         is_defined = np.isfinite(q).all(axis=1, keepdims=True)
         moves = np.abs(q - q[-1]) > _IMMOBILE_RANGE
@@ -240,13 +238,13 @@ class SurvivalProblem:
     def _common_ranges(self) -> list[list[tables.Spans]]:
         return tables.compute_common_ranges(self.self_motions)
 
-    def is_off_path(self, q: Array, times: Array | None = None) -> Flags:
+    def is_off_path(self, q: FloatArray, times: FloatArray | None = None) -> BoolArray:
         """Return (T,) True where a motion (T, n), or q (N, n) at times, is undefined or off the path by more than 1 mm or 1
         mrad.
         """
         return self._is_off_poses(q, self.lock.poses if times is None else self.path.pose(times))
 
-    def _is_off_poses(self, q: Array, poses: Array) -> Flags:
+    def _is_off_poses(self, q: FloatArray, poses: FloatArray) -> BoolArray:
         position, rotation = solver(self.arm, self.task).task_errors(q, np.broadcast_to(poses, (len(q), 4, 4)))
         return ~(np.maximum(position, rotation) <= PATH_TOLERANCE)
 
@@ -296,7 +294,7 @@ def make_problem(
         path=path,
         task=task_rows,
         mode=mode,
-        rates=FailureRates.of(arm, rates, per_second=per_second),
+        rates=FailureRates.for_arm(arm, rates, per_second=per_second),
         time=time,
         lock=LockedFollower.on_path(arm, make_tracer(arm, task_rows), path, time, conditions.are_met),
         conditions=conditions,
@@ -328,4 +326,4 @@ def _anchor_constraints(keep: KeepLike | None, path: TimedPath) -> tuple[ToolCon
     for constraint in constraints:
         if constraint.frame == "tool" and not path.path.oriented:
             raise InputError(f"keep '{constraint}' goes by the tool's axes at the start, and the path has positions only")
-    return tuple(constraint.anchored(path.pose(0.0)) for constraint in constraints)
+    return tuple(constraint.anchor(path.pose(0.0)) for constraint in constraints)

@@ -16,15 +16,15 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import Field, ValidationError
 
 from holdfast.arguments import check_constructor, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 RatesLike = Mapping[str, float] | Mapping[int, float] | ArrayLike
 
 
@@ -45,11 +45,11 @@ class FailureRates:
     Source: a constant rate gives exponential times of failure.
     """
 
-    each: Array
+    each: FloatArray
     per_second: bool = False
 
     @classmethod
-    def of(cls, arm: Arm, rates: RatesLike | FailureRates | None = None, *, per_second: bool = False) -> FailureRates:
+    def for_arm(cls, arm: Arm, rates: RatesLike | FailureRates | None = None, *, per_second: bool = False) -> FailureRates:
         """Return the failure rates of an arm.
 
         Args:
@@ -87,7 +87,7 @@ class FailureRates:
         """
         try:
             model = _RatesFile.model_validate(read_mapping(Path(file), "holdfast.endurance.rates", "rates by joint"))
-            return cls.of(arm, model.rates, per_second=model.unit == "1/s")
+            return cls.for_arm(arm, model.rates, per_second=model.unit == "1/s")
         except ValidationError as error:
             raise InputError(f"rates file '{file}': {describe_error(error, _RatesFile)}") from error
         except InputError as error:
@@ -98,7 +98,7 @@ class FailureRates:
         """Sum of the rates of all joints."""
         return float(self.each.sum())
 
-    def weights(self, time: Array) -> Array:
+    def weights(self, time: FloatArray) -> FloatArray:
         """Return the weights (T,) of instants (T,), s: the trapezoid rule, times the probability of no earlier failure."""
         weight = np.zeros(len(time))
         half_steps = np.diff(time) / 2

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
@@ -16,8 +16,8 @@ from holdfast.errors import HoldfastError, InputError, TaskError
 from holdfast.notice import reports_progress
 from holdfast.solvers import joint_space
 from holdfast.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres, make_tracer
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Spans = list[tuple[float, float]]
 
 _REFINED_NODES = 20  # nodes around which the goal is looked for once more
@@ -40,11 +40,11 @@ class Approach:
     arm: Arm
     task: Task
     rates: FailureRates
-    start: Array
-    goal: Array
-    outside: Array
+    start: FloatArray
+    goal: FloatArray
+    outside: FloatArray
     ranges: Sequence[Spans]
-    velocity: Array
+    velocity: FloatArray
 
     @property
     def exposure(self) -> float:
@@ -58,7 +58,7 @@ class Approach:
         """Time in s until the last joint is at its goal."""
         return float((np.abs(self.goal - self.start) / self.velocity).max())
 
-    def at(self, time: ArrayLike) -> Array:
+    def positions_at(self, time: ArrayLike) -> FloatArray:
         """Return the joints (n,) or (N, n) at times, s: each moves straight to its goal as fast as possible, and waits."""
         travels = np.asarray(time, dtype=np.float64)[..., None] * self.velocity
         displacement = self.goal - self.start
@@ -112,7 +112,7 @@ def plan_motion_to(
             f"'{arm.name}' has {arm.n} joints and the task '{task_rows.name}' {task_rows.m} rows; one joint more than "
             f"rows is needed"
         )
-    failing = FailureRates.of(arm, rates, per_second=per_second)
+    failing = FailureRates.for_arm(arm, rates, per_second=per_second)
     max_speeds = require_real_numbers([joint.velocity for joint in arm.joints] if velocity is None else velocity, "velocity")
     if max_speeds.shape not in ((), (arm.n,)) or not (np.isfinite(max_speeds) & (max_speeds > 0)).all():
         raise InputError(
@@ -160,7 +160,7 @@ class _JointExposure:
         safe_ranges: Of each joint, the values that do not.
     """
 
-    def __init__(self, arm: Arm, safe_ranges: list[Spans], weights: Array) -> None:
+    def __init__(self, arm: Arm, safe_ranges: list[Spans], weights: FloatArray) -> None:
         self.arm, self.safe_ranges, self._weights = arm, safe_ranges, weights
         is_unlimited = joint_space.is_unlimited(arm)
         revolutions = [count * 2 * np.pi for count in range(-3, 4)]
@@ -169,14 +169,14 @@ class _JointExposure:
             for spans, circle in zip(safe_ranges, is_unlimited, strict=True)
         ]
 
-    def _measure_unsafe_length(self, joint: int, values: Array) -> Array:
+    def _measure_unsafe_length(self, joint: int, values: FloatArray) -> FloatArray:
         """Return the length of the values that lose the goal between 0 and each value, negative below 0."""
         safe_lengths = np.zeros(values.shape)
         for lower, upper in self._safe_spans[joint]:
             safe_lengths += np.clip(values, lower, upper) - np.clip(0.0, lower, upper)
         return np.asarray(values - safe_lengths)
 
-    def _choose_direction(self, joint: int, start: Array, goal: Array) -> tuple[Array, Array]:
+    def _choose_direction(self, joint: int, start: FloatArray, goal: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the end of joint k from a to b, which broadcast, in the less exposed direction, and its unsafe length."""
         if not joint_space.is_unlimited(self.arm)[joint]:
             return goal + 0 * start, np.abs(
@@ -190,7 +190,7 @@ class _JointExposure:
         )
         return np.where(longer_cost < shorter_cost - 1e-12, longer_end, shorter_end), np.minimum(shorter_cost, longer_cost)
 
-    def choose_pair(self, starts: Array, ends: Array) -> tuple[Array, Array]:
+    def choose_pair(self, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the least exposed pair of starts (S, n) and ends (G, n); among equals the shortest motion."""
         costs, lengths = np.zeros((len(starts), len(ends))), np.zeros((len(starts), len(ends)))
         for joint, weight in enumerate(self._weights):
@@ -201,7 +201,7 @@ class _JointExposure:
         start_index, end_index = best[lengths[best[:, 0], best[:, 1]].argmin()]
         return starts[start_index], ends[end_index]
 
-    def compute_costs(self, start: Array, ends: Array) -> Array:
+    def compute_costs(self, start: FloatArray, ends: FloatArray) -> FloatArray:
         """Return the costs (G,) of the ends (G, n) for one start."""
         return np.asarray(
             sum(
@@ -210,7 +210,7 @@ class _JointExposure:
             )
         )
 
-    def unwind_goal(self, start: Array, goal: Array) -> tuple[Array, Array]:
+    def unwind_goal(self, start: FloatArray, goal: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the joints at the goal, with the best number of revolutions, and the unsafe length of each."""
         ends, unsafe_lengths = zip(
             *(self._choose_direction(joint, start[joint : joint + 1], goal[joint : joint + 1]) for joint in range(self.arm.n)),
@@ -219,7 +219,7 @@ class _JointExposure:
         return np.concatenate(ends), np.concatenate(unsafe_lengths)
 
 
-def _refine_goal(exposures: _JointExposure, self_motion: SelfMotion, start: Array, goal: Array) -> Array:
+def _refine_goal(exposures: _JointExposure, self_motion: SelfMotion, start: FloatArray, goal: FloatArray) -> FloatArray:
     """Refine the best goal between the nodes: subdivide the pieces next to the best nodes and bring them back to the pose."""
     pieces = [np.stack([component.q[:-1], component.q[1:]], axis=1) for component in self_motion.components]
     pieces += [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -28,8 +28,7 @@ from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.solvers.self_motions import TRACING_STARTS
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _MAX_FINE_CHOICES = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
@@ -140,7 +139,7 @@ class _CurveSearch:
             NaN: none.
     """
 
-    def __init__(self, problem: SurvivalProblem, q_start: Array | None) -> None:
+    def __init__(self, problem: SurvivalProblem, q_start: FloatArray | None) -> None:
         self._problem, self._start_is_fixed = problem, q_start is not None
         arm, follower = problem.arm, problem.lock
         self._self_motions = problem.self_motions
@@ -219,17 +218,17 @@ class _CurveSearch:
             smooth = smooth_motion(
                 follower.tracer, nodes, lock_tables, self._gains, chosen, q, follower.poses, start_is_fixed=self._start_is_fixed
             )
-            result = LockSurvival.of(requested, smooth, survives=requested.evaluate_locks(smooth), found=bounds)
+            result = LockSurvival.for_motion(requested, smooth, survives=requested.evaluate_locks(smooth), found=bounds)
             if (
                 result.survival < expected_survival - _PROBABILITY_TOLERANCE or result.speed > 1 + _PROBABILITY_TOLERANCE
             ):  # smoothing may have cost something
-                unsmoothed = LockSurvival.of(requested, q, survives=requested.evaluate_locks(q), found=bounds)
+                unsmoothed = LockSurvival.for_motion(requested, q, survives=requested.evaluate_locks(q), found=bounds)
                 result = max(result, unsmoothed, key=_rank_result)
             results.append(result)
         return max(results, key=_rank_result)  # of equals the first
 
 
-def _search_fixed_joints(problem: SurvivalProblem, q_start: Array | None) -> LockSurvival:
+def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -> LockSurvival:
     """Return the best of motions that fix all joints except those that leave one degree of redundancy.
 
     Which joints, and where, is looked for on a coarse grid; the best few are then looked at on the grid that was asked for.
@@ -267,10 +266,12 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: Array | None) -> Loc
     best = max(results, key=_rank_result)
     if not problem.conditions.left_to_arm:
         return best
-    return LockSurvival.of(problem, best.q, survives=problem.evaluate_locks(best.q), found=best.found)  # maybe a narrower one's
+    return LockSurvival.for_motion(
+        problem, best.q, survives=problem.evaluate_locks(best.q), found=best.found
+    )  # maybe a narrower one's
 
 
-def _list_starts(problem: SurvivalProblem, q_start: Array | None) -> Iterator[tuple[SurvivalProblem, Array]]:
+def _list_starts(problem: SurvivalProblem, q_start: FloatArray | None) -> Iterator[tuple[SurvivalProblem, FloatArray]]:
     """Yield the problem, and narrower ones with the axis of a cone fixed, with the first configurations (n,) of
     their motions.
     """
@@ -290,7 +291,7 @@ def _rank_result(result: LockSurvival) -> tuple[bool, float]:
     return result.speed <= 1 + _PROBABILITY_TOLERANCE, round(result.survival, 9)
 
 
-def _place_start(problem: SurvivalProblem, start: ArrayLike) -> Array:
+def _place_start(problem: SurvivalProblem, start: ArrayLike) -> FloatArray:
     """Return the start (n,) brought to the first pose."""
     arm, first_pose = problem.arm, problem.lock.poses[:1]
     q = arm.check_configurations(start)
@@ -308,10 +309,10 @@ def _place_start(problem: SurvivalProblem, start: ArrayLike) -> Array:
     violation = problem.conditions.find_violation(q[None])
     if violation is not None:
         raise InputError(f"at the start the tool is {violation[1]}; leave it out to have one")
-    on_pose: Array = problem.lock.tracer.correct(q[None], first_pose)[0][0]
+    on_pose: FloatArray = problem.lock.tracer.correct(q[None], first_pose)[0][0]
     return on_pose
 
 
-def _unwind_motion(arm: Arm, q: Array) -> Array:
+def _unwind_motion(arm: Arm, q: FloatArray) -> FloatArray:
     """Return the motion in which unlimited revolute joints take the shorter direction from pose to pose."""
     return np.concatenate([q[:1], q[0] + np.cumsum(joint_space.joint_difference(arm, q[1:], q[:-1]), axis=0)])

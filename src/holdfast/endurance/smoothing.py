@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.endurance.grid import CurveNodes
 from holdfast.endurance.tables import LockTable
 from holdfast.solvers.curve_tracing import ManifoldTracer
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 _MAX_CURVE_SHIFT_RAD = 0.15  # rad along its curve is the most that a configuration is moved
 _SMOOTHING_ROUNDS = 3
@@ -20,13 +17,13 @@ def smooth_motion(
     tracer: ManifoldTracer,
     nodes: list[CurveNodes],
     lock_tables: list[LockTable],
-    gains: list[Array],
-    chosen: Index,
-    q: Array,
-    poses: Array,
+    gains: list[FloatArray],
+    chosen: IndexArray,
+    q: FloatArray,
+    poses: FloatArray,
     *,
     start_is_fixed: bool,
-) -> Array:
+) -> FloatArray:
     """Smooth the motion q (T, n) over the chosen nodes (T,) so that its squared steps are smallest.
 
     Each configuration moves along its self-motion curve, by at most ``_MAX_CURVE_SHIFT_RAD`` and no farther than it is worth as
@@ -73,7 +70,7 @@ def smooth_motion(
     return smooth_q
 
 
-def _bound_shift(nodes: CurveNodes, verdicts: LockTable, gain: Array, chosen: int) -> tuple[float, float]:
+def _bound_shift(nodes: CurveNodes, verdicts: LockTable, gain: FloatArray, chosen: int) -> tuple[float, float]:
     """Return how far a configuration may move against and along its curve without a loss of gain."""
     limits = []
     for neighbors, sign in ((nodes.previous, -1.0), (nodes.following, 1.0)):

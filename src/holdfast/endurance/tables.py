@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.endurance.grid import CurveNodes
@@ -14,10 +13,8 @@ from holdfast.endurance.locks import LockedFollower
 from holdfast.notice import track
 from holdfast.solvers import joint_space
 from holdfast.solvers.self_motions import SelfMotion
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
 Spans = list[tuple[float, float]]
 
 _PARTS_PER_SEGMENT = 16  # of a piece of a curve in which a verdict changes: in two rounds the place is known to a 256th
@@ -36,17 +33,17 @@ class LockTable:
             where it does. NaN where nobody looked.
     """
 
-    survives: Flags
-    switch_fractions: Array
+    survives: BoolArray
+    switch_fractions: FloatArray
 
-    def look_up(self, nodes: CurveNodes, nodes_behind: Index, fractions: Array, joints: Index) -> Flags:
+    def look_up(self, nodes: CurveNodes, nodes_behind: IndexArray, fractions: FloatArray, joints: IndexArray) -> BoolArray:
         """Return (N,) the survival for joint (N,) between the nodes, located by :meth:`CurveNodes.locate`."""
         decisive_nodes = np.where(
             fractions < self.switch_fractions[nodes_behind, joints], nodes_behind, nodes.following[nodes_behind]
         )
         return np.asarray(self.survives[decisive_nodes, joints])
 
-    def maximize_nearby_rates(self, nodes: CurveNodes, rates: Array) -> Array:
+    def maximize_nearby_rates(self, nodes: CurveNodes, rates: FloatArray) -> FloatArray:
         """Return (P,) the largest sum of rates (n,) of survived locks at each node and up to halfway to its neighbors."""
         survives_here, survives_next = self.survives, self.survives[nodes.following]
         is_known = np.isfinite(self.switch_fractions)
@@ -105,8 +102,8 @@ def _make_final_table(nodes: CurveNodes, n: int) -> LockTable:
 
 
 def _locate_switches(
-    follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, survives: Flags
-) -> Array:
+    follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, survives: BoolArray
+) -> FloatArray:
     """Return (P, n) the fraction between nodes at which the survival at pose t changes; the table is known back to t + 1."""
     pose_nodes = nodes[pose]
     switches = np.full(survives.shape, 0.5)
@@ -135,8 +132,8 @@ def _locate_switches(
 
 
 def _evaluate_steps(
-    follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, q: Array, joints: Index
-) -> Flags:
+    follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, q: FloatArray, joints: IndexArray
+) -> BoolArray:
     """Return (N,) the survival of q (N, n) on pose t with joint (N,) locked; the table is known from its end back to t."""
     survives = np.ones(len(q), dtype=bool)
     active = np.arange(len(q))
@@ -183,7 +180,7 @@ def compute_common_ranges(self_motions: list[SelfMotion]) -> list[list[Spans]]:
     return table[::-1]
 
 
-def are_in_ranges(arm: Arm, q: Array, ranges: list[Spans]) -> Flags:
+def are_in_ranges(arm: Arm, q: FloatArray, ranges: list[Spans]) -> BoolArray:
     """Return (N, n) True for joints of q (N, n) within their ranges."""
     inside = np.zeros(q.shape, dtype=bool)
     for joint, values in enumerate(joint_space.fold_joints(arm, q).T):
@@ -210,7 +207,7 @@ def _intersect_spans(a: Spans, b: Spans) -> Spans:
     return sorted((lower, upper) for lower, upper in overlaps if lower <= upper)
 
 
-def follow_motion_locks(follower: LockedFollower, q: Array, requested: Flags | None = None) -> Flags:
+def follow_motion_locks(follower: LockedFollower, q: FloatArray, requested: BoolArray | None = None) -> BoolArray:
     """Return (T, n) True where a lock of a motion q (T, n) is survived: every lock is followed to the end.
 
     Only those ``requested`` (T, n) if given; where q is NaN none is.
@@ -231,7 +228,7 @@ def follow_motion_locks(follower: LockedFollower, q: Array, requested: Flags | N
     return survives
 
 
-def follow_changing_locks(followers: Sequence[LockedFollower], q: Array, requested: Flags) -> Flags:
+def follow_changing_locks(followers: Sequence[LockedFollower], q: FloatArray, requested: BoolArray) -> BoolArray:
     """Return (T, n) True where a redundant arm survives a lock, with other joints fixed, those of another follower, at every
     pose.
 
@@ -259,7 +256,7 @@ def follow_changing_locks(followers: Sequence[LockedFollower], q: Array, request
     return survives
 
 
-def select_spread(q: Array, owners: Index) -> Index:
+def select_spread(q: FloatArray, owners: IndexArray) -> IndexArray:
     """Return the indices of q (N, n) to retain: of each owner (N,) the first and then the few farthest from those retained."""
     _, first_indices, groups = np.unique(owners, return_index=True, return_inverse=True)
     retained, distances = [first_indices], np.full(len(q), np.inf)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.endurance.injection import interpolate_motion
 from holdfast.endurance.problem import SurvivalProblem
@@ -13,8 +12,7 @@ from holdfast.indices.determinants import relative_manipulability
 from holdfast.motion.events import Curvature
 from holdfast.motion.trajectory import Trajectory
 from holdfast.solvers.inverse_kinematics import solver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _SAMPLES_PER_STEP = 5
 
@@ -30,8 +28,8 @@ class VelocityJump:
     Source: the jump of the end effector's velocity at a lock, Abdi et al., Robotica 30, 2012 (read as an abstract).
     """
 
-    linear: Array
-    angular: Array
+    linear: FloatArray
+    angular: FloatArray
     mean_linear: float
     mean_angular: float
 
@@ -46,7 +44,7 @@ class VelocityJump:
         return float(self.angular.max())
 
 
-def make_trajectory(problem: SurvivalProblem, q: Array) -> Trajectory:
+def make_trajectory(problem: SurvivalProblem, q: FloatArray) -> Trajectory:
     """Return a motion (T, n) over the poses of a problem as a trajectory."""
     arm, task = problem.arm, problem.task
     times = np.linspace(0.0, problem.path.duration, _SAMPLES_PER_STEP * (len(q) - 1) + 1)

@@ -18,7 +18,8 @@ from holdfast.errors import StoreError
 from holdfast.files.output import guard_writing
 
 RESUME_ADVICE = "what was committed is safe: make room and run the same command again"
-MAX_ROWS, MAX_CHUNKS = 10**15, 10**7
+MAX_ROWS = 10**15
+MAX_CHUNKS = 10**7
 
 
 def exceeds_limits(rows: int, chunk: int) -> bool:

@@ -24,12 +24,12 @@ class RunLog:
     @property
     def makers(self) -> list[dict[str, Any]]:
         """Versions and processors by their numbers in the journals."""
-        return list(self._read()["makers"])
+        return list(self._read_file()["makers"])
 
     @property
     def runs(self) -> list[dict[str, Any]]:
         """Start, machine, and duration of each run, except runs that were killed."""
-        return list(self._read()["runs"])
+        return list(self._read_file()["runs"])
 
     def machine_number(self, maker: dict[str, Any]) -> int:
         """Return the number of versions and a processor, recording new ones first.
@@ -37,7 +37,7 @@ class RunLog:
         Raises:
             StoreError: The disk refuses, or the file is damaged.
         """
-        data = self._read()
+        data = self._read_file()
         if maker not in data["makers"]:
             data["makers"].append(maker)
             self._write(data)
@@ -49,11 +49,11 @@ class RunLog:
         Raises:
             StoreError: The disk refuses, or the file is damaged.
         """
-        data = self._read()
+        data = self._read_file()
         data["runs"] += [run for run in runs if run not in data["runs"]]
         self._write(data)
 
-    def _read(self) -> dict[str, list[Any]]:
+    def _read_file(self) -> dict[str, list[Any]]:
         file = self._folder / _RUN_LOG_FILE
         if not file.exists():
             return {"makers": [], "runs": []}

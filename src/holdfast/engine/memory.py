@@ -47,7 +47,7 @@ class SearchMemory:
         self._plan: dict[str, Any] = json.loads(json.dumps(plan))
         self._parts: dict[str, Parts] = {}
         if reading.path_exists(self._lines.path):
-            self._read(formerly)
+            self._read_journal(formerly)
             return
         with guard_writing(place):
             occupied = place.exists() and any(place.iterdir())
@@ -79,7 +79,7 @@ class SearchMemory:
         self._add({"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in arrays.items()}})
         self._parts[name] = arrays
 
-    def _read(self, formerly: Mapping[str, Any] | None) -> None:
+    def _read_journal(self, formerly: Mapping[str, Any] | None) -> None:
         try:
             first, *lines = [json.loads(text) for text, sound in self._lines.read_lines() if sound or self._before]
             plan = current_plan(self._plan, dict(first["search"]), formerly)

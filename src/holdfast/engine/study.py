@@ -25,8 +25,12 @@ from holdfast.notice import reports_progress
 from holdfast.result import Result
 from holdfast.words import format_duration
 
-_STUDY_FORMAT, _STUDY_VERSION = "holdfast-study", 1
-STUDY_FILE, STUDY_LOCK_FILE, _CELLS_FOLDER, _BEGUN_FILE = "study.json", "study.lock", "cells", "begun.journal"
+_STUDY_FORMAT = "holdfast-study"
+_STUDY_VERSION = 1
+STUDY_FILE = "study.json"
+STUDY_LOCK_FILE = "study.lock"
+_CELLS_FOLDER = "cells"
+_BEGUN_FILE = "begun.journal"
 _KINDS_BY_KEY = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 

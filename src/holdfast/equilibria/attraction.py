@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import LARGEST_EXACT_INTEGER, check_arguments, require_real_numbers
 from holdfast.arm.configurations import finite_limits
@@ -26,20 +26,24 @@ from holdfast.result import Result
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import RunOutcome, Runs
 from holdfast.solvers import joint_space
+from holdfast.typing import FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     import xarray as xr
 
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 DEFAULT_STARTS = 2000
 END_TOLERANCE = 1e-2  # rad (and m): a run that ends nearer than this to a stationary point ended there
-END_AT_TARGET, END_MOVING, END_UNDECIDED, END_STUCK = -1, -2, -3, -4
+END_AT_TARGET = -1
+END_MOVING = -2
+END_UNDECIDED = -3
+END_STUCK = -4
 _END_WORDS = {END_AT_TARGET: "target", END_STUCK: "stuck on a continuum", END_MOVING: "moving", END_UNDECIDED: "undecided"}
-_BOUNDARY_OFFSET_RAD, _BOUNDARY_LENGTH_RAD = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
+# _BOUNDARY_OFFSET_RAD and _BOUNDARY_LENGTH_RAD: rad: where a basin boundary begins, how far it is followed
+_BOUNDARY_OFFSET_RAD = 1e-5
+_BOUNDARY_LENGTH_RAD = 30.0
 _SOURCE_SPEED_RAD_S = 1e-6  # rad/s: here it ends, at a source
 _LINE_SPACING = 0.02
 _STALL_STEPS = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps
@@ -63,11 +67,11 @@ class Basins(Result):
     """
 
     points: StationaryPoints
-    starts: Array
-    end: Indices
+    starts: FloatArray
+    end: IndexArray
     runs: Runs
     confidence: float
-    boundaries: tuple[Array, ...] = ()
+    boundaries: tuple[FloatArray, ...] = ()
     shape: tuple[int, int] | None = None
     healthy: tuple[int, ...] = ()
 
@@ -76,21 +80,24 @@ class Basins(Result):
         """Ends of the starts, always with solutions and sinks, and the fraction of starts of each with its exact interval."""
         is_isolated_end = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
         codes = sorted({*self.end.tolist(), *np.flatnonzero(is_isolated_end).tolist()}, key=lambda code: (code < 0, abs(code)))
-        return [(self.name(code), Interval.of(int((self.end == code).sum()), len(self.end), self.confidence)) for code in codes]
+        return [
+            (self.name(code), Interval.from_counts(int((self.end == code).sum()), len(self.end), self.confidence))
+            for code in codes
+        ]
 
     def name(self, code: int) -> str:
         """Return a value of ``end`` as text: the kind and number from 1 of a point, or a word."""
         return _END_WORDS[code] if code < 0 else f"{Kind(self.points.kind[code]).word} {code + 1}"
 
     @property
-    def converged(self) -> Interval:
+    def convergence(self) -> Interval:
         """Fraction of starts that reach the target."""
         converged = np.asarray(self.runs.code) == RunOutcome.CONVERGED
-        return Interval.of(int(converged.sum()), len(self.end), self.confidence)
+        return Interval.from_counts(int(converged.sum()), len(self.end), self.confidence)
 
     def describe(self) -> list[str]:
         """Return the fraction of starts that reach the target in a few sentences."""
-        return [self.points.describe()[0], f"{self.converged} of {len(self.end)} starts reach the target"]
+        return [self.points.describe()[0], f"{self.convergence} of {len(self.end)} starts reach the target"]
 
     def to_xarray(self) -> xr.Dataset:
         """Return the starts with their ends, one row each, rad and m; see ``end`` for the codes."""
@@ -159,7 +166,7 @@ def basins(
 
 def _make_starts(
     law: Law, moving: Sequence[int], starts: int | ArrayLike, grid: int | None, generator: np.random.Generator
-) -> Array:
+) -> FloatArray:
     arm = law.arm
     lower, upper = finite_limits(arm)
     if grid is not None:
@@ -198,14 +205,14 @@ def _add_missed_points(system: RestSystem, points: StationaryPoints, runs: Runs)
     )
 
 
-def _final_configurations(system: RestSystem, runs: Runs) -> Array:
+def _final_configurations(system: RestSystem, runs: Runs) -> FloatArray:
     """Return (N, n) the ends of the runs, with joints that do not move the task at 0, as in stationary points."""
     q = runs.q_final.copy()
     q[:, list(system.idle)] = 0.0
     return q
 
 
-def _match_ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> Indices:
+def _match_ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> IndexArray:
     """Match the ends of runs (N,) with stationary points; see :class:`Basins`."""
     codes = {
         RunOutcome.CONVERGED: END_AT_TARGET,
@@ -224,11 +231,11 @@ def _match_ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> Ind
     return end_codes
 
 
-def _trace_boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[Array]:
+def _trace_boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[FloatArray]:
     """Trace the stable manifolds of the saddles backwards in time at unit speed."""
     rates = system.linear.field(system.pose, system.healthy)
 
-    def reversed_field(_: float, q: Array) -> Array:
+    def reversed_field(_: float, q: FloatArray) -> FloatArray:
         joint_rates = rates(q)
         return np.asarray(-joint_rates / max(float(np.linalg.norm(joint_rates)), 1e-12))
 
@@ -242,7 +249,9 @@ def _trace_boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[
             yield _integrate_line(reversed_field, start, lambda q: float(np.linalg.norm(rates(q))) < _SOURCE_SPEED_RAD_S)
 
 
-def _integrate_line(speed: Callable[[float, Array], Array], start: Array, is_end: Callable[[Array], bool]) -> Array:
+def _integrate_line(
+    speed: Callable[[float, FloatArray], FloatArray], start: FloatArray, is_end: Callable[[FloatArray], bool]
+) -> FloatArray:
     """Return (P, n) a line of unit speed from its start to its end, or to a singular configuration where it cannot continue."""
     from scipy.integrate import RK45, OdeSolution
 

@@ -15,11 +15,11 @@ from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds
 from holdfast.equilibria.system import RestSystem, wrap_angles
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.equilibria.points import StationaryPoints
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Arc = tuple[float, float]
 
@@ -64,11 +64,11 @@ class Curve:
         segments: Stretches of one kind.
     """
 
-    q: Array
+    q: FloatArray
     joint: int
     kind: Kinds
     eigenvalues: NDArray[np.complex128]
-    error: Array
+    error: FloatArray
     closed: bool
     degenerate: bool
     folds: Indices
@@ -79,7 +79,7 @@ class Curve:
     segments: tuple[Segment, ...]
 
     @property
-    def locked(self) -> Array:
+    def locked_values(self) -> FloatArray:
         """(K,) values of the locked joint, rad (or m)."""
         return self.q[:, self.joint]
 
@@ -91,7 +91,7 @@ class Curve:
     def arcs(self, kind: Kind) -> list[Arc]:
         """Return the locked values of each segment of a kind, ``(lower, upper)``."""
         arc_ends = [
-            sorted((float(self.locked[segment.first]), float(self.locked[segment.last])))
+            sorted((float(self.locked_values[segment.first]), float(self.locked_values[segment.last])))
             for segment in self.segments
             if segment.kind == kind
         ]
@@ -113,7 +113,7 @@ class Curves(Result):
     """
 
     law: Law
-    target: Array
+    target: FloatArray
     joint: int
     curves: tuple[Curve, ...]
     loose: StationaryPoints
@@ -142,14 +142,14 @@ class Curves(Result):
         angles = np.sort(wrap_angles(self.law.arm, np.array(values))[:, self.joint])
         return [float(angle) for angle in angles[np.r_[True, np.diff(angles) > 1e-6]]]
 
-    def at(self, value: float) -> Array:
+    def points_at(self, value: float) -> FloatArray:
         """Return (P, n) the stationary points at one locked value, rad (or m), on the curves that are not degenerate."""
         arm = self.law.arm
         points = [np.empty((0, arm.n))]
         for curve in self.curves:
             if curve.degenerate:
                 continue
-            differences = curve.locked - value
+            differences = curve.locked_values - value
             if not arm.joints[self.joint].prismatic:
                 differences = (differences + np.pi) % FULL_TURN_RAD - np.pi
             crossings = np.flatnonzero(
@@ -164,7 +164,7 @@ class Curves(Result):
     def describe(self) -> list[str]:
         """Return the curves and their sinks in a few sentences."""
         arm = self.law.arm
-        factor, unit = arm.joints[self.joint].shown
+        factor, unit = arm.joints[self.joint].display_unit
         joint_name = arm.joint_names[self.joint]
         lines = [
             f"{arm.title} under {self.law.describe()}, {joint_name} locked at any value: {len(self)} curves, "

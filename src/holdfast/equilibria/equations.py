@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.caching import cached_property
@@ -26,13 +25,16 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm
 from holdfast.simulation.system import FailedArmSystem
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 EQUATION_TOLERANCE = 1e-11  # norm of the equations
-_MAX_STEPS, _NEAR_RESIDUAL = 40, 0.02  # after as many, only what is as near as that goes on for as many again
-_INITIAL_DAMPING, _DAMPING_DECREASE, _DAMPING_INCREASE, _MAX_DAMPING = 1e-2, 0.2, 5.0, 1e6
+# _MAX_NEWTON_ROUNDS and _NEAR_RESIDUAL: after as many, only what is as near as that goes on for as many again
+_MAX_NEWTON_ROUNDS = 40
+_NEAR_RESIDUAL = 0.02
+_INITIAL_DAMPING = 1e-2
+_DAMPING_DECREASE = 0.2
+_DAMPING_INCREASE = 5.0
+_MAX_DAMPING = 1e6
 
 
 class RestEquations:
@@ -114,17 +116,17 @@ class RestEquations:
         parameters = [*self.system.parameters, free]
         return Loop("rest points", state, parameters, next_state=next_state, residual=residual)
 
-    def evaluate(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
+    def evaluate(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Evaluate the nontrivial equations (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""
         used_rows = np.flatnonzero(np.concatenate([mask, np.ones(2 + self.law.task.m)]))
         values, jacobian = self._equation_kernel(z, pose[:3, 3], pose[:3, :3], mask)
         return values[:, used_rows], jacobian[:, used_rows]
 
-    def sum_locked_rates(self, z: Array, pose: Array, mask: Array) -> Array:
+    def sum_locked_rates(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
         """Return (N,) the remainder of ``A J' u`` on the locked joints, which is 0 where J loses rank."""
         return np.asarray(self._locked_rates_kernel(z, pose[:3, 3], pose[:3, :3], mask))
 
-    def sample_starts(self, count: int, generator: np.random.Generator) -> Array:
+    def sample_starts(self, count: int, generator: np.random.Generator) -> FloatArray:
         """Sample random unknowns (count, size)."""
         n, m = self.law.arm.n, self.law.task.m
         lower, upper = finite_limits(self.law.arm)
@@ -134,7 +136,7 @@ class RestEquations:
         angle = generator.uniform(-np.pi / 2, np.pi / 2, count)
         return np.column_stack([q, u / np.linalg.norm(u, axis=1, keepdims=True), np.cos(angle), np.sin(angle)])
 
-    def fit_unknowns(self, q: Array, pose: Array, mask: Array) -> Array:
+    def fit_unknowns(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
         """Return unknowns (N, size) near configurations (N, n) that are nearly at rest, with the u and s that fit best."""
         n, m = self.law.arm.n, self.law.task.m
         z = np.column_stack([q, np.eye(m)[np.zeros(len(q), dtype=int)], np.ones(len(q)), np.zeros(len(q))])
@@ -147,18 +149,18 @@ class RestEquations:
         z[:, -2], z[:, -1] = np.cos(angle), np.sin(angle)
         return z
 
-    def search(self, z: Array, pose: Array, mask: Array, free: Array) -> tuple[Array, Flags]:
+    def search(self, z: FloatArray, pose: FloatArray, mask: FloatArray, free: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Search for unknowns (N, size) that satisfy the equations, from starts; only the ``free`` ones (size,) change."""
         start_count = len(z)
         inputs = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask, free])
         parameters = np.broadcast_to(inputs, (start_count, inputs.size))
         result = self._search_loop.run(
-            np.column_stack([z, np.full(start_count, _INITIAL_DAMPING)]), parameters, EQUATION_TOLERANCE, _MAX_STEPS
+            np.column_stack([z, np.full(start_count, _INITIAL_DAMPING)]), parameters, EQUATION_TOLERANCE, _MAX_NEWTON_ROUNDS
         )
         # Of the starts that reach the target nine in ten need 25 steps; most of those that need more than 40 never do.
         solutions, unfinished = result.state, np.flatnonzero(~result.done & (result.residual < _NEAR_RESIDUAL))
         solutions[unfinished] = self._search_loop.run(
-            solutions[unfinished], parameters[unfinished], EQUATION_TOLERANCE, _MAX_STEPS
+            solutions[unfinished], parameters[unfinished], EQUATION_TOLERANCE, _MAX_NEWTON_ROUNDS
         ).state
         solutions = solutions[:, : self.size]
         values, _ = self.evaluate(solutions, pose, mask)

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from holdfast.equilibria.curves import Curve, Segment
 from holdfast.equilibria.stability import Kind, classify_kinds
 from holdfast.equilibria.system import RestSystem
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 EVENT_SPACING = 1e-4  # rad and m: events nearer than this are at one place
-_MAX_BISECTIONS, _NEWTON_STEPS = 44, 3
+_EVENT_BISECTIONS = 44
+_EVENT_NEWTON_STEPS = 3
 _CROSSING_FRACTION = 1e-3  # of the largest singular value: directions with less are those of a crossing curve
 
 
@@ -41,7 +41,7 @@ class CurveEvent(IntEnum):
     PAIR = 5
 
 
-def mark_events(system: RestSystem, joint: int, z: Array, closed: bool, is_constant: bool) -> Curve:
+def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_constant: bool) -> Curve:
     """Make a curve from its traced points z (K, size), with all events inserted as points."""
     n = system.law.arm.n
     tests, tangents = _evaluate_tests(system, joint, z, np.gradient(z, axis=0))
@@ -88,12 +88,12 @@ class CurveSteps:
     """
 
     system: RestSystem
-    start: Array
-    end: Array
-    start_tangent: Array
-    end_tangent: Array
+    start: FloatArray
+    end: FloatArray
+    start_tangent: FloatArray
+    end_tangent: FloatArray
 
-    def interpolate(self, fraction: Array) -> Array:
+    def interpolate(self, fraction: FloatArray) -> FloatArray:
         """Return points (N, size) at a fraction (N,) of the steps: a cubic, corrected back to the curve.
 
         Where another curve crosses, the way back is not defined in its direction; there the cubic stays as it is.
@@ -105,7 +105,7 @@ class CurveSteps:
         z += x * (1 - x) * length * ((1 - x) * self.start_tangent - x * self.end_tangent)
         normal = displacement[:, None, active] / length[:, None]
         plane_offset = np.einsum("ij,ij->i", normal[:, 0], z[:, active])
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_EVENT_NEWTON_STEPS):
             values, jacobian = self.system.evaluate(z)
             plane_error = np.einsum("ij,ij->i", normal[:, 0], z[:, active]) - plane_offset
             inverse = np.linalg.pinv(np.concatenate([jacobian, normal], axis=1), rcond=_CROSSING_FRACTION)
@@ -113,7 +113,7 @@ class CurveSteps:
         return z
 
 
-def _evaluate_tests(system: RestSystem, joint: int, z: Array, forward: Array) -> tuple[Array, Array]:
+def _evaluate_tests(system: RestSystem, joint: int, z: FloatArray, forward: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return (N, 6) the functions of which a change of sign is an event, and unit tangents (N, size)."""
     _, jacobian = system.evaluate(z)
     tangent = np.zeros_like(z)
@@ -128,13 +128,13 @@ def _evaluate_tests(system: RestSystem, joint: int, z: Array, forward: Array) ->
 
 
 def _bisect_events(
-    system: RestSystem, joint: int, steps: CurveSteps, event_index: NDArray[np.intp], sign: Array
-) -> tuple[Array, Array]:
+    system: RestSystem, joint: int, steps: CurveSteps, event_index: NDArray[np.intp], sign: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Return the fraction of each step at which a test function changes its sign, and the points there."""
     row_index, forward = np.arange(len(event_index)), steps.end - steps.start
     lower, upper = np.zeros(len(event_index)), np.ones(len(event_index))
     points = steps.start.copy()
-    for _ in range(_MAX_BISECTIONS if len(event_index) else 0):
+    for _ in range(_EVENT_BISECTIONS if len(event_index) else 0):
         middle = (lower + upper) / 2
         points = steps.interpolate(middle)
         is_same_sign = np.sign(_evaluate_tests(system, joint, points, forward)[0][row_index, event_index]) == sign
@@ -142,7 +142,9 @@ def _bisect_events(
     return (lower + upper) / 2, points
 
 
-def _split_segments(system: RestSystem, z: Array, label: NDArray[np.int64], kind: NDArray[np.uint8]) -> tuple[Segment, ...]:
+def _split_segments(
+    system: RestSystem, z: FloatArray, label: NDArray[np.int64], kind: NDArray[np.uint8]
+) -> tuple[Segment, ...]:
     """Split a curve into sections of one kind between events."""
     n, segments = system.law.arm.n, list[Segment]()
     # Events of several functions at one place leave stretches of no length between them.

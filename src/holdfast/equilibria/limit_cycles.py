@@ -21,15 +21,16 @@ from holdfast.errors import InputError
 from holdfast.result import Result
 from holdfast.simulation.runs import RunOutcome
 from holdfast.simulation.system import tool_errors
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.simulation.runs import Runs
 
-Array = NDArray[np.float64]
 
 _ORBIT_SAMPLES = 4000
 _RETURN_FRACTION = 0.1  # of the extent of the motion: nearer to its start, it may have come round
-_MAX_GUESSES, _NEWTON_STEPS = 6, 8
+_MAX_GUESSES = 6
+_NEWTON_STEPS = 8
 _CLOSURE_TOLERANCE = 1e-8  # rad (and m)
 _SOLVER_OPTIONS: dict[str, Any] = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}
 
@@ -53,11 +54,11 @@ class Orbit(Result):
 
     label: str
     period: float
-    amplitude: Array
+    amplitude: FloatArray
     windings: NDArray[np.int64]
     multipliers: NDArray[np.complex128]
-    rates: Array
-    q: Array
+    rates: FloatArray
+    q: FloatArray
     position_error: tuple[float, float]
     angle_error: tuple[float, float]
     largest_times: tuple[float, float]
@@ -103,7 +104,7 @@ class _ShootingMethod:
         self.moving_joints = np.flatnonzero(system.healthy)
         self._field = system.linear.field(system.pose, system.healthy)
 
-    def find_orbit(self, q: Array, window: float) -> Orbit:
+    def find_orbit(self, q: FloatArray, window: float) -> Orbit:
         from scipy.integrate import solve_ivp
 
         for length in (window / 16, window / 4, window):
@@ -128,7 +129,7 @@ class _ShootingMethod:
                     )
         return self._make_orbit(path, float("nan"), np.zeros(len(q), dtype=np.int64), np.empty((0, 0)), window)
 
-    def _find_returns(self, path: Array, time: Array) -> Sequence[float]:
+    def _find_returns(self, path: FloatArray, time: FloatArray) -> Sequence[float]:
         """Return the times at which the motion is nearest to its start, once it has left it."""
         distance = np.linalg.norm(wrap_angles(self.system.law.arm, path - path[0]), axis=1)
         departure = int(np.argmax(distance > _RETURN_FRACTION * distance.max()))
@@ -136,7 +137,7 @@ class _ShootingMethod:
         minima = minima[(minima > departure) & (distance[minima] < _RETURN_FRACTION * distance.max())]
         return [float(return_time) for return_time in time[minima[:_MAX_GUESSES]]]
 
-    def _close_orbit(self, q: Array, period: float) -> tuple[Array, float, Array, NDArray[np.int64]] | None:
+    def _close_orbit(self, q: FloatArray, period: float) -> tuple[FloatArray, float, FloatArray, NDArray[np.int64]] | None:
         """Find a state on the closed orbit near q, its period, the matrix of a return, and the full turns of each joint."""
         arm, moving_joints, h = self.system.law.arm, self.moving_joints, self.moving_joints.size
         first_period, section_normal = period, self._field(q)[moving_joints]
@@ -162,13 +163,13 @@ class _ShootingMethod:
                 return None
         return None
 
-    def _integrate_flow(self, q: Array, period: float) -> tuple[Array, Array]:
+    def _integrate_flow(self, q: FloatArray, period: float) -> tuple[FloatArray, FloatArray]:
         """Return the state after a time, and its derivative by the start, (h, h)."""
         from scipy.integrate import solve_ivp
 
         system, n, h = self.system, self.system.law.arm.n, self.moving_joints.size
 
-        def variational_field(_: float, state_vector: Array) -> Array:
+        def variational_field(_: float, state_vector: FloatArray) -> FloatArray:
             jacobian = system.linear.matrices(state_vector[None, :n], system.pose, system.healthy)[0]
             return np.concatenate([self._field(state_vector[:n]), (jacobian @ state_vector[n:].reshape(h, h)).ravel()])
 
@@ -178,7 +179,7 @@ class _ShootingMethod:
         return end_state[:n], end_state[n:].reshape(h, h)
 
     def _make_orbit(
-        self, path: Array, period: float, windings: NDArray[np.int64], matrix: Array, window: float | None = None
+        self, path: FloatArray, period: float, windings: NDArray[np.int64], matrix: FloatArray, window: float | None = None
     ) -> Orbit:
         system, gain = self.system, self.system.law.gain
         displacement = path[-1] - path[0]

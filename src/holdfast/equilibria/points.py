@@ -16,12 +16,14 @@ from holdfast.equilibria.system import RestSystem, idle_joints, select_distinct,
 from holdfast.notice import Progress, ignore_progress
 from holdfast.result import Result
 from holdfast.simulation.system import tool_errors
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-
-WAVE_STARTS, MAX_IDLE_WAVES, MAX_WAVES = 256, 3, 40
-POINT_TOLERANCE, CONTINUUM_SPACING = 1e-5, 0.05  # rad (and m): points nearer than this are one
+WAVE_STARTS = 256
+MAX_IDLE_WAVES = 3
+MAX_WAVES = 40
+# POINT_TOLERANCE and CONTINUUM_SPACING: rad (and m): points nearer than this are one
+POINT_TOLERANCE = 1e-5
+CONTINUUM_SPACING = 0.05
 MAX_CONTINUUM_POINTS = 256  # points of a continuum that are kept
 
 
@@ -48,16 +50,16 @@ class StationaryPoints(Result):
     """
 
     law: Law
-    target: Array
+    target: FloatArray
     locked: tuple[int, ...]
-    at: Array
-    q: Array
+    at: FloatArray
+    q: FloatArray
     kind: Kinds
     eigenvalues: NDArray[np.complex128]
-    error: Array
-    residual: Array
-    continuum: Flags
-    within_limits: Flags
+    error: FloatArray
+    residual: FloatArray
+    continuum: BoolArray
+    within_limits: BoolArray
     starts: int
 
     def __len__(self) -> int:
@@ -73,21 +75,21 @@ class StationaryPoints(Result):
         return [Kind(kind).word for kind in self.kind]
 
     @property
-    def position_error(self) -> Array:
+    def position_error(self) -> FloatArray:
         """(P,) distance of the tool point from the target in the directions of the task, m."""
         return self._tool_errors[0]
 
     @property
-    def angle_error(self) -> Array:
+    def angle_error(self) -> FloatArray:
         """(P,) angle of the end effector from the target in the directions of the task, rad."""
         return self._tool_errors[1]
 
     @cached_property
-    def _tool_errors(self) -> tuple[Array, Array]:
+    def _tool_errors(self) -> tuple[FloatArray, FloatArray]:
         return tool_errors(self.law, self.q, self.error, self.target)
 
     @property
-    def attracting(self) -> Flags:
+    def attracting(self) -> BoolArray:
         """(P,) True for sinks, and for points that repel in no direction: those of a continuum that the arm can end on."""
         return is_attracting(self.eigenvalues)
 
@@ -127,13 +129,13 @@ class StationaryPoints(Result):
                 )
         return lines
 
-    def _subset(self, rows: Flags | NDArray[np.intp]) -> StationaryPoints:
+    def _subset(self, rows: BoolArray | NDArray[np.intp]) -> StationaryPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
 
 def find_stationary_points(
-    system: RestSystem, locked_values: Array, generator: np.random.Generator, report_progress: Progress = ignore_progress
+    system: RestSystem, locked_values: FloatArray, generator: np.random.Generator, report_progress: Progress = ignore_progress
 ) -> StationaryPoints:
     """Find all stationary points that random starts reach with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
@@ -147,12 +149,12 @@ def find_stationary_points(
 
 def _gather_points(
     system: RestSystem,
-    locked_values: Array,
-    attempt: Callable[[Array], Array],
+    locked_values: FloatArray,
+    attempt: Callable[[FloatArray], FloatArray],
     generator: np.random.Generator,
     max_waves: int,
     report_progress: Progress,
-) -> tuple[Array, int]:
+) -> tuple[FloatArray, int]:
     """Return stationary points (P, n) from waves of starts, until some waves bring none that is isolated and new, and the
     starts used.
     """
@@ -177,7 +179,7 @@ def _gather_points(
     return np.concatenate([isolated, continuum]), starts
 
 
-def classify_points(system: RestSystem, locked_values: Array, q: Array, starts: int) -> StationaryPoints:
+def classify_points(system: RestSystem, locked_values: FloatArray, q: FloatArray, starts: int) -> StationaryPoints:
     """Return stationary points q (P, n) with their properties, sorted by kind and error."""
     arm, healthy = system.law.arm, system.healthy
     rates, error, scaled_error = system.linear.rates(q, system.pose)

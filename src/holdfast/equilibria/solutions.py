@@ -12,10 +12,10 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm
 from holdfast.simulation.system import FailedArmSystem
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-_ERROR_TOLERANCE, _MAX_STEPS = 1e-12, 60
+_ERROR_TOLERANCE = 1e-12
+_MAX_STEPS = 60
 
 
 class SolutionSearch:
@@ -34,7 +34,7 @@ class SolutionSearch:
         step = damped_least_norm(jacobian @ ca.diag(self._system.mask), error, 1e-3 * squared_error + 1e-14)
         return Loop("solutions", q, self._system.parameters, next_state=q + step, residual=ca.sqrt(squared_error))
 
-    def search(self, q: Array, pose: Array, mask: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def search(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Search for configurations (N, n) from starts q (N, n), and return whether they reach the target."""
         inputs = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask])
         result = self._search_loop.run(q, np.broadcast_to(inputs, (len(q), inputs.size)), _ERROR_TOLERANCE, _MAX_STEPS)

@@ -19,8 +19,8 @@ from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import cached_kernel
 from holdfast.simulation.system import FailedArmSystem
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Kinds = NDArray[np.uint8]
 
 REACHED_ERROR = 1e-6  # rad, and lengths in units of the arm's own: an error below it counts as 0
@@ -52,7 +52,7 @@ def is_attracting(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
     return np.asarray((eigenvalues.real < band).all(axis=1))
 
 
-def classify_kinds(eigenvalues: NDArray[np.complex128], scaled_errors: Array) -> Kinds:
+def classify_kinds(eigenvalues: NDArray[np.complex128], scaled_errors: FloatArray) -> Kinds:
     """Return (N,) :class:`Kind` from eigenvalues (N, h), complex, and scaled errors (N,); NaN is degenerate."""
     real_parts = np.real(eigenvalues)
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
@@ -97,12 +97,12 @@ class Linearisation:
         ]
         return Kernel("linearisation", inputs, outputs)
 
-    def rates(self, q: Array, pose: Array) -> tuple[Array, Array, Array]:
+    def rates(self, q: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return commanded rates (N, n) of all joints at q (N, n), errors (N,), m and rad, and (N,) with lengths scaled."""
         outputs = self._rates_kernel.rows(q, pose[:3, 3], pose[:3, :3])
         return outputs[:, :-2], outputs[:, -2], outputs[:, -1]
 
-    def field(self, pose: Array, healthy: NDArray[np.bool_]) -> Callable[[Array], Array]:
+    def field(self, pose: FloatArray, healthy: NDArray[np.bool_]) -> Callable[[FloatArray], FloatArray]:
         """Return the fastest function of the motion, rates (n,) of q (n,) with other joints at rest; not for
         several threads.
         """
@@ -110,13 +110,13 @@ class Linearisation:
         inputs = np.concatenate([np.zeros(n), pose[:3, 3], pose[:3, :3].ravel()])
         healthy_mask = healthy.astype(np.float64)
 
-        def healthy_rates(q: Array) -> Array:
+        def healthy_rates(q: FloatArray) -> FloatArray:
             inputs[:n] = q
             return np.asarray(rates_function(inputs)[:n] * healthy_mask)
 
         return healthy_rates
 
-    def matrices(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
+    def matrices(self, q: FloatArray, pose: FloatArray, healthy: NDArray[np.bool_]) -> FloatArray:
         """Return the linearisation (N, h, h) of the healthy joints at q (N, n)."""
         jacobians, task_jacobian, scaled_error = self._jacobian_kernel(q, pose[:3, 3], pose[:3, :3])
         # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
@@ -129,7 +129,7 @@ class Linearisation:
         jacobians[at_target] = rates.reshape(-1, n, n).transpose(0, 2, 1)
         return np.asarray(jacobians[:, healthy][:, :, healthy])
 
-    def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:
+    def eigenvalues(self, q: FloatArray, pose: FloatArray, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:
         """Return the eigenvalues (N, h) by falling real part; NaN where the law is undefined."""
         matrices = self.matrices(q, pose, healthy)
         is_finite = np.isfinite(matrices).all(axis=(1, 2))

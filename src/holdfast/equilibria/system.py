@@ -13,9 +13,7 @@ from holdfast.equilibria.equations import RestEquations
 from holdfast.equilibria.solutions import SolutionSearch
 from holdfast.equilibria.stability import REACHED_ERROR, linearisation
 from holdfast.solvers import joint_space
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 MAX_HEALTHY_FRACTION = 1e-7  # of all rates: healthy joints that move less are still
 VANISHED_COSINE = 1e-5  # of c: b is that short, per unit of error
@@ -35,12 +33,12 @@ class RestSystem:
         active: Unknowns but for idle joints, as indices; one more than equations where one joint is locked.
     """
 
-    def __init__(self, law: Law, pose: Array, joints: tuple[int, ...]) -> None:
+    def __init__(self, law: Law, pose: FloatArray, joints: tuple[int, ...]) -> None:
         self.law, self.pose, self.locked_joints = law, pose, joints
         self.idle = tuple(joint for joint in idle_joints(law) if joint not in joints)
         self.mask = np.ones(law.arm.n)
         self.mask[list(joints)] = 0.0
-        self.healthy: Flags = self.mask > 0
+        self.healthy: BoolArray = self.mask > 0
         self.healthy[list(self.idle)] = False
         self.equations = _compiled_equations(law, len(joints) == 1)
         self.linear = linearisation(law)
@@ -50,22 +48,22 @@ class RestSystem:
         unlocked = np.flatnonzero(self.mask)
         self._equation_rows = np.flatnonzero(~np.isin(np.r_[unlocked, np.full(law.task.m + 2, -1)], self.idle))
 
-    def __reduce__(self) -> tuple[type[RestSystem], tuple[Law, Array, tuple[int, ...]]]:  # to another process
+    def __reduce__(self) -> tuple[type[RestSystem], tuple[Law, FloatArray, tuple[int, ...]]]:  # to another process
         return RestSystem, (self.law, self.pose, self.locked_joints)
 
-    def sample_starts(self, count: int, generator: np.random.Generator) -> Array:
+    def sample_starts(self, count: int, generator: np.random.Generator) -> FloatArray:
         """Sample random unknowns (count, size), with idle joints at 0."""
         z = self.equations.sample_starts(count, generator)
         z[:, list(self.idle)] = 0.0
         return z
 
-    def find_seeds(self, count: int, generator: np.random.Generator) -> Array:
+    def find_seeds(self, count: int, generator: np.random.Generator) -> FloatArray:
         """Find unknowns (N, size) of erroneous rest for any value of the locked joints."""
         z, is_solved = self.equations.search(self.sample_starts(count, generator), self.pose, self.mask, self._free)
         z = z[is_solved]
         return z[self.is_stationary(z[:, : self.law.arm.n])]
 
-    def find_stuck(self, z: Array) -> Array:
+    def find_stuck(self, z: FloatArray) -> FloatArray:
         """Find configurations (N, n) of erroneous rest from starts z, with the locked joints at their values."""
         free_unknowns = self._free.copy()
         free_unknowns[list(self.locked_joints)] = 0.0
@@ -75,42 +73,42 @@ class RestSystem:
         _, _, scaled_error = self.linear.rates(q, self.pose)
         return q[self.is_stationary(q) & (scaled_error > REACHED_ERROR)]
 
-    def find_solutions(self, z: Array) -> Array:
+    def find_solutions(self, z: FloatArray) -> FloatArray:
         """Find configurations (N, n) that reach the target from starts z, with the locked joints at their values."""
         q, converged = _compiled_solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
         return q[converged]
 
-    def can_reach(self, values: Array, generator: np.random.Generator) -> Flags:
+    def can_reach(self, values: FloatArray, generator: np.random.Generator) -> BoolArray:
         """Return (N,) True where the target is reached from one random start with the locked joint at values (N,)."""
         q = self.sample_starts(len(values), generator)[:, : self.law.arm.n]
         q[:, self.locked_joints[0]] = values
         return _compiled_solutions(self.law).search(q, self.pose, self.mask)[1]
 
-    def is_stationary(self, q: Array) -> Flags:
+    def is_stationary(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where only locked joints are commanded at q (N, n)."""
         rates, _, _ = self.linear.rates(q, self.pose)
         return np.asarray(np.linalg.norm(rates[:, self.healthy], axis=1) < MAX_HEALTHY_FRACTION * np.linalg.norm(rates, axis=1))
 
-    def is_law_at_rest(self, z: Array) -> bool:
+    def is_law_at_rest(self, z: FloatArray) -> bool:
         """Return True if the law itself is at rest along z (N, size), where it is defined."""
         q = z[:, : self.law.arm.n]
         _, _, scaled_error = self.linear.rates(q, self.pose)
         return bool(self.is_stationary(q)[scaled_error > 1e-3].mean() > 0.5)
 
-    def evaluate(self, z: Array) -> tuple[Array, Array]:
+    def evaluate(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Evaluate the equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) by the active unknowns."""
         values, jacobian = self.equations.evaluate(z, self.pose, self.mask)
         return values[:, self._equation_rows], jacobian[:, self._equation_rows][:, :, self.active]
 
-    def sum_locked_rates(self, z: Array) -> Array:
+    def sum_locked_rates(self, z: FloatArray) -> FloatArray:
         """Return (N,) the values of :meth:`RestEquations.sum_locked_rates`."""
         return self.equations.sum_locked_rates(z, self.pose, self.mask)
 
-    def eigenvalues(self, q: Array) -> NDArray[np.complex128]:
+    def eigenvalues(self, q: FloatArray) -> NDArray[np.complex128]:
         """Return (N, h) the values of :meth:`Linearisation.eigenvalues`."""
         return self.linear.eigenvalues(q, self.pose, self.healthy)
 
-    def refine_points(self, q: Array) -> Array:
+    def refine_points(self, q: FloatArray) -> FloatArray:
         """Return (N, n) the erroneous stationary points near q (N, n), locked joints at their values; NaN where
         there is none.
         """
@@ -122,7 +120,7 @@ class RestSystem:
         )
         return np.where(is_solved[:, None], unknowns[:, :n], np.nan)
 
-    def is_isolated(self, q: Array) -> Flags:
+    def is_isolated(self, q: FloatArray) -> BoolArray:
         """Return (N,) False where an eigenvalue is 0."""
         if not len(q):
             return np.zeros(0, dtype=bool)
@@ -143,12 +141,12 @@ def idle_joints(law: Law) -> tuple[int, ...]:
     return tuple(int(joint) for joint in np.flatnonzero(column_maxima < IDLE_COLUMN_FRACTION * column_maxima.max()))
 
 
-def wrap_angles(arm: Arm, q: Array) -> Array:
+def wrap_angles(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (N, n) with revolute joints from -pi to pi, whatever their limits."""
     return joint_space.wrap_joints(arm.without_limits, q)
 
 
-def select_distinct(arm: Arm, q: Array, known_points: Array, min_distance: float) -> Array:
+def select_distinct(arm: Arm, q: FloatArray, known_points: FloatArray, min_distance: float) -> FloatArray:
     """Select those of q (N, n), in order, that are ``min_distance`` from the known points (P, n) and from those selected
     before.
     """

@@ -16,13 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 RANK_TOLERANCE = 1e-9  # of the largest singular value: a smaller one counts as 0
 
 
-def stuck_subspace(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> Array:
+def stuck_subspace(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> FloatArray:
     """Return the commands that move no healthy joint: ``(J W^-1 J') null(S(J W^-1)')``, S() with the columns of locked joints
     zeroed.
 
@@ -76,7 +75,7 @@ def is_stuck(
     return rate_norm > 0 and float(np.linalg.norm(joint_rates[healthy])) <= tolerance * rate_norm
 
 
-def column_residual(arm: Arm, q: ArrayLike, joint: int | str, *, command: ArrayLike) -> Array:
+def column_residual(arm: Arm, q: ArrayLike, joint: int | str, *, command: ArrayLike) -> FloatArray:
     """Return the part of a command not along the column of a joint, (6,): zero where the joint alone would execute it all.
 
     For a revolute joint with axis z and lever ``z x p``: ``x_v - (z'x_w)(z x p)`` and ``x_w - (z'x_w) z``, with one common
@@ -102,7 +101,7 @@ def column_residual(arm: Arm, q: ArrayLike, joint: int | str, *, command: ArrayL
     return np.asarray(twist - factor * column)
 
 
-def null_components(j: ArrayLike, weights: ArrayLike | None, joint: int) -> Array:
+def null_components(j: ArrayLike, weights: ArrayLike | None, joint: int) -> FloatArray:
     """Return ``N' w_i``, (n - m,): zero where a command along the column of joint i is stuck. N spans the null space of J.
 
     For the pseudoinverse these are the joint's components of the null vectors.
@@ -122,7 +121,9 @@ def null_components(j: ArrayLike, weights: ArrayLike | None, joint: int) -> Arra
     return np.asarray(null_space @ np.linalg.solve(inverse_weights, np.eye(jacobian.shape[1])[:, joint]))
 
 
-def _check_inputs(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> tuple[Array, Array, NDArray[np.bool_]]:
+def _check_inputs(
+    j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Return J, the inverse of the weights, and the mask of healthy joints."""
     jacobian = np.asarray(j, dtype=np.float64)
     if jacobian.ndim != 2 or not np.isfinite(jacobian).all() or jacobian.shape[0] > jacobian.shape[1]:

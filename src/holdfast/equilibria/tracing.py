@@ -10,7 +10,6 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curve, Curves
@@ -20,13 +19,13 @@ from holdfast.equilibria.points import classify_points
 from holdfast.equilibria.system import RestSystem, wrap_angles
 from holdfast.notice import Progress, ignore_progress
 from holdfast.solvers.curve_tracing import Component, distance_to_curve
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 CURVE_SPACING = 0.04  # of the unknowns, rad and m
-WAVE_STARTS, MAX_IDLE_WAVES, MAX_WAVES = 128, 3, 30
-_NEWTON_STEPS = 6
+WAVE_STARTS = 128
+MAX_IDLE_WAVES = 3
+MAX_WAVES = 30
+_CORRECTOR_STEPS = 6
 _MIN_STEP_FRACTION = 2.0**-12  # of the spacing: the curve ends where no longer step succeeds
 _MIN_TANGENT_COSINE = 0.97  # least cosine between tangents at the two ends of a step
 _MAX_LENGTH_RAD = 200.0  # rad: longer curves are cut
@@ -40,7 +39,7 @@ _CONSTANT_TOLERANCE = 1e-6  # rad (and m): a locked value that changes less alon
 
 def trace_curves(
     law: Law,
-    pose: Array,
+    pose: FloatArray,
     joint: int,
     seed: int = 0,
     spacing: float = CURVE_SPACING,
@@ -73,7 +72,7 @@ class RestCurveTracer:
 
     def find_curves(
         self, generator: np.random.Generator, report_progress: Progress = ignore_progress
-    ) -> tuple[list[Curve], Array, int]:
+    ) -> tuple[list[Curve], FloatArray, int]:
         """Find every curve to which a start converges, until some waves bring no new one, the points on none, and the starts
         used.
         """
@@ -101,7 +100,7 @@ class RestCurveTracer:
                 break
         return curves, wrap_angles(self.system.law.arm, loose_points), starts
 
-    def _is_on_curve(self, z: Array) -> Flags:
+    def _is_on_curve(self, z: FloatArray) -> BoolArray:
         """Return (N,) True where the points near z (N, size) form one curve, and no surface or curve with several u
         for one q.
         """
@@ -114,7 +113,7 @@ class RestCurveTracer:
             & (np.linalg.norm(right_vectors[:, -1, : -2 - self.system.law.task.m], axis=1) > _SURFACE_TOLERANCE)
         )
 
-    def _select_off_curves(self, z: Array, curves: Sequence[Curve]) -> Array:
+    def _select_off_curves(self, z: FloatArray, curves: Sequence[Curve]) -> FloatArray:
         """Select those of z (N, size) that lie on none of the curves."""
         for curve in curves:
             if len(z):
@@ -124,7 +123,7 @@ class RestCurveTracer:
                 z = z[distance_to_curve(self._arm, component, z[:, : self._n]) > _ON_CURVE_FRACTION * self.spacing]
         return z
 
-    def _trace_curve(self, seed: Array) -> Curve | None:
+    def _trace_curve(self, seed: FloatArray) -> Curve | None:
         start, tangent, is_found = self._correct_point(seed, None)
         if not is_found:
             return None
@@ -141,7 +140,7 @@ class RestCurveTracer:
         is_constant = float(np.ptp(z[:, self.joint])) < _CONSTANT_TOLERANCE
         return mark_events(self.system, self.joint, z, closed, is_constant)
 
-    def _follow_curve(self, z: Array, tangent: Array) -> tuple[list[Array], bool]:
+    def _follow_curve(self, z: FloatArray, tangent: FloatArray) -> tuple[list[FloatArray], bool]:
         """Return the points of the curve in one direction from z, and whether it came back to z."""
         points, start, start_tangent = [z], z, tangent
         step, length, curvature = self.spacing, 0.0, np.zeros_like(z)
@@ -164,7 +163,7 @@ class RestCurveTracer:
             step = min(1.5 * step, self.spacing)
         return points, False
 
-    def _correct_point(self, z: Array, tangent: Array | None) -> tuple[Array, Array, bool]:
+    def _correct_point(self, z: FloatArray, tangent: FloatArray | None) -> tuple[FloatArray, FloatArray, bool]:
         """Return the point of the curve in the plane through z across the tangent, its unit tangent, and whether there is one.
 
         Without a tangent, the nearest point, with its tangent either way.
@@ -177,7 +176,7 @@ class RestCurveTracer:
         matrix = np.empty((active.size, active.size))
         right_sides = np.zeros((active.size, 2))
         matrix[-1], right_sides[-1, 1] = tangent[active], 1.0
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_CORRECTOR_STEPS):
             values, jacobian = self.system.evaluate(z[None])
             matrix[:-1], right_sides[:-1, 0] = jacobian[0], values[0]
             try:
@@ -194,7 +193,7 @@ class RestCurveTracer:
             z[active] -= step[:, 0]
         return z, tangent, False
 
-    def _passes_start(self, start: Array, start_tangent: Array, z: Array, next_point: Array) -> bool:
+    def _passes_start(self, start: FloatArray, start_tangent: FloatArray, z: FloatArray, next_point: FloatArray) -> bool:
         """Return True if the step from z to new passes the start, modulo full turns, in its direction."""
         n = self._n
         step, difference = (next_point - z)[:n], self._joint_difference(start[:n], z[:n])
@@ -203,7 +202,7 @@ class RestCurveTracer:
         lateral_distance = float(np.linalg.norm(difference - fraction * step))
         return 0 < fraction <= 1 and lateral_distance < 0.1 * np.sqrt(squared_length) and float(start_tangent[:n] @ step) > 0
 
-    def _match_turn(self, start: Array, z: Array) -> Array:
+    def _match_turn(self, start: FloatArray, z: FloatArray) -> FloatArray:
         """Return the start as the next point after z: in the same turn, with u, c, and s of the same signs."""
         n = self._n
         q = z[:n] + self._joint_difference(start[:n], z[:n])
@@ -215,5 +214,5 @@ class RestCurveTracer:
         choices = [choice for choice in choices if np.linalg.norm(self.system.evaluate(choice[None])[0]) < 1e-8]
         return min(choices, key=lambda choice: float(np.linalg.norm(choice - z)))
 
-    def _joint_difference(self, a: Array, b: Array) -> Array:
+    def _joint_difference(self, a: FloatArray, b: FloatArray) -> FloatArray:
         return np.asarray(wrap_angles(self.system.law.arm, a - b))

@@ -13,11 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files import output
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -76,17 +75,17 @@ class Degraded:
             object.__setattr__(self, what, value)
 
     @property
-    def lo(self) -> Array:
+    def lo(self) -> FloatArray:
         """(n,) lower limits in force, rad or m; of a locked joint its value, NaN where that is not known (see :meth:`at`)."""
         return self._limits_on_side(0)
 
     @property
-    def hi(self) -> Array:
+    def hi(self) -> FloatArray:
         """(n,) upper limits in force, likewise."""
         return self._limits_on_side(1)
 
     @property
-    def v(self) -> Array:
+    def v(self) -> FloatArray:
         """(n,) velocity limits in force, rad/s or m/s, infinite where there is none; 0 of locked joints."""
         return np.array([0.0 if j.name in self.locked else j.velocity for j in self.limited.joints], dtype=np.float64)
 
@@ -126,8 +125,8 @@ class Degraded:
             raise InputError(f"what is degraded belongs to '{self.arm.name}', not to '{arm.name}'; make it with this arm")
         return self
 
-    def _limits_on_side(self, side: int) -> Array:
-        bounds: Array = np.stack([self.limited.lower, self.limited.upper])[side]
+    def _limits_on_side(self, side: int) -> FloatArray:
+        bounds: FloatArray = np.stack([self.limited.lower, self.limited.upper])[side]
         for name, value in self.locked.items():
             bounds[self.arm.joint_index(name)] = np.nan if value is None else value
         return bounds
@@ -183,7 +182,7 @@ class Degraded:
         """Return the failures in one phrase: ``panda_joint4 locked at -68.8 deg and panda_joint1 at 30 % of its speed``."""
         phrases = []
         for name in self.arm.joint_names:
-            factor, unit = self.arm.joints[self.arm.joint_index(name)].shown
+            factor, unit = self.arm.joints[self.arm.joint_index(name)].display_unit
             if name in self.locked:
                 value = self.locked[name]
                 phrases.append(f"{name} locked" + ("" if value is None else f" at {factor * value:.4g} {unit}"))
@@ -240,7 +239,7 @@ def _check_fraction(arm: Arm, name: str, given: Any) -> float:
     return float(number)
 
 
-def degraded_at(arm: Arm, locked: Locked, at: Array) -> Degraded | None:
+def degraded_at(arm: Arm, locked: Locked, at: FloatArray) -> Degraded | None:
     """Return the failures of joints locked at their values in ``at`` (n,); None if nothing has failed.
 
     Raises:
@@ -286,14 +285,14 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
     return locks
 
 
-def locks_at(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
+def locks_at(arm: Arm, locked: Locked, at: FloatArray) -> dict[int, float]:
     """Return the locks that :func:`read_locks` reads in the arm's order, with the values of ``at`` (n,) for joints without a
     value.
     """
     return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
 
 
-def locks_with_values(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], Array]:
+def locks_with_values(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], FloatArray]:
     """Return the locked joints (k,) in the given order and their values (k,), requiring a value of each and a free joint.
 
     Raises:

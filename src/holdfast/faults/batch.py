@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from holdfast.faults.entry import KINDS, PARAMETERS_BY_KIND
 from holdfast.faults.events import FaultEvents
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 _MAX_PARAMETERS = 3  # parameters of a kind
 
 
@@ -38,15 +38,15 @@ class FaultBatch(Result):
     first: int
     episodes: tuple[FaultEvents, ...]
     kind: NDArray[np.int64]
-    onset: Array
-    end: Array
-    parameter: Array
+    onset: FloatArray
+    end: FloatArray
+    parameter: FloatArray
     left_out: int
 
     def __len__(self) -> int:
         return len(self.episodes)
 
-    def times_of(self, joints: Sequence[str]) -> Array:
+    def times_of(self, joints: Sequence[str]) -> FloatArray:
         """Return the times (N, n) at which these joints lock, s: an episode for each run of :func:`holdfast.simulate`.
 
         Raises:

@@ -10,14 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import ValidationError, model_validator
 
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.yaml import Strict, describe_error, read_mapping
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _LENGTH_UNITS = {"m": 1.0, "mm": 1e-3}
@@ -52,7 +50,7 @@ class _Columns(Strict):
     quat: _Column = _Column(column="quat_*")
 
 
-def read_arrays(path: Path, columns: str | Path | None) -> dict[str, Array]:
+def read_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]:
     """Read the arrays of a table (.csv, .parquet) in SI units, by their names in a log; missing optional columns are left out.
 
     Args:
@@ -108,7 +106,7 @@ def _expand_columns(column: str | list[str], names: Collection[str]) -> list[str
     return [by_number[number] for number in numbers]
 
 
-def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
+def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
     """Return the names and a function for the numbers of a column; empty cells are NaN. The first line decides the
     delimiter.
     """
@@ -125,7 +123,7 @@ def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
         if len(row) != len(header):
             raise InputError(f"line {line_number} has {len(row)} cells, and the first line {len(header)}")
 
-    def read_numbers(name: str) -> Array:
+    def read_numbers(name: str) -> FloatArray:
         index, values = header.index(name), []
         for line_number, row in rows[1:]:
             try:
@@ -151,7 +149,7 @@ def import_pyarrow() -> tuple[Any, Any]:
     return pyarrow, parquet
 
 
-def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
+def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
     pyarrow, parquet = import_pyarrow()
     try:
         # Threads of pyarrow end the whole process where they still run when Python ends.
@@ -163,7 +161,7 @@ def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], Array]]:
         lengths = _get_list_length(pyarrow, table[field.name]) if pyarrow.types.is_nested(field.type) else 0
         names += [field.name, *(f"{field.name}[{k}]" for k in range(lengths))]
 
-    def read_numbers(name: str) -> Array:
+    def read_numbers(name: str) -> FloatArray:
         indexed_name = re.fullmatch(r"(.*)\[(\d+)\]", name)
         base_name, chosen = (
             (indexed_name[1], int(indexed_name[2])) if name not in table.column_names and indexed_name else (name, None)

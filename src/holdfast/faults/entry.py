@@ -175,7 +175,7 @@ class Fault:
         )
         self._assign_field("duration", None if self.duration is None else self._parse_bounded("duration", self.duration))
 
-    def stored(self) -> dict[str, Any]:
+    def to_stored(self) -> dict[str, Any]:
         """Return the entry as files store it, without default values."""
         data: dict[str, Any] = {"kind": self.kind}
         values = {

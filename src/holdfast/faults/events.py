@@ -39,14 +39,14 @@ class FaultEvent:
         """Return True if the fault is present at a time, s."""
         return self.onset <= time < self.end
 
-    def stored(self) -> dict[str, Any]:
+    def to_stored(self) -> dict[str, Any]:
         """Return the event in JSON types; ``end`` is None for a permanent fault."""
         end = None if math.isinf(self.end) else self.end
         return {"kind": self.kind, "joint": self.joint, "onset": self.onset, "end": end, **self.parameters}
 
     @classmethod
     def from_stored(cls, data: Mapping[str, Any]) -> FaultEvent:
-        """Return the event from the data of :meth:`stored`."""
+        """Return the event from the data of :meth:`to_stored`."""
         parameters = {name: value for name, value in data.items() if name not in ("kind", "joint", "onset", "end")}
         end = math.inf if data["end"] is None else data["end"]
         return cls(data["kind"], data["joint"], data["onset"], end=end, parameters=parameters)
@@ -88,5 +88,5 @@ class FaultEvents(tuple[FaultEvent, ...]):
     @property
     def id(self) -> str:
         """SHA-256, in hexadecimal digits, of the events as JSON with sorted keys and no spaces; identical on every machine."""
-        text = json.dumps([event.stored() for event in self], sort_keys=True, separators=(",", ":"), allow_nan=False)
+        text = json.dumps([event.to_stored() for event in self], sort_keys=True, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(text.encode()).hexdigest()

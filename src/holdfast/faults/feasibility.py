@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
@@ -20,8 +20,8 @@ from holdfast.recovery import recover
 from holdfast.recovery.question import choose_task
 from holdfast.recovery.rows import make_row_solver
 from holdfast.solvers import solve_ik
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Answer = Literal["yes", "no", "not found", "unknown"]
 
 _LOCKING_KINDS = frozenset({"locked", "slipping_clutch"})
@@ -43,7 +43,7 @@ class Feasibility:
 
     answer: Answer
     why: str
-    q: Array | None = None
+    q: FloatArray | None = None
 
 
 def feasible(
@@ -158,8 +158,8 @@ def _reduce_range(arm: Arm, event: FaultEvent, position: float) -> tuple[float, 
 
 
 def _solve_in_cone(
-    arm: Arm, degraded: Degraded | None, goal: Array, rows: Task, within: float, restarts: int, tolerance: float
-) -> Array:
+    arm: Arm, degraded: Degraded | None, goal: FloatArray, rows: Task, within: float, restarts: int, tolerance: float
+) -> FloatArray:
     """Search configurations (K, n) of a goal (4, 4) whose tool z axis may deviate by an angle (rad), from random starts."""
     limited, q_locked, is_free = (
         (arm, np.zeros(arm.n), np.ones(arm.n, bool)) if degraded is None else (degraded.limited, degraded.lo, degraded.moves)
@@ -180,7 +180,7 @@ def _check_by_recovery(
     degraded: Degraded,
     q_start: ArrayLike,
     *,
-    goal: Array,
+    goal: FloatArray,
     within: float | None,
     rows: str | Task,
     condition_text: str,
@@ -197,7 +197,7 @@ def _check_by_recovery(
 
 
 def _check_gravity_load(
-    arm: Arm, goal: Array, task: str | Task, within: float | None, gains: Mapping[str, float], tolerance: float
+    arm: Arm, goal: FloatArray, task: str | Task, within: float | None, gains: Mapping[str, float], tolerance: float
 ) -> Feasibility:
     """Return the feasibility from the torque of weak motors against gravity in some configuration of the goal."""
     if within is None:

@@ -20,8 +20,7 @@ from holdfast.faults.actuators import JointActuators
 from holdfast.faults.entry import SENSOR_KINDS, TORQUE_KINDS
 from holdfast.faults.events import FaultEvent, FaultEvents
 from holdfast.faults.scheme import FaultModel, HasJointNames, list_joint_names
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is not left to the next one
 LOCK_OVERLAP = 1e-3  # rad or m that a lock's two limits overlap: both act at every step, not one after it was passed
@@ -42,7 +41,7 @@ class _ActiveFault:
     approach_sign: float
     is_pending: bool = False  # a lock that waits for its angle
     is_still: bool = False  # a joint that was stopped where it is held
-    command: Array | None = None
+    command: FloatArray | None = None
     force_range: tuple[float, float] | None = None  # N m or N, of a motor whose speed is reduced
 
 
@@ -52,7 +51,7 @@ class FaultInjector:
     The caller's loop is ``reset(episode)``, then for each step ``before_step(time)``, after the controller has written
     ``data.ctrl``, ``mujoco.mj_step``, and ``restore()``. Between ``restore`` and the next ``before_step`` no field of the model
     shows the fault, so a controller that reads limits, gains or damping from the model reads those of the healthy robot. A
-    controller that should see sensor faults takes its joint values from ``read``. A locked joint is held by
+    controller that should see sensor faults takes its joint values from ``read_sensors``. A locked joint is held by
     a pair of limits that overlap there, and its momentum goes into the others as in an impact without rebound, unless the
     model has active equality constraints. MuJoCo's implicit damping comes after its constraints and would move the joint by
     what the others' damping gives: the joint gets so much of its own that it does not.
@@ -110,7 +109,7 @@ class FaultInjector:
         self._has_implicit_damping = (
             model.opt.integrator in implicit_integrators and not model.opt.disableflags & no_damping_flags
         )
-        self._changes: list[tuple[Array, Any, Any]] = []  # array, row and value before the faults were inserted
+        self._changes: list[tuple[FloatArray, Any, Any]] = []  # array, row and value before the faults were inserted
         self.is_inserted = False
         self.events = FaultEvents()
         self.applied: dict[FaultEvent, float] = {}
@@ -214,7 +213,7 @@ class FaultInjector:
         if not inserted and self.is_inserted:
             self.restore()
 
-    def read(self, q: ArrayLike, *, reference: ArrayLike | None = None) -> Array:
+    def read_sensors(self, q: ArrayLike, *, reference: ArrayLike | None = None) -> FloatArray:
         """Return the readings of the joint sensors.
 
         Args:

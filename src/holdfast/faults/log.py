@@ -14,18 +14,17 @@ from holdfast.errors import InputError
 from holdfast.faults import columns as tables
 from holdfast.files import reading
 from holdfast.files.output import guard_writing, write_table
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 _ARRAY_WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one for each joint
 _REQUIRED_ARRAYS = ("t", "q_ref", "q")
 _MIN_CLOCK_TIME_S = 1e6  # s: later times are those of a clock
 _MIN_RATE_HZ = 40.0  # Hz: the observer's own rate, below which it says nothing
 _MAX_GAP_FACTOR = 20  # times as many samples as there are: longer gaps are between records, not in one
 _UNEVEN_FRACTION = 0.01  # of the period: time stamps that differ less from even ones are even
-_MAX_LIMIT_EXCESS, _MAX_SPEED_FACTOR = (
-    0.5,
-    2.0,
-)  # rad or m beyond a limit, and of a speed limit: such references are in other units
+# _MAX_LIMIT_EXCESS and _MAX_SPEED_FACTOR: rad or m beyond a limit, and of a speed limit: such references are in other units
+_MAX_LIMIT_EXCESS = 0.5
+_MAX_SPEED_FACTOR = 2.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -49,12 +48,12 @@ class Log:
         InputError: Shapes that do not fit, time that does not increase, or nearly all samples missing.
     """
 
-    t: Array
-    q_ref: Array
-    q: Array
-    tau: Array | None = None
-    x: Array | None = None
-    quat: Array | None = None
+    t: FloatArray
+    q_ref: FloatArray
+    q: FloatArray
+    tau: FloatArray | None = None
+    x: FloatArray | None = None
+    quat: FloatArray | None = None
 
     def __post_init__(self) -> None:
         times = np.asarray(self.t, dtype=np.float64)
@@ -196,7 +195,7 @@ class Log:
         shifted = np.concatenate([np.column_stack([self.x, self.quat])[rows:], missing])
         return replace(self, x=shifted[:, :3], quat=shifted[:, 3:])
 
-    def save(self, file: str | Path, **more: Array) -> Path:
+    def save(self, file: str | Path, **more: FloatArray) -> Path:
         """Write ``.npz`` (single precision except for the time) or, by its name, CSV or Parquet.
 
         Args:
@@ -237,7 +236,7 @@ class Log:
         return path
 
 
-def _assign_even_rows(t: Array) -> NDArray[np.int64]:
+def _assign_even_rows(t: FloatArray) -> NDArray[np.int64]:
     """Return the row of each sample on an even grid; rows between them are missing samples.
 
     An uneven clock shifts times to and fro about their grid, a gap shifts all later ones; the closer grid is taken.
@@ -250,17 +249,17 @@ def _assign_even_rows(t: Array) -> NDArray[np.int64]:
     return min((gapped_rows, even_rows), key=lambda candidate: float(np.std(t * (candidate[-1] / (t[-1] - t[0])) - candidate)))
 
 
-def _interpolate_at(times: Array, t: Array, values: Array) -> Array:
+def _interpolate_at(times: FloatArray, t: FloatArray, values: FloatArray) -> FloatArray:
     """Return values (T, n), known at ``t``, at other times."""
     return np.stack([np.interp(times, t, column) for column in values.T], axis=1)
 
 
-def _sum_squared_curvature(values: Array) -> float:
+def _sum_squared_curvature(values: FloatArray) -> float:
     """Return the sum of squared second differences of values (T, n)."""
     return float(np.nansum(np.diff(values, n=2, axis=0) ** 2))
 
 
-def _read_npz(path: Path) -> dict[str, Array]:
+def _read_npz(path: Path) -> dict[str, FloatArray]:
     with reading.guard_reading(advice="give an .npz or .csv file"):
         content = reading.read_bytes(path)
     try:

@@ -121,7 +121,7 @@ class FaultModel:
         drawn_episodes = [self.draw(joints, episode=first + offset, horizon=horizon) for offset in range(int(episodes))]
         return make_batch(list_joint_names(joints), drawn_episodes, seed=self.seed, first=first)
 
-    def seeded(self, seed: int | None) -> FaultModel:
+    def with_seed(self, seed: int | None) -> FaultModel:
         """Return the fault model with another seed, or unchanged where it is None.
 
         Raises:
@@ -135,7 +135,7 @@ class FaultModel:
         Raises:
             StoreError: It cannot be written.
         """
-        data = {"seed": self.seed, "faults": [entry.stored() for entry in self.entries]}
+        data = {"seed": self.seed, "faults": [entry.to_stored() for entry in self.entries]}
         path = Path(file)
         replace_file(
             path, yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120), "faults"

@@ -17,9 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import require_real_numbers
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files import reading
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 MESH_FORMATS = ("stl", "obj", "glb", "ply", "dae")
 _STL_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
@@ -35,11 +33,11 @@ class Triangles:
         faces: (F, 3) positions of their corners in ``vertices``; those without an area are left out.
     """
 
-    vertices: Array
-    faces: Indices
+    vertices: FloatArray
+    faces: IndexArray
 
     @property
-    def closed(self) -> bool:
+    def is_closed(self) -> bool:
         """True if every edge belongs to two triangles that pass it in opposite directions: the surface has an inside."""
         start, end = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
         one, other = start * len(self.vertices) + end, end * len(self.vertices) + start
@@ -123,7 +121,7 @@ def _is_text_stl(content: bytes) -> bool:
     return content[:5].lower() == b"solid" and b"facet" in content[:1000]
 
 
-def _read_stl(content: bytes, name: str) -> tuple[NDArray[np.floating[Any]], Indices]:
+def _read_stl(content: bytes, name: str) -> tuple[NDArray[np.floating[Any]], IndexArray]:
     """Read the corners (3 F, 3) of the triangles of a complete STL file, and their numbers (F, 3)."""
     if _is_text_stl(content):
         try:
@@ -167,7 +165,7 @@ def make_triangles(vertices: ArrayLike, faces: ArrayLike, what: str) -> Triangle
     return Triangles(used, sound)
 
 
-def _unique_rows(points: Array) -> tuple[Array, Indices]:
+def _unique_rows(points: FloatArray) -> tuple[FloatArray, IndexArray]:
     """Return the distinct rows and, for each row, its number among them."""
     order = np.lexsort(points.T)
     rows = points[order]

@@ -10,11 +10,9 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,8 +33,8 @@ class RowFunction:
     name: str
     sizes: tuple[int, ...]
     size: int | None
-    value: Callable[..., Array]
-    slopes: Callable[..., tuple[Array, ...]]
+    value: Callable[..., FloatArray]
+    slopes: Callable[..., tuple[FloatArray, ...]]
     kernels: tuple[Any, Any] | None = None
     marked: bool = False
 
@@ -55,7 +53,7 @@ class RowFunction:
         expected_shapes = " and ".join(f"(..., {k})" for k in self.sizes)
         raise InputError(f"{self.name} takes {expected_shapes}, got {' and '.join(map(str, shapes)) or 'nothing'}")
 
-    def call_on_rows(self, function: Callable[..., Any], arrays: list[Any]) -> Sequence[Array]:
+    def call_on_rows(self, function: Callable[..., Any], arrays: list[Any]) -> Sequence[FloatArray]:
         """Call ``value`` or ``slopes`` with NumPy arrays that share all axes except the last, without needless copies."""
         leading = arrays[0].shape[:-1]
         rows = [np.asarray(a, dtype=np.float64) for a in arrays]

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, TaskSpec
 from holdfast.caching import cached_property
 from holdfast.ceilings.ceiling import bound_of_index
 from holdfast.failures import FailureSpec
@@ -35,9 +35,7 @@ from holdfast.linalg import (
 )
 from holdfast.registry import constructor
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
-TaskSpec = str | Task | Sequence[str]
+from holdfast.typing import FloatArray
 
 _ZERO_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
 _ZERO_RHO = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
@@ -233,7 +231,7 @@ class RelativeManipulability(Index):
         """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
         return replace(super().row_function(), kernels=(self._worst_kernel, self._gradient_kernel), marked=True)
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
         rows, single = self._check_rows(q)
         values, marked = self._worst_kernel.marked_rows(rows)
@@ -255,7 +253,7 @@ class RelativeManipulability(Index):
         worst = outputs[:, 1].astype(np.int64)
         return WorstCase(value[0], worst[0], status[0]) if single else WorstCase(value, worst, status)
 
-    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         values, marked = self._values_kernel.marked_rows(q)
         marked_rows, singular = self._find_singular_rows(q, values, marked)
         if marked_rows.size:
@@ -263,7 +261,7 @@ class RelativeManipulability(Index):
             values[singular] = 0.0
         return values, singular
 
-    def _evaluate_gradient(self, q: Array) -> Array:
+    def _evaluate_gradient(self, q: FloatArray) -> FloatArray:
         gradient, marked = self._gradient_kernel.marked_rows(q)
         marked_rows, singular = self._find_singular_rows(q, gradient, marked)
         if marked_rows.size:
@@ -271,7 +269,9 @@ class RelativeManipulability(Index):
             gradient[singular] = 0.0
         return gradient
 
-    def _find_singular_rows(self, q: Array, outputs: Array, marked: bool) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def _find_singular_rows(
+        self, q: FloatArray, outputs: FloatArray, marked: bool
+    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """Return the rows that a kernel marked with NaN although q is finite, and which rows are singular."""
         singular = np.zeros(len(q), dtype=bool)
         marked_rows = np.zeros(0, dtype=np.int64)

@@ -23,8 +23,8 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import HouseholderQR, directional_derivatives
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Formula = Callable[..., SX]
 
 
@@ -78,18 +78,18 @@ class FormulaIndex(Index):
         values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * value for value in formulas]), symbols, q))
         return values, directional_derivatives(values, q, directions)
 
-    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         values = self._values_kernel.rows(q)
         singular = self._singular_rows(q)
         values[singular] = self.singular_value_by_convention
         return values, singular
 
-    def _evaluate_gradient(self, q: Array) -> Array:
+    def _evaluate_gradient(self, q: FloatArray) -> FloatArray:
         gradient = self._gradient_kernel.rows(q)
         gradient[self._singular_rows(q)] = 0.0
         return gradient
 
-    def _singular_rows(self, q: Array) -> NDArray[np.bool_]:
+    def _singular_rows(self, q: FloatArray) -> NDArray[np.bool_]:
         singular = np.zeros(len(q), dtype=bool)
         finite = np.flatnonzero(np.isfinite(q).all(axis=1))
         singular[finite] = self._is_singular(q[finite])

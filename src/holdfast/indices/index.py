@@ -27,8 +27,7 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import HouseholderQR
 from holdfast.registry import INDEX_REGISTRY, Labelled
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 SINGULAR_RATIO = 1e-12
 """A Jacobian is singular if its smallest singular value is at most this times its largest: the same everywhere."""
@@ -46,8 +45,8 @@ class IndexEvaluation:
             of one's own gives NaN.
     """
 
-    value: Array
-    by_failure: Array
+    value: FloatArray
+    by_failure: FloatArray
     worst: NDArray[np.int64]
     status: NDArray[np.uint8]
 
@@ -60,7 +59,7 @@ class WorstCase:
         value, worst, status: As there.
     """
 
-    value: Array
+    value: FloatArray
     worst: NDArray[np.int64]
     status: NDArray[np.uint8]
 
@@ -108,18 +107,18 @@ class Index(Labelled, Objective):
         return None if self.ceiling is None else self.ceiling.best_known
 
     @property
-    def attained(self) -> bool:
+    def is_attained(self) -> bool:
         """True where the best known value is the bound."""
-        return self.ceiling is not None and self.ceiling.attained
+        return self.ceiling is not None and self.ceiling.is_attained
 
     # ---- what a formula provides -------------------------------------------------------------------------------
 
     @abstractmethod
-    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Values (N, F), NaN where q (N, n) is not finite, and which rows are singular (N,)."""
 
     @abstractmethod
-    def _evaluate_gradient(self, q: Array) -> Array:
+    def _evaluate_gradient(self, q: FloatArray) -> FloatArray:
         """Gradient (N, n) of the worst case, NaN where q (N, n) is not finite."""
 
     # ---- what a user asks --------------------------------------------------------------------------------------
@@ -172,11 +171,11 @@ class Index(Labelled, Objective):
         evaluation = self.evaluate(q)
         return WorstCase(evaluation.value, evaluation.worst, evaluation.status)
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
         return self.evaluate(q).value
 
-    def by_joint(self, q: ArrayLike) -> Array:
+    def by_joint(self, q: ArrayLike) -> FloatArray:
         """The value for each failure, (N, F) or (F,); for single failures one column per joint."""
         return self.evaluate(q).by_failure
 
@@ -194,7 +193,7 @@ class Index(Labelled, Objective):
             raise TaskError(f"{self.name}: several joints fail together here; ask for worst_failure and failure_names")
         return np.array([failure[0] for failure in self.failures], dtype=np.int64)[self.evaluate(q).worst]
 
-    def gradient(self, q: ArrayLike) -> Array:
+    def gradient(self, q: ArrayLike) -> FloatArray:
         """Exact gradient of the worst case, (N, n) or (n,), per rad and m.
 
         Where two failures tie it is that of the first. It is 0 at a singular configuration and where the worst case is 0
@@ -249,7 +248,7 @@ class Index(Labelled, Objective):
             exact.append([rate * x for x in row])
         return [ObjectivePart(1.0, values, exact)]
 
-    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
         """``SINGULAR`` where the value is a convention; see :meth:`Objective.statuses`."""
         return self.evaluate(q).status
 
@@ -274,18 +273,18 @@ class Index(Labelled, Objective):
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])
 
-    def task_jacobian(self, q: Array) -> Array:
+    def task_jacobian(self, q: FloatArray) -> FloatArray:
         """Task Jacobian (N, m, n) for q (N, n), linear rows divided by the characteristic length."""
         return self._task_jacobian.rows(q).reshape(-1, self.task.m, self.arm.n)
 
-    def _is_singular(self, q: Array) -> NDArray[np.bool_]:
+    def _is_singular(self, q: FloatArray) -> NDArray[np.bool_]:
         """The definition itself, by singular values of the task Jacobian."""
         if not len(q):
             return np.zeros(0, dtype=bool)
         singular_values = np.linalg.svd(self.task_jacobian(q), compute_uv=False)
         return np.asarray(singular_values[:, -1] <= SINGULAR_RATIO * singular_values[:, 0])
 
-    def _check_rows(self, q: ArrayLike) -> tuple[Array, bool]:
+    def _check_rows(self, q: ArrayLike) -> tuple[FloatArray, bool]:
         return as_configurations(self.arm, q)
 
     @property

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.indices.index import SINGULAR_RATIO
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -22,8 +20,8 @@ class Ellipsoid:
         radii: (3,) m/s for rates of norm 1, in the order of the axes, largest first.
     """
 
-    axes: Array
-    radii: Array
+    axes: FloatArray
+    radii: FloatArray
 
 
 @dataclass(frozen=True)
@@ -36,7 +34,7 @@ class DirectionLoss:
     """
 
     kept: float
-    direction: Array
+    direction: FloatArray
 
     @property
     def lost(self) -> bool:
@@ -44,7 +42,7 @@ class DirectionLoss:
         return self.kept <= 1e-6
 
 
-def manipulability_ellipsoid(j: Array, failed: Sequence[int] = ()) -> Ellipsoid:
+def manipulability_ellipsoid(j: FloatArray, failed: Sequence[int] = ()) -> Ellipsoid:
     """Return the manipulability ellipsoid of the tool point.
 
     Args:
@@ -59,7 +57,7 @@ def manipulability_ellipsoid(j: Array, failed: Sequence[int] = ()) -> Ellipsoid:
     return Ellipsoid(directions, radii)
 
 
-def find_losses(j: Array, failed: Sequence[int]) -> list[DirectionLoss]:
+def find_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLoss]:
     """Return the directions in which locking joints reduces the speed most, worst first; as many as joints fail, at most m.
 
     With ``J = U S V'`` and W the failed joints' rows of V, the reduced Gram matrix is ``U S (I - W'W) S U'``: along
@@ -95,7 +93,7 @@ def remaining_manipulability(losses_found: Sequence[DirectionLoss]) -> float:
     return float(np.prod([loss.kept for loss in losses_found]))
 
 
-def null_directions(j: Array, failed: Sequence[int]) -> Array:
+def null_directions(j: FloatArray, failed: Sequence[int]) -> FloatArray:
     """Return joint rates (r, n) of norm 1 that leave the end effector's task velocity at 0 with failed joints locked;
     orthonormal.
 
@@ -114,7 +112,7 @@ def null_directions(j: Array, failed: Sequence[int]) -> Array:
     return basis
 
 
-def without_columns(j: Array, failed: Sequence[int]) -> Array:
+def without_columns(j: FloatArray, failed: Sequence[int]) -> FloatArray:
     """Return the reduced Jacobian with the columns of failed joints set to 0, so that its shape stays."""
     reduced = np.array(j)
     reduced[:, list(failed)] = 0.0

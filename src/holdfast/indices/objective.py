@@ -21,8 +21,8 @@ from holdfast.kernels.program import SX
 from holdfast.linalg import HouseholderQR, select_at_smallest
 from holdfast.result import Presentable
 from holdfast.status import Status
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Better = Literal["larger", "smaller"]
 
 
@@ -64,11 +64,11 @@ class Objective(Presentable, Differentiable, ABC):
         return {}
 
     @abstractmethod
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """The value at q (N, n) or (n,): (N,), or a scalar."""
 
     @abstractmethod
-    def gradient(self, q: ArrayLike) -> Array:
+    def gradient(self, q: ArrayLike) -> FloatArray:
         """Exact gradient at q (N, n) or (n,), of the same shape, per rad and m; NaN where q is."""
 
     def row_function(self) -> RowFunction:
@@ -100,11 +100,11 @@ class Objective(Presentable, Differentiable, ABC):
         """Symbols (k,) in :meth:`parts` for numbers that :meth:`measure` computes; None if all of it is one program."""
         return None
 
-    def measure(self, q: Array) -> Array:
+    def measure(self, q: FloatArray) -> FloatArray:
         """The numbers (N, k) that ``measured`` stands for, at q (N, n)."""
         return np.empty((len(q), 0))
 
-    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
         """Status of each row of q (N, n): ``SINGULAR`` where the value is a convention."""
         return np.full(len(q), Status.OK, dtype=np.uint8)
 
@@ -207,11 +207,11 @@ class WeightedSum(Objective):
         """The task of its summands."""
         return self._task
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """The value at q (N, n) or (n,): (N,), or a scalar."""
         return np.asarray(sum(w * objective(q) for w, objective in self.terms))
 
-    def gradient(self, q: ArrayLike) -> Array:
+    def gradient(self, q: ArrayLike) -> FloatArray:
         """Exact gradient at q (N, n) or (n,), of the same shape."""
         return np.asarray(sum(w * objective.gradient(q) for w, objective in self.terms))
 
@@ -229,11 +229,11 @@ class WeightedSum(Objective):
         symbols = [o.measured for _, o in self.terms if o.measured is not None]
         return ca.vertcat(*symbols) if symbols else None
 
-    def measure(self, q: Array) -> Array:
+    def measure(self, q: FloatArray) -> FloatArray:
         """Return the numbers of the summands; see :meth:`Objective.measure`."""
         return np.concatenate([o.measure(q) for _, o in self.terms], axis=1)
 
-    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
         """The first status of its summands that is not ``OK``."""
         combined = np.full(len(q), Status.OK, dtype=np.uint8)
         for _, objective in self.terms:
@@ -273,11 +273,11 @@ class NegatedObjective(Objective):
         """The task of the objective."""
         return self.objective.own_task
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """The value of the objective at q (N, n) or (n,): (N,), or a scalar."""
         return self.objective(q)
 
-    def gradient(self, q: ArrayLike) -> Array:
+    def gradient(self, q: ArrayLike) -> FloatArray:
         """Return the gradient of the objective."""
         return self.objective.gradient(q)
 
@@ -294,11 +294,11 @@ class NegatedObjective(Objective):
         """Symbols of the objective."""
         return self.objective.measured
 
-    def measure(self, q: Array) -> Array:
+    def measure(self, q: FloatArray) -> FloatArray:
         """Return the numbers of the objective."""
         return self.objective.measure(q)
 
-    def row_statuses(self, q: Array) -> NDArray[np.uint8]:
+    def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
         """Return the statuses of the objective."""
         return self.objective.row_statuses(q)
 

@@ -20,7 +20,7 @@ from holdfast.linalg import Vector, dot_product
 
 Matrix = list[Vector]
 
-_NEWTON_STEPS = 9
+_SECULAR_NEWTON_STEPS = 9
 _ZERO_ENTRY = 1e-10  # of the Frobenius norm: entries of w below it stand for 0, which would divide 0 by 0
 _QUADRATURE_NODES = 18
 _QUADRATURE_RANGE = 1e-4  # of the Frobenius norm: smaller singular values count as this far only roughly, in the mean
@@ -78,7 +78,7 @@ def _smallest_eigenpair(d: Vector, w: Vector) -> tuple[Vector, SX]:
     # Every other term is at least w_i^2 / d_i, which bounds the distance from below.
     remainder = 1 - _sum_terms([s / x for s, x in zip(squares, d, strict=True)])
     t = low_square / (_at_least(remainder, 0.0) + low_square / low)
-    for _ in range(_NEWTON_STEPS):
+    for _ in range(_SECULAR_NEWTON_STEPS):
         inverse = [1 / (g + t) for g in gaps]
         terms = [s * e for s, e in zip(squares, inverse, strict=True)]
         total = _sum_terms(terms)
@@ -110,7 +110,7 @@ def _largest_eigenpair(d: Vector, w: Vector) -> tuple[Vector, SX]:
     gaps = [ca.if_else(a > 0, top, second - x) for x, a in zip(d, at_top, strict=True)]
     width = top - second + _ZERO_ENTRY**2 * top
     t = width * second_square / (top_square + second_square)
-    for _ in range(_NEWTON_STEPS):
+    for _ in range(_SECULAR_NEWTON_STEPS):
         inverse = [1 / (g + t) for g in gaps]
         terms = [s * e for s, e in zip(others, inverse, strict=True)]
         n = 1 + _sum_terms(terms)

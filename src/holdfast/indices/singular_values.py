@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, TaskSpec
 from holdfast.caching import cached_property
 from holdfast.failures import FailureSpec
 from holdfast.indices import secular_equation as secular
@@ -27,9 +27,8 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import HouseholderQR, dot_product, jacobi_sweep
 from holdfast.registry import constructor
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-TaskSpec = str | Task | Sequence[str]
 Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 
 _MAX_SWEEPS = 30
@@ -66,7 +65,7 @@ class JacobiRotator:
         rows, off_diagonal = jacobi_sweep([[a[i * self.c + k] for k in range(self.c)] for i in range(self.m)])
         return Loop("Jacobi sweep", a, [], next_state=ca.vertcat(*[x for row in rows for x in row]), residual=off_diagonal)
 
-    def orthogonalise_rows(self, a: Array) -> Array:
+    def orthogonalise_rows(self, a: FloatArray) -> FloatArray:
         """Orthogonalise rows by rotations; their lengths are the singular values, their directions the right vectors."""
         flat = np.ascontiguousarray(a).reshape(len(a), self.m * self.c)
         turned = self._sweep_loop.run(flat, np.empty((len(a), 0)), _CONVERGENCE_TOLERANCE, _MAX_SWEEPS).state
@@ -115,7 +114,7 @@ class SpectralIndex(Index):
 
     # ---- formulas: value, and derivative by each singular value ------------------------------------------------------
 
-    def _combine_singular_values(self, sigma: Array) -> Array:
+    def _combine_singular_values(self, sigma: FloatArray) -> FloatArray:
         low, high = sigma.min(axis=-1), sigma.max(axis=-1)
         if self.formula == "mean":
             return np.asarray(sigma.mean(axis=-1))
@@ -127,7 +126,7 @@ class SpectralIndex(Index):
             ratio = np.where(low > SINGULAR_RATIO * high, high / low, np.inf)
         return np.where(np.isnan(low), np.nan, ratio)
 
-    def _derivative_by_singular_value(self, sigma: Array) -> Array:
+    def _derivative_by_singular_value(self, sigma: FloatArray) -> FloatArray:
         if self.formula == "mean":
             return np.full_like(sigma, 1 / self.task.m)
         low, high = sigma.argmin(axis=-1), sigma.argmax(axis=-1)
@@ -207,7 +206,7 @@ class SpectralIndex(Index):
         together = any(len(s) != 1 for s in self.failures) and self.formula != "geometric mean"
         return self._measured_symbols if together else None
 
-    def measure(self, q: Array) -> Array:
+    def measure(self, q: FloatArray) -> FloatArray:
         """Scores of all failures, then their gradients; see :meth:`Objective.measure`."""
         if self.measured is None:
             return super().measure(q)
@@ -217,7 +216,7 @@ class SpectralIndex(Index):
             outputs[block] = self._measure_block(q[block])
         return outputs
 
-    def _measure_block(self, q: Array) -> Array:
+    def _measure_block(self, q: FloatArray) -> FloatArray:
         count, n = len(self.failures), self.arm.n
         reduced = (self.task_jacobian(q)[:, None] * self._kept[:, None, :]).reshape(-1, self.task.m, n)
         u, sigma, v = np.linalg.svd(reduced, full_matrices=False)
@@ -241,7 +240,7 @@ class SpectralIndex(Index):
 
     # ---- batches -----------------------------------------------------------------------------------------------------
 
-    def _evaluate_by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         values = np.empty((len(q), len(self.failures)))
         singular = np.zeros(len(q), dtype=bool)
         for start in range(0, len(q), _BLOCK_ROWS):
@@ -255,14 +254,14 @@ class SpectralIndex(Index):
         values[singular] = self.singular_value_by_convention
         return values, singular
 
-    def _evaluate_gradient(self, q: Array) -> Array:
+    def _evaluate_gradient(self, q: FloatArray) -> FloatArray:
         gradient = np.empty_like(q)
         for start in range(0, len(q), _BLOCK_ROWS):
             block = slice(start, start + _BLOCK_ROWS)
             gradient[block] = self._gradient_block(q[block])
         return gradient
 
-    def _gradient_block(self, q: Array) -> Array:
+    def _gradient_block(self, q: FloatArray) -> FloatArray:
         values, singular = self._evaluate_by_failure(q)
         worst = values.argmin(axis=1) if self.better == "larger" else values.argmax(axis=1)
         free_columns = self._kept[worst][:, None, :]

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_constructor, require_real_numbers
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, TaskSpec, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.formula import FormulaIndex
 from holdfast.kernels.program import SX
 from holdfast.linalg import Vector, dot_product
 from holdfast.registry import Parameter, constructor
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-TaskSpec = str | Task | Sequence[str]
 _DEPENDENT_SINE_SQUARED = 1e-24  # square of the sine of an angle that is rounding noise
 
 
@@ -101,19 +99,19 @@ def _orthogonal_part(row: Vector, basis: list[Vector]) -> tuple[Vector, SX]:
     return row, ca.if_else(square > _DEPENDENT_SINE_SQUARED * squared_length, square, 0.0)
 
 
-def _is_prescribed(task: Task, direction: Array) -> bool:
+def _is_prescribed(task: Task, direction: FloatArray) -> bool:
     """Return whether the rows of a task determine a velocity along a direction without rotation."""
     twist = np.concatenate([direction, np.zeros(3)])
     return bool(np.linalg.norm(np.linalg.pinv(task.rows) @ task.rows @ twist - twist) < 1e-9 * np.linalg.norm(direction))
 
 
-def _prescribed(arm: Arm, task: TaskSpec) -> Array:
+def _prescribed(arm: Arm, task: TaskSpec) -> FloatArray:
     """Return a direction that a task prescribes: an axis if one is prescribed."""
     task_object = as_task(arm, task)
     translations = (
         task_object.rows.T @ np.linalg.svd(task_object.rows[:, 3:].T)[2][-1]
     )  # of all combinations of rows the one that turns least
-    candidates: list[Array] = [*np.eye(3), *task_object.rows[:, :3], translations[:3]]
+    candidates: list[FloatArray] = [*np.eye(3), *task_object.rows[:, :3], translations[:3]]
     return next((u for u in candidates if u.any() and _is_prescribed(task_object, u)), candidates[0])
 
 

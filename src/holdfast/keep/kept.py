@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.poses import check_poses, rotation_vectors
 from holdfast.errors import InputError
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Frame = Literal["base", "tool"]
 
 CONSTRAINT_TOLERANCE = (1e-3, float(np.deg2rad(0.5)))  # m and rad within which a row counts as kept between the waypoints
@@ -38,16 +38,16 @@ class ToolConstraint:
     """
 
     name: str
-    normals: Array
-    direction: Array | None = None
-    axis: Array
+    normals: FloatArray
+    direction: FloatArray | None = None
+    axis: FloatArray
     angle: float = 0.0
     turned: bool = False
     frame: Frame = "base"
-    pose: Array | None = None
+    pose: FloatArray | None = None
     within: tuple[float, float] = CONSTRAINT_TOLERANCE
 
-    def anchored(self, start: Array) -> ToolConstraint:
+    def anchor(self, start: FloatArray) -> ToolConstraint:
         """Return the constraint in the base frame and through a pose, given the tool's pose (4, 4) at the start."""
         rotation = start[:3, :3] if self.frame == "tool" else np.eye(3)
         return replace(
@@ -65,7 +65,7 @@ class ToolConstraint:
             return np.inf
         return self.angle or self.within[1]
 
-    def off(self, poses: Array) -> tuple[Array, Array]:
+    def distances(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return how far tool poses (N, 4, 4) are from the line or plane, (N,) m, and how far they are rotated
         away, (N,) rad.
         """
@@ -80,12 +80,12 @@ class ToolConstraint:
             rotation_angle = np.zeros(len(poses))
         return distance, rotation_angle
 
-    def farthest(self, poses: Array) -> tuple[float, float]:
-        """Return the largest values of :meth:`off` at poses (N, 4, 4), m and rad."""
-        distance, rotation_angle = self.off(poses)
+    def farthest(self, poses: FloatArray) -> tuple[float, float]:
+        """Return the largest values of :meth:`distances` at poses (N, 4, 4), m and rad."""
+        distance, rotation_angle = self.distances(poses)
         return float(distance.max()), float(rotation_angle.max())
 
-    def trouble(self, poses: Array) -> str:
+    def trouble(self, poses: FloatArray) -> str:
         """Describe the largest violation of the constraint at poses (N, 4, 4) in a phrase; empty if there is none."""
         distance, rotation_angle = self.farthest(poses)
         violations = []
@@ -225,7 +225,7 @@ def plane(
 # ---- checked values ------------------------------------------------------------------------------------------------------
 
 
-def _normalize_vector(value: ArrayLike, argument_name: str) -> Array:
+def _normalize_vector(value: ArrayLike, argument_name: str) -> FloatArray:
     vector = require_real_numbers(value, argument_name, "three numbers")
     if vector.shape != (3,) or not np.isfinite(vector).all() or np.linalg.norm(vector) < 1e-9:
         raise InputError(f"{argument_name} is {np.asarray(value).tolist()}; it must be three finite numbers, not all of them 0")
@@ -251,7 +251,7 @@ def _check_tolerance(within: ArrayLike) -> tuple[float, float]:
     return float(tolerance[0]), float(tolerance[1])
 
 
-def _read_pose(pose: ArrayLike | None) -> Array | None:
+def _read_pose(pose: ArrayLike | None) -> FloatArray | None:
     if pose is None:
         return None
     matrix = require_real_numbers(pose, "pose", "a pose (4, 4)")
@@ -264,5 +264,5 @@ def _read_pose(pose: ArrayLike | None) -> Array | None:
     return np.asarray(check_poses(matrix[None])[0])
 
 
-def _format_vector(vector: Array) -> str:
+def _format_vector(vector: FloatArray) -> str:
     return ", ".join(f"{component + 0.0:.4g}" for component in vector)

@@ -61,7 +61,7 @@ def _read_value(key: str, text: str) -> Any:
 
 def anchor_constraints(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[ToolConstraint, ...]:
     """Return the constraints through the tool's pose (4, 4) at the start; raises as :func:`read_constraints`."""
-    return tuple(constraint.anchored(start) for constraint in read_constraints(keep))
+    return tuple(constraint.anchor(start) for constraint in read_constraints(keep))
 
 
 def read_constraints(keep: KeepLike | None) -> tuple[ToolConstraint, ...]:

@@ -19,18 +19,17 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
 from holdfast.keep.kept import ToolConstraint
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-More = Callable[[Array, NDArray[np.intp]], tuple[Array, Array]]
+More = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray]]
 """Errors (N, k) and slopes (N, k, n) of what must be met too, for configurations (N, n) and which of those given they are."""
 
 _ROUNDING_M_RAD = 1e-9  # m and rad
 _EQUALITY_TOLERANCE = 1e-8  # m and rad: a row that is kept exactly is met
 _CONE_FRACTION = 0.9  # of a cone's opening: what is outside is brought back to there, which leaves room for the next piece
-_NEWTON_STEPS = 12  # steps
+_PROJECTION_STEPS = 12  # steps
 _MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one of them
-_MAX_BISECTIONS = 8  # times, until a piece that is not proved counts as breaking a row
+_MAX_PIECE_BISECTIONS = 8  # times, until a piece that is not proved counts as breaking a row
 
 
 class ConstraintManifold:
@@ -46,7 +45,9 @@ class ConstraintManifold:
         has_equalities: Some row is kept exactly, so that no straight way through joint space keeps it for long.
     """
 
-    def __init__(self, arm: Arm, keep: Sequence[ToolConstraint], free: Flags, limits: tuple[Array, Array]) -> None:
+    def __init__(
+        self, arm: Arm, keep: Sequence[ToolConstraint], free: BoolArray, limits: tuple[FloatArray, FloatArray]
+    ) -> None:
         self.arm, self.keep, self.free = arm, tuple(keep), free
         self._low, self._high = limits
         joint_index, lever_arms = np.arange(arm.n), _lever_arms(arm, *limits)
@@ -72,15 +73,15 @@ class ConstraintManifold:
 
     # ---- room --------------------------------------------------------------------------------------------------------
 
-    def constraint_margins(self, q: Array) -> Array:
+    def constraint_margins(self, q: FloatArray) -> FloatArray:
         """Return the margins (N, R) of the constraints at q (N, n), m and about rad; below 0 where one is violated."""
         return np.asarray(self._bounds + _ROUNDING_M_RAD - self._error_lengths(self.arm.forward_kinematics(q)))
 
-    def is_satisfied(self, q: Array) -> Flags:
+    def is_satisfied(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where all constraints are met at q (N, n)."""
         return np.asarray((self.constraint_margins(q) >= 0).all(axis=1))
 
-    def _error_lengths(self, poses: Array) -> Array:
+    def _error_lengths(self, poses: FloatArray) -> FloatArray:
         """Return the lengths (N, R) of the error vectors, which must not exceed the bounds."""
         lengths = []
         for constraint in self.keep:
@@ -96,7 +97,7 @@ class ConstraintManifold:
                 lengths.append(np.where(cosine > 0, sine, 2 - sine))  # beyond 90 deg it is turned away, however small the sine
         return np.stack(lengths, axis=1)
 
-    def bound_curvature(self, d: Array) -> Array:
+    def bound_curvature(self, d: FloatArray) -> FloatArray:
         """Bound the second derivatives (N, R) of the error vectors for motions d (N, n)."""
         joint_travel = np.abs(d)
         position_bound, rotation_bound = (
@@ -113,7 +114,7 @@ class ConstraintManifold:
                 bounds.append(rotation_bound)
         return np.stack(bounds, axis=1)
 
-    def bound_changes(self, d: Array) -> Array:
+    def bound_changes(self, d: FloatArray) -> FloatArray:
         """Bound how much the error vectors (N, R) change where joints move by d (N, n)."""
         joint_travel, bounds = np.abs(d), []
         for constraint in self.keep:
@@ -123,7 +124,7 @@ class ConstraintManifold:
                 bounds.append((np.sqrt(2) if constraint.turned else 1.0) * (joint_travel @ self._revolute))
         return np.stack(bounds, axis=1)
 
-    def prove_edges(self, a: Array, b: Array, deviation: Array | None = None) -> Flags:
+    def prove_edges(self, a: FloatArray, b: FloatArray, deviation: FloatArray | None = None) -> BoolArray:
         """Return (E,) True where all constraints are proved to hold on the whole straight segment from a to b (E, n).
 
         With ``deviation`` (E, n) also everything whose joints are off it by no more.
@@ -134,7 +135,7 @@ class ConstraintManifold:
         curvature_term = self.bound_curvature(b - a) / 8
         edge_index, start = np.flatnonzero(is_proved), np.zeros(int(is_proved.sum()))
         start_margins, end_margins, length = start_margins[edge_index], end_margins[edge_index], 1.0
-        for _ in range(_MAX_BISECTIONS):
+        for _ in range(_MAX_PIECE_BISECTIONS):
             undecided = (np.minimum(start_margins, end_margins) - length**2 * curvature_term[edge_index] < 0).any(
                 axis=1
             ) & is_proved[edge_index]
@@ -159,14 +160,14 @@ class ConstraintManifold:
         is_proved[edge_index] = False
         return is_proved
 
-    def step_fraction(self, d: Array) -> Array:
+    def step_fraction(self, d: FloatArray) -> FloatArray:
         """Return fractions (N,) of motions d (N, n) that use up at most half the margin of a constraint."""
         with np.errstate(divide="ignore"):
             return np.asarray(np.minimum(1.0, np.sqrt(4 * self._slack / self.bound_curvature(d)).min(axis=1)))
 
     # ---- the way back ------------------------------------------------------------------------------------------------
 
-    def project(self, q: Array, extra_equations: More | None = None) -> Array:
+    def project(self, q: FloatArray, extra_equations: More | None = None) -> FloatArray:
         """Project configurations q (N, n) onto the constraints within the limits by Newton's method; it may fail for some.
 
         Args:
@@ -175,7 +176,7 @@ class ConstraintManifold:
         """
         q = q.copy()
         moving = np.arange(len(q))
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_PROJECTION_STEPS):
             errors, jacobians = self._constraint_errors(q[moving])
             if extra_equations is not None:
                 extra_terms = extra_equations(q[moving], moving)
@@ -190,9 +191,9 @@ class ConstraintManifold:
             q[moving] = self._newton_step(q[moving], errors, jacobians)
         return q
 
-    def _newton_step(self, q: Array, errors: Array, jacobians: Array) -> Array:
+    def _newton_step(self, q: FloatArray, errors: FloatArray, jacobians: FloatArray) -> FloatArray:
         """Take one step of least length; joints that it would push over their limits do not move."""
-        movable: Flags = np.broadcast_to(self.free, q.shape)
+        movable: BoolArray = np.broadcast_to(self.free, q.shape)
         for _ in range(2):
             masked = jacobians * movable[:, None, :]
             gram = masked @ masked.transpose(0, 2, 1)
@@ -205,7 +206,7 @@ class ConstraintManifold:
         step *= np.minimum(1.0, _MAX_NEWTON_STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
         return np.asarray(np.where(movable, np.clip(q + step, self._low, self._high), q))
 
-    def _constraint_errors(self, q: Array) -> tuple[Array, Array]:
+    def _constraint_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the errors (N, k) of equality constraints, and of cones that are left, with their Jacobians (N, k, n)."""
         poses, jacobian = self.arm.forward_kinematics(q), self.arm.jacobian(q)
         errors, jacobians = [], []
@@ -224,7 +225,7 @@ class ConstraintManifold:
         return np.concatenate(errors, axis=1), np.concatenate(jacobians, axis=1)
 
 
-def _cone_error(constraint: ToolConstraint, axis: Array) -> tuple[Array, Array]:
+def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the angles by which axes (N, 3) must rotate to their direction or back into the cone, and the rotation axes (N, k,
     3).
     """
@@ -241,14 +242,14 @@ def _cone_error(constraint: ToolConstraint, axis: Array) -> tuple[Array, Array]:
     )[:, None, :]
 
 
-def _perpendicular_vectors(axis: Array) -> Array:
+def _perpendicular_vectors(axis: FloatArray) -> FloatArray:
     """Return unit vectors perpendicular to axes (N, 3)."""
     least_aligned = np.eye(3)[np.abs(axis).argmin(axis=1)]
     across = np.cross(axis, least_aligned)
     return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True))
 
 
-def _lever_arms(arm: Arm, low: Array, high: Array) -> Array:
+def _lever_arms(arm: Arm, low: FloatArray, high: FloatArray) -> FloatArray:
     """Bound the distance (n,) of the tool point from each joint axis, m, by the lengths beyond it; 1 for a prismatic joint."""
     length, lever_arms = float(np.linalg.norm(arm.tool[:3, 3])), []
     for index, joint in reversed(list(enumerate(arm.joints))):

@@ -19,7 +19,9 @@ from pathlib import Path
 from holdfast.kernels.llvm import machine_code
 
 _FILE_HEADER = b"holdfast kernel 1\n"
-_MAX_FILE_BYTES, _MAX_FOLDER_BYTES = 1 << 28, 1 << 30  # bytes
+# _MAX_FILE_BYTES and _MAX_FOLDER_BYTES: bytes
+_MAX_FILE_BYTES = 1 << 28
+_MAX_FOLDER_BYTES = 1 << 30
 _written: dict[Path, int] = {}  # bytes that this process added to each folder since it last looked at all of it
 
 

@@ -16,9 +16,6 @@ from contextvars import ContextVar
 from ctypes import c_int64, c_void_p
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from holdfast import notice
 from holdfast.caching import cached_property
 from holdfast.kernels import cache
@@ -26,8 +23,7 @@ from holdfast.kernels.llvm import machine_code
 from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 MAX_IMMEDIATE_OPERATIONS = 100  # operations that level 1 compiles in some 15 ms, hardly longer than level 0
 MAX_TWO_REGISTER_OPERATIONS = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
@@ -38,7 +34,9 @@ MAX_COMPILED_OPERATIONS = (
 # Rows after which level 1 is compiled. It repays that after 1,200,000 to 5,000,000 (measured: steps of an ascent, of a closed
 # loop, of a control cycle); well below, a long batch takes little longer than if it had been compiled beforehand, and a short
 # one wastes nothing. Of short programs it repays later (1,700 operations: after 7,000,000; 900: after 10,000,000), if ever.
-REPAYING_WORK, SHORT_PROGRAM_OPERATIONS, REPAYING_WORK_OF_SHORT = 750_000, 2000, 5_000_000
+REPAYING_WORK = 750_000
+SHORT_PROGRAM_OPERATIONS = 2000
+REPAYING_WORK_OF_SHORT = 5_000_000
 
 _coming: ContextVar[int] = ContextVar("coming", default=0)
 
@@ -75,7 +73,7 @@ class CompiledProgram:
         self.level = 0 if stored_code is None else 1
         self._code = stored_code or self._load_code(0) or self._compile_code(0)
 
-    def bind_arrays(self, inputs: Array, outputs: Array, used_width: int | None = None) -> Callable[[], None]:
+    def bind_arrays(self, inputs: FloatArray, outputs: FloatArray, used_width: int | None = None) -> Callable[[], None]:
         """Return the function that evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the
         lanes.
 
@@ -89,7 +87,7 @@ class CompiledProgram:
         addresses = c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data)
         arguments: tuple[Any, ...] = (*addresses, c_int64(inputs.shape[1]), c_int64(width))
 
-        def evaluate_bound(arrays: tuple[Array, Array] = (inputs, outputs)) -> None:
+        def evaluate_bound(arrays: tuple[FloatArray, FloatArray] = (inputs, outputs)) -> None:
             code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
             code.call(*arguments)
             if not self.level:
@@ -98,7 +96,7 @@ class CompiledProgram:
         return evaluate_bound
 
     @cached_property
-    def single_row_code(self) -> machine_code.Code:
+    def single_row_code(self) -> machine_code.MachineCode:
         """Code for a single row, for control loops, with the same bits."""
         level = int(self._program.size <= MAX_WAITED_OPERATIONS)
         return self._load_code(level, 1) or self._compile_code(level, 1)
@@ -134,11 +132,11 @@ class CompiledProgram:
     def _code_key(self, level: int, lanes: int) -> str:
         return cache.cache_key(self._program.digest, level, lanes)
 
-    def _load_code(self, level: int, lanes: int | None = None) -> machine_code.Code | None:
+    def _load_code(self, level: int, lanes: int | None = None) -> machine_code.MachineCode | None:
         data = cache.load_entry(self._code_key(level, lanes or self._lanes_of_level(level)))
-        return None if data is None else machine_code.Code(data)
+        return None if data is None else machine_code.MachineCode(data)
 
-    def _compile_code(self, level: int, lanes: int | None = None, in_background: bool = False) -> machine_code.Code:
+    def _compile_code(self, level: int, lanes: int | None = None, in_background: bool = False) -> machine_code.MachineCode:
         lanes = lanes or self._lanes_of_level(level)
         program, machine = self._program, TargetMachine(lanes, machine_code.detect_host().machine.fused)
         with notice.long_task(
@@ -147,7 +145,7 @@ class CompiledProgram:
         ):
             data = machine_code.compile_program(program, level, machine)
         cache.store_entry(self._code_key(level, lanes), data)
-        return machine_code.Code(data)
+        return machine_code.MachineCode(data)
 
 
 _jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()

@@ -10,7 +10,11 @@ import casadi as ca
 from holdfast.errors import KernelError
 from holdfast.kernels.program import OP_NAMES, Program
 
-OP_SELECT, OP_INPUT, OP_CONST, OP_OUTPUT = range(-4, 0)  # beside the operations of CasADi
+# OP_SELECT, OP_INPUT, OP_CONST and OP_OUTPUT: beside the operations of CasADi
+OP_SELECT = -4
+OP_INPUT = -3
+OP_CONST = -2
+OP_OUTPUT = -1
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,15 @@ _OPERATIONS_PER_FUNCTION = 1000  # operations in one function, about
 _OPERATIONS_PER_EXPRESSION = 60  # operations in one expression, at most: engines read expressions recursively
 
 # Strength of binding, from loose to tight; -x has that of a sum, so that it is never written next to another sign.
-_BINDS_CHOICE, _BINDS_OR, _BINDS_AND, _BINDS_EQUAL, _BINDS_LESS, _BINDS_SUM, _BINDS_PRODUCT, _BINDS_UNARY, _BINDS_ATOM = range(
-    1, 10
-)
+_BINDS_CHOICE = 1
+_BINDS_OR = 2
+_BINDS_AND = 3
+_BINDS_EQUAL = 4
+_BINDS_LESS = 5
+_BINDS_SUM = 6
+_BINDS_PRODUCT = 7
+_BINDS_UNARY = 8
+_BINDS_ATOM = 9
 
 
 @dataclass(frozen=True)

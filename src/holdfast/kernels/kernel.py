@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.errors import InputError, KernelError
 from holdfast.grammar import is_count
@@ -18,8 +18,7 @@ from holdfast.kernels import casadi_backend
 from holdfast.kernels.compiled import CompiledProgram
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
 BACKEND_NAMES = ("llvm", "casadi", "cuda")
@@ -157,20 +156,20 @@ class Kernel:
             results = [r[()] if r.ndim == 0 else r for r in results]
         return results[0] if len(results) == 1 else tuple(results)
 
-    def rows(self, *inputs: ArrayLike, first: int | None = None) -> Array:
+    def rows(self, *inputs: ArrayLike, first: int | None = None) -> FloatArray:
         """Evaluate and return (N, n_out): all outputs of a row one after the other, matrices row by row.
 
         Of small programs half the time is spent on writing the results down; ``first`` gives only so many of them, (N, first).
         """
         return self._evaluate(*self._check_inputs(inputs), first)[0]
 
-    def marked_rows(self, *inputs: ArrayLike) -> tuple[Array, bool]:
+    def marked_rows(self, *inputs: ArrayLike) -> tuple[FloatArray, bool]:
         """Evaluate as :meth:`rows` does, and return whether any row has NaN in its first output, checked while the chunk is in
         the cache.
         """
         return self._evaluate(*self._check_inputs(inputs))
 
-    def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
+    def _evaluate(self, arrays: list[FloatArray], rows: int | None, first: int | None = None) -> tuple[FloatArray, bool]:
         count, on_device = 1 if rows is None else rows, self.current()._on_device
         if on_device is not None:
             outputs = on_device.evaluate_rows(arrays, count, self.program.n_out if first is None else first)
@@ -192,10 +191,10 @@ class Kernel:
             list(shared_pool().map(evaluate_chunks, range(thread_count())))
         return outputs, any(marks)
 
-    def _check_inputs(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
+    def _check_inputs(self, inputs: Sequence[ArrayLike]) -> tuple[list[FloatArray], int | None]:
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
-        arrays: list[Array] = []
+        arrays: list[FloatArray] = []
         rows: int | None = None
         for k, (value, dims) in enumerate(zip(inputs, self._in_dims, strict=True)):
             a = np.asarray(value, dtype=np.float64)
@@ -212,7 +211,7 @@ class Kernel:
             arrays.append(a.reshape(a.shape[0], math.prod(dims)))
         return arrays, rows
 
-    def evaluate_columns(self, inputs: Array, outputs: Array) -> None:
+    def evaluate_columns(self, inputs: FloatArray, outputs: FloatArray) -> None:
         """Evaluate in the backend's own layout, without padding, copies or threads.
 
         Args:
@@ -224,7 +223,7 @@ class Kernel:
         """
         self.bind_arrays(inputs, outputs)()
 
-    def bind_arrays(self, inputs: Array, outputs: Array, used_width: int | None = None) -> Callable[[], None]:
+    def bind_arrays(self, inputs: FloatArray, outputs: FloatArray, used_width: int | None = None) -> Callable[[], None]:
         """Return a function that evaluates :meth:`evaluate_columns` of these arrays repeatedly; their contents may change.
 
         Args:
@@ -299,7 +298,7 @@ class Kernel:
             buffers[width] = _Buffers(inputs[:, :width], outputs[:, :width], self.bind_arrays(inputs, outputs, width))
         return buffers[width]
 
-    def _run_chunk(self, arrays: list[Array], out: Array, start: int, stop: int, call: object) -> bool:
+    def _run_chunk(self, arrays: list[FloatArray], out: FloatArray, start: int, stop: int, call: object) -> bool:
         used_rows = stop - start
         # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
         width = self.lanes
@@ -330,8 +329,8 @@ class Kernel:
 class _Buffers:
     """Columns of inputs and outputs, the function between them, and the call whose constant inputs they hold."""
 
-    inputs: Array
-    outputs: Array
+    inputs: FloatArray
+    outputs: FloatArray
     compute: Callable[[], None]
     call: object = None
 
@@ -354,7 +353,7 @@ class SingleRowKernel:
         self._given = (self.inputs.ctypes.data, self._outputs.ctypes.data, 1, 1)
         self._call = None if compiled is None else compiled.single_row_code.call
 
-    def run(self) -> Array:
+    def run(self) -> FloatArray:
         """The results (n_out,) of ``inputs``; a new array."""
         if self._call is None:
             casadi_backend.evaluate_columns(self._kernel.program.function, self.inputs[:, None], self._outputs[:, None])
@@ -362,7 +361,7 @@ class SingleRowKernel:
             self._call(*self._given)
         return self._outputs.copy()
 
-    def __call__(self, row: Array) -> Array:
+    def __call__(self, row: FloatArray) -> FloatArray:
         """The results (n_out,) of a row (n_in,); a new array."""
         self.inputs[:] = row
         return self.run()

@@ -14,12 +14,13 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.notice import ProgressCount, ignore_count
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Tell = Callable[[int], None]
 
 _WORKER_BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
-_MAX_WORKER_ROWS, _MIN_WORKER_ROWS = 4096, 256  # rows of that; no result depends on it
+_MAX_WORKER_ROWS = 4096  # rows of that
+_MIN_WORKER_ROWS = 256  # no result depends on it
 _STEPS_PER_REPORT = 1000  # steps after which somebody is told of them
 _UNREACHED_STEP = 1 << 62  # when a row comes that is not there
 
@@ -35,8 +36,8 @@ class LoopResult:
         steps: (N,) number of steps taken.
     """
 
-    state: Array
-    residual: Array
+    state: FloatArray
+    residual: FloatArray
     done: NDArray[np.bool_]
     steps: NDArray[np.int64]
 
@@ -97,7 +98,7 @@ class Loop:
         return self.step.source_digest
 
     def run(
-        self, state: Array, parameters: Array, tolerance: float, most_steps: int, *, report: Tell = ignore_count
+        self, state: FloatArray, parameters: FloatArray, tolerance: float, most_steps: int, *, report: Tell = ignore_count
     ) -> LoopResult:
         """Iterate.
 
@@ -200,7 +201,7 @@ class Loop:
             now += 1
             last = min(int(begun.min()) + batch.most_steps, told + _STEPS_PER_REPORT)
 
-    def trace_states(self, state: Array, parameters: Array, steps: int) -> Array:
+    def trace_states(self, state: FloatArray, parameters: FloatArray, steps: int) -> FloatArray:
         """Return the states (steps + 1, N, s) of every row, ``state`` first, without checking the residual."""
         states = np.empty((steps + 1, *state.shape))
         states[0] = state
@@ -211,7 +212,7 @@ class Loop:
             states[k], before[...] = rows, after
         return states
 
-    def _make_stage(self, *values: Array) -> tuple[Array, Array, Callable[[], None]]:
+    def _make_stage(self, *values: FloatArray) -> tuple[FloatArray, FloatArray, Callable[[], None]]:
         """Return the columns of states and parameters, the columns of the results, and the step between them.
 
         The SIMD width divides their number: the last of the columns is repeated.
@@ -231,7 +232,7 @@ class _RowQueue:
     stepped: Tell = staticmethod(ignore_count)
     over: Tell = staticmethod(ignore_count)
 
-    def __init__(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> None:
+    def __init__(self, state: FloatArray, parameters: FloatArray, tolerance: float, most_steps: int) -> None:
         rows = len(state)
         self.tolerance, self.most_steps = tolerance, most_steps
         self.result = LoopResult(
@@ -249,7 +250,7 @@ class _RowQueue:
             self._next = min(start + count, len(self._parameters))
             return np.arange(start, self._next)
 
-    def row_inputs(self, rows: NDArray[np.int64]) -> tuple[Array, Array]:
+    def row_inputs(self, rows: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
         """Return the start states (s, R) of these consecutive rows and their parameters (p, R)."""
         selection = slice(rows[0], rows[-1] + 1)
         return self.result.state[selection].T, self._parameters[selection].T

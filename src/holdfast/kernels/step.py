@@ -6,13 +6,11 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.errors import KernelError
 from holdfast.kernels.kernel import Kernel
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class ControlStep:
@@ -29,7 +27,7 @@ class ControlStep:
         self._q: Any = self._in.data[:n]
         self._velocity: Any = self._in.data[n:]
 
-    def __call__(self, q: Array, velocity: Array) -> Array:
+    def __call__(self, q: FloatArray, velocity: FloatArray) -> FloatArray:
         """Rates (n,) of a configuration (n,) and a velocity of the end effector."""
         try:
             self._q[:] = q
@@ -40,7 +38,7 @@ class ControlStep:
         return outputs[: self._n]
 
     @property
-    def extra_outputs(self) -> Array:
+    def extra_outputs(self) -> FloatArray:
         """Further outputs of the kernel in the last call: of a resolution the fractions and the damping."""
         return self._out[self._n :]
 

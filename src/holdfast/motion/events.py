@@ -19,7 +19,6 @@ from functools import partial
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.task import Task
@@ -30,9 +29,7 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.motion.nearness import ClearanceHistory
 from holdfast.motion.resolution import null_space_gradient
 from holdfast.motion.trajectory import Event
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 NEGATIVE_CURVATURE_FRACTION = 1e-2  # of the median curvature along a path: this much below 0 is not a local best
 _LOW_CURVATURE_FRACTION = (
@@ -72,12 +69,12 @@ class Curvature:
         null_space, gradient = null_space_gradient(self.objective, self.task, q)
         return Kernel("slope along the self-motion", [q], [gradient, ca.densify(null_space)])
 
-    def _gradient_and_basis(self, q: Array) -> tuple[Array, Array]:
+    def _gradient_and_basis(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return gradients (N, r) and null-space bases (N, n, r)."""
         outputs = self._kernel.rows(q)
         return outputs[:, : self.free], outputs[:, self.free :].reshape(len(q), -1, self.free)
 
-    def __call__(self, q: Array) -> tuple[Array, Array]:
+    def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the norm of the gradient (N,) and curvature matrices (N, r, r), positive definite at a local best."""
         gradient, null_space = self._gradient_and_basis(q)
         matrices = np.empty((len(q), self.free, self.free))
@@ -91,7 +88,7 @@ class Curvature:
             matrices[:, :, column] = (end_gradients[1] - end_gradients[0]) / (2 * _DIFFERENCE_STEP_RAD)
         return np.linalg.norm(gradient, axis=1), (matrices + matrices.transpose(0, 2, 1)) / 2
 
-    def smallest(self, q: Array) -> Array:
+    def smallest(self, q: FloatArray) -> FloatArray:
         """Smallest eigenvalue (N,) of the curvature matrix; NaN at a singular configuration."""
         matrices = self(q)[1]
         is_finite = np.isfinite(matrices).all(axis=(1, 2))
@@ -113,14 +110,14 @@ class MotionHistory:
         at_limit: (N,) by joint name.
     """
 
-    time: Array
-    value: Array
-    curvature: Array
-    rate_norm: Array
-    self_motion: Array
-    task_share: Array
-    damping: Array
-    at_limit: dict[str, Flags]
+    time: FloatArray
+    value: FloatArray
+    curvature: FloatArray
+    rate_norm: FloatArray
+    self_motion: FloatArray
+    task_share: FloatArray
+    damping: FloatArray
+    at_limit: dict[str, BoolArray]
 
 
 def find_events(
@@ -149,7 +146,7 @@ def find_events(
             (motion.task_share < 1 - 1e-9) & (clearance_history.margin < _NEARBY_DISTANCE_M) & is_free
         )
 
-    def add_events(kind: str, flags: Flags, write_text: Callable[[str], str]) -> None:
+    def add_events(kind: str, flags: BoolArray, write_text: Callable[[str], str]) -> None:
         for first, last in _find_runs(flags, max(1, round(_BRIDGED_FRACTION * len(flags)))):
             start, end = float(motion.time[first]), float(motion.time[last])
             events.append(Event(kind=kind, start=start, end=end, text=write_text(_format_time_span(start, end))))
@@ -204,7 +201,7 @@ def find_events(
     return tuple(sorted(events, key=lambda event: (event.start, event.kind)))
 
 
-def _find_approaches(clearance_history: ClearanceHistory, motion: MotionHistory, at_margin: Flags) -> list[Event]:
+def _find_approaches(clearance_history: ClearanceHistory, motion: MotionHistory, at_margin: BoolArray) -> list[Event]:
     """Find where a pair has no margin left: as a limit that changed the motion, or closer."""
     events = []
     bridge = max(1, round(_BRIDGED_FRACTION * len(at_margin)))
@@ -241,7 +238,7 @@ def _describe_limit(name: str, time_phrase: str) -> str:
     return f"{time_phrase}: '{name}' is at its limit"
 
 
-def _find_fast_motions(objective: Objective, motion: MotionHistory, tracks: bool, is_zero: Flags) -> list[Event]:
+def _find_fast_motions(objective: Objective, motion: MotionHistory, tracks: bool, is_zero: BoolArray) -> list[Event]:
     """Find where the self-motion lost the extremum that it followed, or ran much faster than elsewhere, as one event each."""
     count = len(motion.time)
     is_finite = np.isfinite(motion.curvature)
@@ -295,7 +292,7 @@ def _format_time_span(start: float, end: float) -> str:
     return f"at {start_text} s" if start_text == end_text else f"from {start_text} s to {end_text} s"
 
 
-def _find_runs(flags: Flags, bridge: int) -> list[tuple[int, int]]:
+def _find_runs(flags: BoolArray, bridge: int) -> list[tuple[int, int]]:
     """Return the first and last position of every run of True; runs less than ``bridge`` apart are joined."""
     edges = np.flatnonzero(np.diff(np.r_[False, flags, False].astype(np.int8)))
     runs: list[tuple[int, int]] = []

@@ -7,7 +7,6 @@ from itertools import combinations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.errors import HoldfastError
@@ -18,8 +17,7 @@ from holdfast.motion.resolution import Resolution
 from holdfast.notice import ProgressCount
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.inverse_kinematics import clip_to_limits, tool_error
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _SETTLING_STEPS = 400  # steps before the first
 _CATCH_UP_FACTOR = 3.0  # times the largest twist of the path
@@ -30,13 +28,13 @@ _PROGRESS_STEPS = 500  # steps after which somebody is told of them
 def integrate_law(
     law: Resolution,
     path: TimedPath,
-    start: Array,
+    start: FloatArray,
     count: int,
     step: float,
     limits: bool,
     settle: bool,
     rate_limit: ClearanceRateLimit | None,
-) -> tuple[Array, Array, Array]:
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return joints (N + 1, n), rates (N + 1, n) and fractions (N + 1, 3) at N steps and the end: see
     :class:`holdfast.motion.Rates`.
 
@@ -55,8 +53,8 @@ def integrate_law(
 
 
 def _run_steps(
-    kernel: Kernel, start: Array, targets: Array, step: float, rate_limit: ClearanceRateLimit | None
-) -> tuple[Array, Array, Array]:
+    kernel: Kernel, start: FloatArray, targets: FloatArray, step: float, rate_limit: ClearanceRateLimit | None
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return joints (N + 1, n), rates (N, n) and fractions (N, 3) from a start (n,) through targets (N, 4, 4)."""
     count, n = len(targets), len(start)
     target_rows = np.concatenate([targets[:, :3, 3], targets[:, :3, :3].reshape(count, 9)], axis=1)[:, :, None]
@@ -86,7 +84,7 @@ def _run_steps(
     return np.vstack([start, steps[:, :n]]), steps[:, n : 2 * n], steps[:, 2 * n :]
 
 
-def enforce_limits(run_kernel: Callable[[], None], columns: Array, outputs: Array, limits: Array) -> None:
+def enforce_limits(run_kernel: Callable[[], None], columns: FloatArray, outputs: FloatArray, limits: FloatArray) -> None:
     """Take the step that respects the first two limits (K, n + 1), or the first pair of limits whose step respects all.
 
     What is best under two limits and keeps the others is best under all of them. Self-motion of one or two dimensions is
@@ -99,7 +97,7 @@ def enforce_limits(run_kernel: Callable[[], None], columns: Array, outputs: Arra
         limits: What is to be kept.
     """
     n = limits.shape[1] - 1
-    first_outputs: Array | None = None
+    first_outputs: FloatArray | None = None
     for pair in combinations(range(len(limits)), ENFORCED_LIMITS):
         columns[-ENFORCED_LIMITS * (n + 1) :] = limits[list(pair)].reshape(-1, 1)
         run_kernel()
@@ -113,7 +111,7 @@ def enforce_limits(run_kernel: Callable[[], None], columns: Array, outputs: Arra
     outputs[:] = first_outputs
 
 
-def _shorten_step(step: Array, q: Array, rate_limit: ClearanceRateLimit) -> Array:
+def _shorten_step(step: FloatArray, q: FloatArray, rate_limit: ClearanceRateLimit) -> FloatArray:
     """Return a step of the kernel from q (n,), shortened to the fraction that the clearance allows."""
     n, fraction = len(q), rate_limit.allowed_fraction(q, step[: len(q)])
     if fraction < 1:

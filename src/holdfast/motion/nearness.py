@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.objects.one_row import SingleConfigurationClearance
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 ENFORCED_LIMITS = 2  # that a step keeps: what is nearest, and what was a moment ago
 _NO_LIMIT_RATE = -1e9  # m/s: less than any rate makes of a distance
@@ -33,10 +32,10 @@ class ClearanceHistory:
         min_distances: (P,) what is kept of each pair, m.
     """
 
-    margin: Array
+    margin: FloatArray
     nearest_pair: NDArray[np.int64]
     pair_names: list[str]
-    min_distances: Array
+    min_distances: FloatArray
 
 
 class ClearanceRateLimit:
@@ -55,9 +54,9 @@ class ClearanceRateLimit:
         self.clearance, self.margin, self.rate = clearance, margin, rate
         self._nearest = SingleConfigurationClearance(clearance)
         self._gradient_bounds = clearance.lipschitz_bounds(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
-        self._samples: list[tuple[Array, float, Array]] = []
+        self._samples: list[tuple[FloatArray, float, FloatArray]] = []
 
-    def _evaluate(self, q: Array) -> tuple[Array, float, Array]:
+    def _evaluate(self, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:
         """Return the configuration (n,), its clearance and the gradient (n,), and remember them, the latest first."""
         if self._samples and np.array_equal(self._samples[0][0], q):
             return self._samples[0]
@@ -71,7 +70,7 @@ class ClearanceRateLimit:
         self._samples = [sample, *others[: _MEMORY_SIZE - 1]]
         return sample
 
-    def is_inactive(self, q: Array, rates: Array) -> bool:
+    def is_inactive(self, q: FloatArray, rates: FloatArray) -> bool:
         """Return True if no remembered pair can be near enough to limit the rates (n,), so that no distance is computed."""
         if not self._samples:
             return False
@@ -79,7 +78,7 @@ class ClearanceRateLimit:
         smallest_clearance = clearance - float(self._gradient_bounds @ np.abs(q - sample_q))
         return float(self._gradient_bounds @ np.abs(rates)) < self.rate * smallest_clearance
 
-    def rate_limits(self, q: Array) -> Array:
+    def rate_limits(self, q: FloatArray) -> FloatArray:
         """Return the limits (K, n + 1) at a configuration (n,): gradients, and after each the smallest product with the rates,
         m/s.
 
@@ -94,7 +93,7 @@ class ClearanceRateLimit:
         entries = [(latest[1], latest[2]), *around, (np.inf, np.zeros(len(q)))]
         return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
 
-    def allowed_fraction(self, q: Array, step_end: Array) -> float:
+    def allowed_fraction(self, q: FloatArray, step_end: FloatArray) -> float:
         """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up on the
         way.
         """
@@ -105,7 +104,7 @@ class ClearanceRateLimit:
         self._samples = [step_start, *self._samples[: _MEMORY_SIZE - 1]]
         return 0.0
 
-    def trace_clearance(self, q: Array) -> ClearanceHistory:
+    def trace_clearance(self, q: FloatArray) -> ClearanceHistory:
         """Return the nearest pairs at configurations (N, n)."""
         clearance = self.clearance
         return ClearanceHistory(
@@ -116,9 +115,9 @@ class ClearanceRateLimit:
         )
 
 
-def _extrapolated_clearance(entry: tuple[float, Array]) -> float:
+def _extrapolated_clearance(entry: tuple[float, FloatArray]) -> float:
     return entry[0]
 
 
-def _are_similar(gradient: Array, reference: Array) -> bool:
+def _are_similar(gradient: FloatArray, reference: FloatArray) -> bool:
     return float(np.linalg.norm(gradient - reference)) <= _SIMILARITY_FRACTION * float(np.linalg.norm(reference))

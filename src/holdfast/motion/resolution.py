@@ -44,8 +44,7 @@ from holdfast.kernels.step import Steppable
 from holdfast.linalg import Cholesky, damped_gram, factor_householder, select_at_smallest
 from holdfast.motion.rows import Row, limit_self_motion
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 SINGULAR_REGULARIZATION = 1e-12  # keeps a factorisation of a singular matrix finite
 _DAMPED_FRACTION = 0.02  # share of the arm's typical manipulability below which rates are damped
@@ -65,10 +64,10 @@ class Rates:
         status: (N,) ``OK``, ``SLOWED`` where the end effector is, ``SINGULAR`` where rates are damped, or ``BAD_INPUT``.
     """
 
-    rates: Array
-    self_motion: Array
-    task: Array
-    damping: Array
+    rates: FloatArray
+    self_motion: FloatArray
+    task: FloatArray
+    damping: FloatArray
     status: NDArray[np.uint8]
 
 

@@ -8,13 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +80,7 @@ def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, *, qdd: ArrayLike, bound:
     return SlowMotion(time_scale=scale, worst_joint=int(joint_index), worst_time_index=int(sample), satisfied=scale <= 1)
 
 
-def _read_bounds(arm: Arm, bound: ArrayLike) -> Array:
+def _read_bounds(arm: Arm, bound: ArrayLike) -> FloatArray:
     try:
         bounds = np.asarray(bound, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -93,7 +92,7 @@ def _read_bounds(arm: Arm, bound: ArrayLike) -> Array:
     return np.broadcast_to(bounds, (arm.n,))
 
 
-def _largest_root(b: Array, a: Array) -> Array:
+def _largest_root(b: FloatArray, a: FloatArray) -> FloatArray:
     """Return the largest k at which ``|b / k + a / k^2| = 1``, 0 if b and a are 0.
 
     With signs turned so that b is positive: ``k^2 - b k - a = 0`` for +1 and ``k^2 + b k + a = 0`` for -1.

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -27,8 +27,8 @@ from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
 from holdfast.solvers.inverse_kinematics import solve_ik, solver
 from holdfast.solvers.optima import optimise
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
 OPTIMUM_METHODS = ("gradient-projection", "extended-jacobian")  # these stay at a local best
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
@@ -216,9 +216,9 @@ def _motion_history(
     objective: Objective,
     curvature: Curvature,
     duration: float,
-    joints: Array,
-    rates: Array,
-    fractions: Array,
+    joints: FloatArray,
+    rates: FloatArray,
+    fractions: FloatArray,
     limits: bool,
 ) -> MotionHistory:
     at_limit = {
@@ -251,12 +251,12 @@ def _find_start(
     arm: Arm,
     objective: Objective,
     task: Task,
-    first_pose: Array,
+    first_pose: FloatArray,
     q: ArrayLike | None,
     seed: int,
     clearance: Clearance | None,
     margin: float,
-) -> Array:
+) -> FloatArray:
     """Return the start configuration: the given one, or the best configuration of the first pose."""
     if q is None:
         optimum = optimise(arm, first_pose, objective, seed=seed, task=task, clearance=clearance, margin=margin)
@@ -284,7 +284,7 @@ def _find_start(
     return start
 
 
-def _choose_gain(method: str, curvature: Curvature, poses: Array, step: float, seed: int) -> float:
+def _choose_gain(method: str, curvature: Curvature, poses: FloatArray, step: float, seed: int) -> float:
     """Choose a gain with which the self-motion settles in a few steps, without overshooting."""
     rate = 1 / (_SETTLING_STEPS * step)
     if method != "gradient-projection":
@@ -304,14 +304,14 @@ def _find_best_motion(
     arm: Arm,
     objective: Objective,
     task: Task,
-    poses: Array,
-    time: Array,
+    poses: FloatArray,
+    time: FloatArray,
     rate_cap: float | None,
     spacing: float,
     seed: int,
     clearance: Clearance | None,
     margin: float,
-) -> tuple[Array, Array]:
+) -> tuple[FloatArray, FloatArray]:
     """Return the best value of each pose and the best continuous motion, interpolated from a coarser grid of poses.
 
     Of configurations that are clear, if that is asked for.
@@ -324,7 +324,7 @@ def _find_best_motion(
     # Where a joint has no limit, the path's own default says what counts as continuous.
     rate_limit = velocity_limits * float(np.diff(time[grid_index]).max()) if np.isfinite(velocity_limits).all() else None
 
-    def evaluate_cost(q: Array) -> Array:
+    def evaluate_cost(q: FloatArray) -> FloatArray:
         value = sign * np.asarray(objective(q))
         return value if clearance is None else np.where(clearance.margin_left(q) >= margin, value, np.nan)
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
@@ -22,10 +21,9 @@ from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.motion.slowness import SlowMotion, slow_enough
 from holdfast.paths.joint_table import motion_columns
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-PATH_TOLERANCE = 1e-4  # m and rad
+TRACKING_TOLERANCE = 1e-4  # m and rad
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,36 +83,36 @@ class Trajectory(Result):
     gain: float
     seed: int
     rate_cap: float | None
-    time: Array
-    q: Array
-    qd: Array
-    qdd: Array
-    poses: Array
-    position_error: Array
-    rotation_error: Array
-    value: Array
-    curvature: Array
-    self_motion: Array
-    task_share: Array
-    damping: Array
+    time: FloatArray
+    q: FloatArray
+    qd: FloatArray
+    qdd: FloatArray
+    poses: FloatArray
+    position_error: FloatArray
+    rotation_error: FloatArray
+    value: FloatArray
+    curvature: FloatArray
+    self_motion: FloatArray
+    task_share: FloatArray
+    damping: FloatArray
     steps: int
     peak_rate: float
     peak_time: float
     events: tuple[Event, ...]
-    best_value: Array | None = None
-    best_path: Array | None = None
+    best_value: FloatArray | None = None
+    best_path: FloatArray | None = None
     torque_bound: float | None = field(default=None, kw_only=True)
     clear_of: Clearance | None = None
     margin: float = 0.0
     _plain: Callable[[], Trajectory] | None = field(default=None, repr=False)
 
     @property
-    def rate_norm(self) -> Array:
+    def rate_norm(self) -> FloatArray:
         """Norm of the joint rates, (T,) rad/s (prismatic joints in m/s)."""
         return np.asarray(np.linalg.norm(self.qd, axis=1))
 
     @cached_property
-    def clearance(self) -> Array | None:
+    def clearance(self) -> FloatArray | None:
         """Smallest distance to the checked obstacles and links, (T,) m; a lower bound for objects. None if not checked."""
         return None if self.clear_of is None else self.clear_of(self.q)
 
@@ -127,7 +125,7 @@ class Trajectory(Result):
         return sample, self.clear_of.pair_names[int(self.clear_of.by_pair(self.q[sample]).argmin())]
 
     @cached_property
-    def without(self) -> Trajectory | None:
+    def without_objective(self) -> Trajectory | None:
         """The same path from the same start with least-norm rates; None if this motion has no objective."""
         return None if self._plain is None else self._plain()
 
@@ -139,7 +137,9 @@ class Trajectory(Result):
     @property
     def on_path(self) -> bool:
         """True if the end effector never left its path by more than 0.1 mm and 0.1 mrad."""
-        return bool(np.nanmax(self.position_error) <= PATH_TOLERANCE and np.nanmax(self.rotation_error) <= PATH_TOLERANCE)
+        return bool(
+            np.nanmax(self.position_error) <= TRACKING_TOLERANCE and np.nanmax(self.rotation_error) <= TRACKING_TOLERANCE
+        )
 
     @property
     def tool_error(self) -> str:
@@ -158,7 +158,7 @@ class Trajectory(Result):
         """Sentence on whether the end effector stayed on its path, and if not, when it left and how far."""
         if self.on_path:
             return f"the end effector stays on its path, off it by {self.tool_error}"
-        is_off_path = (self.position_error > PATH_TOLERANCE) | (self.rotation_error > PATH_TOLERANCE)
+        is_off_path = (self.position_error > TRACKING_TOLERANCE) | (self.rotation_error > TRACKING_TOLERANCE)
         slowing_kinds = {"end effector slowed", "near a singularity"}
         causes = [event.kind for event in self.events if event.kind in slowing_kinds or event.kind == "joint limit"]
         reason = f" ({', '.join(dict.fromkeys(causes))})" if causes else ""
@@ -168,11 +168,11 @@ class Trajectory(Result):
         )
 
     @property
-    def by_joint(self) -> dict[str, Array]:
+    def by_joint(self) -> dict[str, FloatArray]:
         """Measures of the failure of each joint, (T, n) signed, of every susceptibility in the objective, by its name."""
         return {measure.slug: measure.by_joint(self.q) for measure in find_susceptibilities(self.objective)}
 
-    def torques(self, time_scale: float = 1.0) -> Array:
+    def torques(self, time_scale: float = 1.0) -> FloatArray:
         """Compute torques (T, n) of the whole dynamics with viscous friction, N m and N, with time stretched by a factor.
 
         Source: English and Maciejewski 1998, eq. (5).
@@ -185,7 +185,7 @@ class Trajectory(Result):
             raise InputError(f"time_scale is {time_scale:g}; it must be above 0 (2: half as fast)")
         return self.arm.inverse_dynamics(self.q, self.qd / time_scale, self.qdd / time_scale**2)
 
-    def columns(self) -> dict[str, Array]:
+    def columns(self) -> dict[str, FloatArray]:
         """Return the columns (T,) of the exported table by name: time, joints, rates, accelerations, errors, objective."""
         table = {"time_s": self.time}
         for names, values in zip(motion_columns(self.arm), (self.q, self.qd, self.qdd), strict=True):

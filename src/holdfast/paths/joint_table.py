@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.spreadsheet import read_cell
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def joint_columns(arm: Arm) -> list[str]:
@@ -43,7 +41,7 @@ class JointTable:
     header: tuple[str, ...]
     numbered_lines: tuple[tuple[int, list[str]], ...]
 
-    def read_columns(self, names: Sequence[str]) -> Array:
+    def read_columns(self, names: Sequence[str]) -> FloatArray:
         """Return the columns with the given names, (K, len(names)).
 
         Raises:

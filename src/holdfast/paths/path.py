@@ -15,8 +15,7 @@ from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.timing import Trapezoid
 from holdfast.result import Presentable
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MAX_COORDINATE = 1e12  # m; beyond, squares overflow
 _EQUAL_POSE_TOLERANCE = 1e-12  # m and rad: poses closer than this are one pose
@@ -41,17 +40,17 @@ class Path(Presentable):
         name: For reports.
     """
 
-    starts: Array
-    shift: Array
-    center: Array
+    starts: FloatArray
+    shift: FloatArray
+    center: FloatArray
     _: KW_ONLY
-    sweep: Array
-    turn: Array
+    sweep: FloatArray
+    turn: FloatArray
     oriented: bool = True
     name: str = "path"
 
     @cached_property
-    def _leg_sizes(self) -> tuple[Array, Array]:
+    def _leg_sizes(self) -> tuple[FloatArray, FloatArray]:
         """Travel of the end effector, m, and rotation, rad, of each leg, (L,) each."""
         arc_lengths = np.linalg.norm(np.cross(self.sweep, self.starts[:, :3, 3] - self.center), axis=1)
         return np.hypot(np.linalg.norm(self.shift, axis=1), arc_lengths), np.linalg.norm(self.turn, axis=1)
@@ -63,14 +62,14 @@ class Path(Presentable):
         return travel if travel > _EQUAL_POSE_TOLERANCE else float(self._leg_sizes[1].sum())
 
     @cached_property
-    def bounds(self) -> Array:
+    def bounds(self) -> FloatArray:
         """Values (L + 1,) of s at which the legs begin and end; a leg that only rotates counts 1 rad as 1 m."""
         travel, angles = self._leg_sizes
         cumulative = np.cumsum(np.where(travel > _EQUAL_POSE_TOLERANCE, travel, angles))
         return np.concatenate([[0.0], cumulative[:-1] / cumulative[-1], [1.0]])
 
     @cached_property
-    def corners(self) -> Array:
+    def corners(self) -> FloatArray:
         """Values (C,) of s, inside the path, at which the twist jumps."""
         junctions = self.bounds[1:-1]
         twist_before, twist_after = (
@@ -83,7 +82,7 @@ class Path(Presentable):
             ]
         )
 
-    def pose(self, s: ArrayLike) -> Array:
+    def pose(self, s: ArrayLike) -> FloatArray:
         """Return the pose of the end effector in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is
         NaN.
 
@@ -103,7 +102,7 @@ class Path(Presentable):
         poses[np.isnan(fractions)] = np.nan
         return poses.reshape((*parameters.shape, 4, 4))
 
-    def twist(self, s: ArrayLike) -> Array:
+    def twist(self, s: ArrayLike) -> FloatArray:
         """Return the exact derivative of the pose by s, (6,) or (N, 6): linear (m), then angular (rad), both in the world
         frame.
 
@@ -116,7 +115,7 @@ class Path(Presentable):
         flat_parameters = np.atleast_1d(parameters)
         return self._leg_twist(flat_parameters, self._locate(flat_parameters)[0]).reshape((*parameters.shape, 6))
 
-    def twist_slope(self, s: ArrayLike) -> Array:
+    def twist_slope(self, s: ArrayLike) -> FloatArray:
         """Return the derivative of :meth:`twist` by s, (6,) or (N, 6), which is 0 except on arcs and ignores the jumps at
         corners.
 
@@ -157,12 +156,12 @@ class Path(Presentable):
         """
         return load_path_file(file)[0]
 
-    def _locate(self, s: Array) -> tuple[NDArray[np.intp], Array]:
+    def _locate(self, s: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
         """Return the leg (N,) and the parameter u (N,) from 0 to 1 on it, of s (N,)."""
         leg = np.clip(np.searchsorted(self.bounds, s, side="right") - 1, 0, len(self.starts) - 1)
         return leg, (s - self.bounds[leg]) / np.diff(self.bounds)[leg]
 
-    def _leg_twist(self, s: Array, leg: NDArray[np.intp]) -> Array:
+    def _leg_twist(self, s: FloatArray, leg: NDArray[np.intp]) -> FloatArray:
         """Return :meth:`twist` on legs (N,) that contain s (N,) or end at it."""
         leg_fractions = np.diff(self.bounds)[leg]
         u = (s - self.bounds[leg]) / leg_fractions
@@ -287,7 +286,7 @@ def _arc_through(start: ArrayLike, via: ArrayLike, end: ArrayLike, name: str) ->
     return Path(matrices[:-1], no_shift, np.array([center, center]), sweep=sweep, turn=rotations, oriented=oriented, name=name)
 
 
-def _arc_about(start: ArrayLike, center: Array, axis: Array, angle: float, turning: bool, name: str) -> Path:
+def _arc_about(start: ArrayLike, center: FloatArray, axis: FloatArray, angle: float, turning: bool, name: str) -> Path:
     matrices, oriented = _as_poses([start])
     length = float(np.linalg.norm(axis))
     if length <= _EQUAL_POSE_TOLERANCE or not np.isfinite(angle) or abs(angle) <= _EQUAL_POSE_TOLERANCE:
@@ -301,23 +300,23 @@ def _arc_about(start: ArrayLike, center: Array, axis: Array, angle: float, turni
     return Path(matrices, np.zeros((1, 3)), center[None], sweep=sweep[None], turn=rotation[None], oriented=oriented, name=name)
 
 
-def _angle_about(axis: Array, from_vector: Array, to_vector: Array) -> float:
+def _angle_about(axis: FloatArray, from_vector: FloatArray, to_vector: FloatArray) -> float:
     """Return the angle from the first to the second vector about the axis, above 0 and below 2 pi."""
     return float(np.arctan2(axis @ np.cross(from_vector, to_vector), from_vector @ to_vector) % (2 * np.pi))
 
 
-def _rotations_between(poses: Array) -> Array:
+def _rotations_between(poses: FloatArray) -> FloatArray:
     """Return rotation vectors (N - 1, 3), world frame, from each pose to the next, by the smaller angle."""
     rotations = poses[:, :3, :3]
     return rotation_vectors(rotations[1:] @ rotations[:-1].transpose(0, 2, 1))
 
 
-def _rotate_points(vectors: Array, points: Array) -> Array:
+def _rotate_points(vectors: FloatArray, points: FloatArray) -> FloatArray:
     """Return points (N, 3) rotated by rotation vectors (N, 3)."""
     return np.asarray((rotations_of_vectors(vectors) @ points[:, :, None])[:, :, 0])
 
 
-def _as_poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:
+def _as_poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[FloatArray, bool]:
     """Return poses (N, 4, 4), and whether any orientation was given."""
     try:
         arrays = [np.asarray(value, dtype=np.float64) for value in values]  # type: ignore[union-attr]
@@ -346,7 +345,7 @@ def _as_poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:
     return poses, bool(has_orientation.any())
 
 
-def _as_vector(value: ArrayLike, label: str) -> Array:
+def _as_vector(value: ArrayLike, label: str) -> FloatArray:
     try:
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
@@ -356,7 +355,7 @@ def _as_vector(value: ArrayLike, label: str) -> Array:
     return array
 
 
-def _check_path_parameters(s: ArrayLike) -> Array:
+def _check_path_parameters(s: ArrayLike) -> FloatArray:
     array = require_real_numbers(s, "s")
     if array.ndim > 1:
         raise InputError(f"s has shape {array.shape}; it must be one number or (N,)")

@@ -30,7 +30,6 @@ import pathlib
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
 from holdfast.arm.poses import rotations_of_quaternions
@@ -38,11 +37,11 @@ from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 Shape = Literal["line", "arc", "sequence"]
-POSITION_COLUMNS, QUATERNION_COLUMNS = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
+POSITION_COLUMNS = ("x", "y", "z")
+QUATERNION_COLUMNS = ("qx", "qy", "qz", "qw")
 
 
 def parse_path_file(path: pathlib.Path) -> tuple[Shape, dict[str, Any], dict[str, float] | None, bool]:
@@ -140,7 +139,7 @@ def _path_arguments(model: _PathFile, file: pathlib.Path) -> tuple[Shape, dict[s
     }
 
 
-def _pose_array(pose: _PoseEntry, radians_per_unit: float, location: str) -> Array:
+def _pose_array(pose: _PoseEntry, radians_per_unit: float, location: str) -> FloatArray:
     """Return a pose (4, 4), or a position (3,) without an orientation."""
     if pose.urdf_rpy is not None and pose.quaternion is not None:
         raise InputError(f"{location}: it has both urdf_rpy and quaternion; give one of them")
@@ -151,20 +150,20 @@ def _pose_array(pose: _PoseEntry, radians_per_unit: float, location: str) -> Arr
     return np.array(pose.xyz)
 
 
-def _assemble_pose(xyz: list[float] | Array, rotation: Array) -> Array:
+def _assemble_pose(xyz: list[float] | FloatArray, rotation: FloatArray) -> FloatArray:
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = rotation, xyz
     return pose
 
 
-def _rotation_matrix(quaternion: Array, location: str) -> Array:
+def _rotation_matrix(quaternion: FloatArray, location: str) -> FloatArray:
     norm = float(np.linalg.norm(quaternion))
     if not abs(norm - 1) < 1e-2:  # files may round
         raise InputError(f"{location}: the quaternion (x, y, z, w) has length {norm:g}; it must be 1")
     return rotations_of_quaternions(quaternion)
 
 
-def read_pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
+def read_pose_table(file: pathlib.Path, option: str = "poses") -> list[FloatArray]:
     """Return the poses of a CSV file, one per line below the names of the columns.
 
     Args:

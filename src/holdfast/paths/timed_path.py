@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, check_constructor, require_real_numbers
 from holdfast.caching import cached_property
@@ -15,8 +15,7 @@ from holdfast.errors import InputError
 from holdfast.paths.path import Path, load_path_file
 from holdfast.paths.timing import Timing, Trapezoid
 from holdfast.result import Presentable
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -28,13 +27,13 @@ class _SlowedTiming:
     def duration(self) -> float:
         return self.timing.duration * self.factor
 
-    def s(self, t: Array) -> Array:
+    def s(self, t: FloatArray) -> FloatArray:
         return self.timing.s(t / self.factor)
 
-    def rate(self, t: Array) -> Array:
+    def rate(self, t: FloatArray) -> FloatArray:
         return self.timing.rate(t / self.factor) / self.factor
 
-    def acceleration(self, t: Array) -> Array:
+    def acceleration(self, t: FloatArray) -> FloatArray:
         return self.timing.acceleration(t / self.factor) / self.factor**2
 
 
@@ -43,26 +42,26 @@ class _StoppingTiming:
     """Timing that applies another timing to each part between corners; durations are proportional to lengths."""
 
     timing: Timing
-    stops: Array  # (K + 1,) values of s, from 0 to 1
+    stops: FloatArray  # (K + 1,) values of s, from 0 to 1
 
     @property
     def duration(self) -> float:
         return self.timing.duration
 
-    def _locate_part(self, t: Array) -> tuple[Array, Array, Array]:
+    def _locate_part(self, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the last stop (a value of s), the fraction of the current part, and the time in the timing's own scale."""
         index = np.clip(np.searchsorted(self.stops, t / self.duration, side="right") - 1, 0, self.stops.size - 2)
         part_start, fraction = self.stops[index], np.diff(self.stops)[index]
         return part_start, fraction, (t - part_start * self.duration) / fraction
 
-    def s(self, t: Array) -> Array:
+    def s(self, t: FloatArray) -> FloatArray:
         part_start, fraction, local_time = self._locate_part(t)
         return part_start + fraction * self.timing.s(local_time)
 
-    def rate(self, t: Array) -> Array:
+    def rate(self, t: FloatArray) -> FloatArray:
         return self.timing.rate(self._locate_part(t)[2])
 
-    def acceleration(self, t: Array) -> Array:
+    def acceleration(self, t: FloatArray) -> FloatArray:
         _, fraction, local_time = self._locate_part(t)
         return self.timing.acceleration(local_time) / fraction
 
@@ -94,20 +93,20 @@ class TimedPath(Presentable):
         """Duration in seconds."""
         return float(self.timing.duration)
 
-    def pose(self, t: ArrayLike) -> Array:
+    def pose(self, t: ArrayLike) -> FloatArray:
         """Return the tool pose in the world at time t, s: (4, 4), or (N, 4, 4) for t (N,); constant before 0 and
         after the end.
         """
         return self.path.pose(self._path_parameters(_check_times(t)))
 
-    def twist(self, t: ArrayLike) -> Array:
+    def twist(self, t: ArrayLike) -> FloatArray:
         """Return the twist (6,) or (N, 6): linear, m/s, then angular, rad/s, both in the world frame; 0 before 0 and after the
         end.
         """
         times = _check_times(t)
         return self.path.twist(self._path_parameters(times)) * self._evaluate_column(self._effective_timing.rate, times)
 
-    def twist_rate(self, t: ArrayLike) -> Array:
+    def twist_rate(self, t: ArrayLike) -> FloatArray:
         """Return the derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2, without the jumps at corners."""
         times = _check_times(t)
         parameters, rate, acceleration = (
@@ -117,7 +116,7 @@ class TimedPath(Presentable):
         )
         return self.path.twist_slope(parameters) * rate**2 + self.path.twist(parameters) * acceleration
 
-    def slowed(self, factor: float) -> TimedPath:
+    def stretch(self, factor: float) -> TimedPath:
         """Return the same motion ``factor`` times as long: twists are divided by the factor, their rates by its square.
 
         Raises:
@@ -153,14 +152,14 @@ class TimedPath(Presentable):
             )
         return cls(path, timing, stop)
 
-    def _path_parameters(self, t: Array) -> Array:
+    def _path_parameters(self, t: FloatArray) -> FloatArray:
         return np.asarray(self._effective_timing.s(np.atleast_1d(t))).reshape(t.shape)
 
-    def _evaluate_column(self, function: Callable[[Array], Array], t: Array) -> Array:
+    def _evaluate_column(self, function: Callable[[FloatArray], FloatArray], t: FloatArray) -> FloatArray:
         return np.asarray(function(np.atleast_1d(t))).reshape((*t.shape, 1))
 
 
-def _check_times(t: ArrayLike) -> Array:
+def _check_times(t: ArrayLike) -> FloatArray:
     array = require_real_numbers(t, "t")
     if array.ndim > 1:
         raise InputError(f"t has shape {array.shape}; it must be one time or (N,), s")

@@ -6,12 +6,10 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_constructor
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class Timing(Protocol):
@@ -25,15 +23,15 @@ class Timing(Protocol):
         """Duration in seconds."""
         ...
 
-    def s(self, t: Array) -> Array:
+    def s(self, t: FloatArray) -> FloatArray:
         """Return the fraction of the path, 0 to 1."""
         ...
 
-    def rate(self, t: Array) -> Array:
+    def rate(self, t: FloatArray) -> FloatArray:
         """Return ds/dt, 1/s."""
         ...
 
-    def acceleration(self, t: Array) -> Array:
+    def acceleration(self, t: FloatArray) -> FloatArray:
         """Return d2s/dt2, 1/s^2; at a jump, the value after it."""
         ...
 
@@ -71,7 +69,7 @@ class Trapezoid:
         """Largest ds/dt, 1/s."""
         return 1 / (self.duration * (1 - (self.accelerate + self.decelerate) / 2))
 
-    def s(self, t: Array) -> Array:
+    def s(self, t: FloatArray) -> FloatArray:
         """Return the fraction of the path (N,) at t (N,)."""
         rise, fall_start, fall = self._phase_times()
         # The area of the full rectangle, less what the two ramps lack of it.
@@ -80,7 +78,7 @@ class Trapezoid:
         deficit = (rise_time - rise_time**2 / (2 * rise) if rise else 0.0) + (fall_time**2 / (2 * fall) if fall else 0.0)
         return np.where(t >= self.duration, 1.0, self.peak * (elapsed - deficit))
 
-    def rate(self, t: Array) -> Array:
+    def rate(self, t: FloatArray) -> FloatArray:
         """Return ds/dt (N,), 1/s."""
         rise, _, fall = self._phase_times()
         rising = t / rise if rise else 1.0
@@ -88,7 +86,7 @@ class Trapezoid:
         inside = (t >= 0) & (t <= self.duration)
         return _keep_nan(t, self.peak * np.where(inside, np.minimum(1.0, np.minimum(rising, falling)), 0.0))
 
-    def acceleration(self, t: Array) -> Array:
+    def acceleration(self, t: FloatArray) -> FloatArray:
         """Return d2s/dt2 (N,), 1/s^2."""
         rise, fall_start, fall = self._phase_times()
         rising = np.where((t >= 0) & (t < rise), 1 / rise if rise else 0.0, 0.0)
@@ -114,6 +112,6 @@ class Constant(Trapezoid):
     decelerate: float = field(default=0.0, init=False)
 
 
-def _keep_nan(t: Array, value: Array) -> Array:
+def _keep_nan(t: FloatArray, value: FloatArray) -> FloatArray:
     """Return the values with NaN where t is NaN, because comparisons with NaN are False."""
     return np.where(np.isnan(t), np.nan, value)

@@ -6,7 +6,6 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_constructor
 from holdfast.arm.mjcf import import_mujoco
@@ -14,8 +13,7 @@ from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.physics.model import build_mujoco_spec
 from holdfast.physics.servos import Servos
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_constructor
@@ -55,7 +53,7 @@ class Body:
         if self.mismatch >= 1:
             raise InputError(f"mismatch of the body is {self.mismatch:g}; it must be below 1, or a mass would be 0")
 
-    def model(self, arm: Arm, servos: Servos) -> tuple[Any, Array, Array]:
+    def model(self, arm: Arm, servos: Servos) -> tuple[Any, FloatArray, FloatArray]:
         """Build the robot as a MuJoCo model with a motor at every joint; ``qpos`` counts from 0.
 
         A motor's torque is its control less the servo's damping times the joint's rate: a drive's velocity loop, which is much
@@ -83,7 +81,7 @@ class Body:
         model.dof_damping[:] = self.viscous * (1 + generator.uniform(-self.mismatch, self.mismatch, model.nv))
         return model, stiffness, damping
 
-    def measured(self, poses: Array, rng: np.random.Generator) -> Array:
+    def measure_poses(self, poses: FloatArray, rng: np.random.Generator) -> FloatArray:
         """Return tool poses (N, 4, 4) as measured with noise."""
         from scipy.spatial.transform import Rotation
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 OBSERVER_RAD_S = 2 * np.pi * 20  # bandwidth with which an error of the joint sensors reaches the velocity loop
 
@@ -31,12 +30,12 @@ class Drives:
         period: Control cycle in seconds.
     """
 
-    def __init__(self, stiffness: Array, damping: Array, *, effort: Array, period: float) -> None:
+    def __init__(self, stiffness: FloatArray, damping: FloatArray, *, effort: FloatArray, period: float) -> None:
         self.stiffness, self.damping, self._effort, self._period = stiffness, damping, effort, period
         self._filter_fraction = min(1.0, OBSERVER_RAD_S * period)
         self.rate_error, self._sensor_error = np.zeros_like(stiffness), np.zeros_like(stiffness)
 
-    def sense(self, measured: Array, true: Array) -> None:
+    def sense(self, measured: FloatArray, true: FloatArray) -> None:
         """Update the rate error from measured and true positions (..., n) of this cycle, rad and m."""
         error = measured - true
         self.rate_error = self.rate_error + self._filter_fraction * (
@@ -44,7 +43,9 @@ class Drives:
         )
         self._sensor_error = error
 
-    def compute_command(self, reference: Array, rates: Array, measured: Array, *, gravity: Array, velocity: Array) -> Array:
+    def compute_command(
+        self, reference: FloatArray, rates: FloatArray, measured: FloatArray, *, gravity: FloatArray, velocity: FloatArray
+    ) -> FloatArray:
         """Compute the controls (..., n) of the motors, N m and N, from which the drives subtract ``D`` times the velocity.
 
         The drive limits the sum to the effort before the motor makes a torque of it, so a weak motor is asked for no more
@@ -54,6 +55,6 @@ class Drives:
         damping_torque = self.damping * velocity
         return np.minimum(np.maximum(requested_torque, damping_torque - self._effort), damping_torque + self._effort)
 
-    def compute_torque(self, command: Array, moved: Array) -> Array:
+    def compute_torque(self, command: FloatArray, moved: FloatArray) -> FloatArray:
         """Compute the mean torque (..., n) of a cycle, N m and N, in which the joints moved (..., n), rad and m."""
         return np.clip(command - self.damping * (moved / self._period), -self._effort, self._effort)

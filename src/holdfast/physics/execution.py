@@ -21,8 +21,8 @@ from holdfast.keep.kept import CONSTRAINT_TOLERANCE, ToolConstraint
 from holdfast.paths.joint_table import joint_columns
 from holdfast.physics.servos import Servos, max_tracking_error, saturated_fraction
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Ended = Literal["finished", "stopped", "moving", "unstable"]
 
 LIMIT_TOLERANCE = 1e-3  # rad or m past a limit of position that servos may take
@@ -59,30 +59,30 @@ class Execution(Result):
     arm: Arm
     degraded: Degraded | None
     servos: Servos
-    stiffness: Array
-    damping: Array
-    lock_time: Array
+    stiffness: FloatArray
+    damping: FloatArray
+    lock_time: FloatArray
     noticed: float
     outcome: Ended
-    time: Array
-    q: Array
-    rates: Array
-    reference: Array
-    planned: Array
-    torque: Array
-    goal: Array | None = None
+    time: FloatArray
+    q: FloatArray
+    rates: FloatArray
+    reference: FloatArray
+    planned: FloatArray
+    torque: FloatArray
+    goal: FloatArray | None = None
     keep: tuple[ToolConstraint, ...] = ()
     contacts: tuple[Contact, ...] | None = None
     cell: Cell | None = None
     error_limit: tuple[float, float] | None = None
 
     @property
-    def at(self) -> Array:
+    def q_final(self) -> FloatArray:
         """(n,) configuration at the end, rad and m; with ``degraded`` the start of :func:`holdfast.recover`."""
         return np.asarray(self.q[-1])
 
     @cached_property
-    def poses(self) -> Array:
+    def poses(self) -> FloatArray:
         """(T, 4, 4) poses of the end effector in the world, m."""
         return self.arm.forward_kinematics(self.q)
 
@@ -102,12 +102,12 @@ class Execution(Result):
         return float(np.linalg.norm(rotation_vectors(self.poses[-1, :3, :3] @ self.goal[:3, :3].T)))
 
     @property
-    def there(self) -> bool:
+    def is_at_goal(self) -> bool:
         """True if the tool is at the goal, within 1 mm and 0.5 deg, or if there is no goal."""
         return (self.goal_distance or 0.0) <= CONSTRAINT_TOLERANCE[0] and (self.goal_turn or 0.0) <= CONSTRAINT_TOLERANCE[1]
 
     @cached_property
-    def kept(self) -> tuple[tuple[float, float], ...]:
+    def constraint_errors(self) -> tuple[tuple[float, float], ...]:
         """Largest position error, m, and orientation error, rad, of the tool for each constraint in ``keep``."""
         return tuple(constraint.farthest(self.poses) for constraint in self.keep)
 
@@ -146,22 +146,22 @@ class Execution(Result):
         return [(self.arm, slice(sample)), (self.degraded.limited, slice(sample, None))]
 
     @cached_property
-    def locked(self) -> NDArray[np.bool_]:
+    def is_locked(self) -> NDArray[np.bool_]:
         """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.lock_time - 1e-9)
 
     @property
-    def tracking_error(self) -> Array:
+    def tracking_error(self) -> FloatArray:
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
-        return max_tracking_error(self.q, self.reference, self.locked)
+        return max_tracking_error(self.q, self.reference, self.is_locked)
 
     @cached_property
-    def following_error(self) -> Array:
+    def following_error(self) -> FloatArray:
         """(T, n) distance of each joint from the motion, rad or m, locked joints too."""
         return np.abs(self.q - self.planned)
 
     @cached_property
-    def exceeded(self) -> tuple[str, float] | None:
+    def first_excess(self) -> tuple[str, float] | None:
         """The joint that first exceeds the limit of the following error, by name, and when, s; None if none does."""
         if self.error_limit is None:
             return None
@@ -174,22 +174,22 @@ class Execution(Result):
         )
 
     @cached_property
-    def tool_error(self) -> tuple[Array, Array]:
+    def tool_error(self) -> tuple[FloatArray, FloatArray]:
         """Distance (T,) between the measured and the planned tool point, m, and the angle (T,) between the two tools, rad."""
         planned = self.arm.forward_kinematics(self.planned)
         rotations = rotation_vectors(self.poses[:, :3, :3] @ planned[:, :3, :3].transpose(0, 2, 1))
         return np.linalg.norm(self.poses[:, :3, 3] - planned[:, :3, 3], axis=1), np.linalg.norm(rotations, axis=1)
 
     @property
-    def saturated(self) -> Array:
+    def saturated_fraction(self) -> FloatArray:
         """(n,) fraction of the time for which the motor of each joint was torque-saturated while the joint was healthy."""
-        return saturated_fraction(self.arm, self.torque, self.locked)
+        return saturated_fraction(self.arm, self.torque, self.is_locked)
 
     @property
     def ok(self) -> bool:
         """True if the motion was finished at the goal without violated constraints, exceeded limits, or contacts."""
-        is_complete = self.outcome == "finished" and self.there and not self.broken
-        return is_complete and not self.beyond_limits and not self.too_fast and not self.contacts and self.exceeded is None
+        is_complete = self.outcome == "finished" and self.is_at_goal and not self.broken
+        return is_complete and not self.beyond_limits and not self.too_fast and not self.contacts and self.first_excess is None
 
     def require_ok(self) -> Execution:
         """Return the execution, or raise :class:`holdfast.HoldfastError` with its faults."""
@@ -200,7 +200,7 @@ class Execution(Result):
     def faults(self) -> list[str]:
         """Return the reasons for which the execution is not ``ok``, a phrase each."""
         phrases = [] if self.outcome == "finished" else [_OUTCOME_TEXTS[self.outcome]]
-        if not self.there:
+        if not self.is_at_goal:
             phrases.append(f"the tool is {self._format_goal_error()} off the goal")
         phrases += [f"the tool was {violation}" for violation in self.broken]
         phrases += [
@@ -211,11 +211,13 @@ class Execution(Result):
             f"{joint_name} moved at {value:.4g} {self._joint_unit(joint_name)}/s, too fast"
             for joint_name, value in self.too_fast.items()
         ]
-        if self.exceeded is not None and self.error_limit is not None:
-            joint = self.arm.joints[self.arm.joint_index(self.exceeded[0])]
-            factor, unit = joint.shown
+        if self.first_excess is not None and self.error_limit is not None:
+            joint = self.arm.joints[self.arm.joint_index(self.first_excess[0])]
+            factor, unit = joint.display_unit
             limit = factor * self.error_limit[joint.prismatic]
-            phrases.append(f"the following error first exceeds {limit:.4g} {unit} at {self.exceeded[1]:.4g} s, in {joint.name}")
+            phrases.append(
+                f"the following error first exceeds {limit:.4g} {unit} at {self.first_excess[1]:.4g} s, in {joint.name}"
+            )
         return phrases + [contact.sentence() for contact in self.contacts or ()]
 
     def describe(self) -> list[str]:
@@ -225,9 +227,9 @@ class Execution(Result):
         ]
         for index in np.flatnonzero(np.isfinite(self.lock_time) & (self.lock_time <= self.time[-1])):
             joint, lock_time = self.arm.joints[index], self.lock_time[index]
-            factor, unit = joint.shown
+            factor, unit = joint.display_unit
             lock_text = f"locked at {lock_time:.4g} s" if lock_time > 0 else "locked"
-            lines.append(f"{joint.name} {lock_text}, at {factor * self.at[index]:.4g} {unit}")
+            lines.append(f"{joint.name} {lock_text}, at {factor * self.q_final[index]:.4g} {unit}")
         if self.noticed <= self.time[-1]:
             lines.append(f"the controller noticed at {self.noticed:.4g} s and slowed down")
         if self.goal is not None:
@@ -237,9 +239,9 @@ class Execution(Result):
             f"{format_error(1000 * distances[index])} mm and {format_error(np.rad2deg(angles[index]))} deg" for index in (0, 1)
         )
         lines.append(f"the tool is at most {largest_text} off the motion, at the end {final_text}")
-        if self.error_limit is not None and self.exceeded is None:
+        if self.error_limit is not None and self.first_excess is None:
             lines.append("the following error keeps its limit in every joint")
-        for constraint, (distance, rotation) in zip(self.keep, self.kept, strict=True):
+        for constraint, (distance, rotation) in zip(self.keep, self.constraint_errors, strict=True):
             error_texts = [f"{1000 * distance:.3g} mm off"] * bool(len(constraint.normals))
             error_texts += [f"{np.rad2deg(rotation):.3g} deg turned away"] * bool(np.isfinite(constraint.widest))
             lines.append(f"{constraint}: at most {' and '.join(error_texts)}")

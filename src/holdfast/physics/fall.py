@@ -7,16 +7,15 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.cell.cell import Cell
 from holdfast.clearance.contacts import Contact
 from holdfast.files.output import write_table
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first
 
-Array = NDArray[np.float64]
 Outcome = Literal["rest", "stop", "contact", "balanced", "moving"]
 
 OUTCOME_TEXTS = {
@@ -75,13 +74,13 @@ class FreeSwing(Result):
     """
 
     arm: Arm
-    q: Array
+    q: FloatArray
     joint: int
     damping: float
-    time: Array
-    angle: Array
-    velocity: Array
-    tool_position: Array
+    time: FloatArray
+    angle: FloatArray
+    velocity: FloatArray
+    tool_position: FloatArray
     rest_angle: float
     peak: float
     initial_acceleration: float
@@ -91,24 +90,24 @@ class FreeSwing(Result):
     contacts: tuple[Contact, ...] | None = None
 
     @property
-    def settled(self) -> bool:
+    def is_settled(self) -> bool:
         """False if the joint was still moving at the end."""
         return self.outcome != "moving"
 
     @property
-    def stopped(self) -> bool:
+    def is_at_stop(self) -> bool:
         """True if the joint ended against one of its limits."""
         return self.outcome == "stop"
 
     def describe(self) -> list[str]:
         """Return the motion of the free swing in a few sentences."""
         failed = self.arm.joints[self.joint]
-        factor, unit = failed.shown
+        factor, unit = failed.display_unit
         lines = [
             f"Free swing of {failed.name}, arm {self.arm.title}, all other joints held",
             f"It {OUTCOME_TEXTS[self.outcome]}.",
         ]
-        if self.settled:
+        if self.is_settled:
             rest_value, peak_value = factor * self.rest_angle, factor * self.peak
             lines.append(f"At the end it has moved {rest_value:.4g} {unit}, on the way at most {peak_value:.4g} {unit}.")
         if self.contacts is not None:

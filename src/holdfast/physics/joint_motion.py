@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.mjcf import silence_mujoco
@@ -21,8 +21,7 @@ from holdfast.physics.execution import Ended, Execution
 from holdfast.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
 from holdfast.physics.servos import Servos, reference_leads
 from holdfast.physics.surroundings import ContactLog
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 LOCK_POSITION_TOLERANCE = 1e-6  # rad and m: a joint this near to where it is said to be locked is there
 REST_SPEED = 1e-3  # rad/s and m/s
@@ -135,7 +134,7 @@ def execute(
     )
 
 
-def _check_motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[Array, Array]:
+def _check_motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Return the checked configurations (S, n), and their times (S,) from 0 on."""
     waypoints = np.atleast_2d(arm.check_configurations(q))
     seconds = require_real_numbers(time, "time", "a number for each configuration, s")
@@ -156,7 +155,9 @@ def _check_motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[Array, Array
     return waypoints, seconds - seconds[0]
 
 
-def _make_lock_times(arm: Arm, degraded: Degraded | None, order: list[str], lock_time: ArrayLike, start: Array) -> Array:
+def _make_lock_times(
+    arm: Arm, degraded: Degraded | None, order: list[str], lock_time: ArrayLike, start: FloatArray
+) -> FloatArray:
     """Return the lock time (n,) of each joint, s, from times in an order of names; infinite for healthy joints."""
     lock_times = np.full(arm.n, np.inf)
     if degraded is None:
@@ -184,7 +185,7 @@ def _make_lock_times(arm: Arm, degraded: Degraded | None, order: list[str], lock
     return lock_times
 
 
-def _check_goal(goal: ArrayLike | None) -> Array | None:
+def _check_goal(goal: ArrayLike | None) -> FloatArray | None:
     if goal is None:
         return None
     goal_array = require_real_numbers(goal, "goal", "a pose (4, 4) or a place (3,), m")
@@ -194,8 +195,13 @@ def _check_goal(goal: ArrayLike | None) -> Array | None:
 
 
 def _plan_references(
-    waypoints: Array, seconds: Array, period: float, detection_time: float, stop_duration: float, settle_duration: float
-) -> tuple[Array, bool]:
+    waypoints: FloatArray,
+    seconds: FloatArray,
+    period: float,
+    detection_time: float,
+    stop_duration: float,
+    settle_duration: float,
+) -> tuple[FloatArray, bool]:
     """Return (K + 1, n) the servo references at each control cycle, and whether they lead to the end of the motion."""
     end_time = float(seconds[-1])
     reaches_end = not detection_time + stop_duration / 2 < end_time  # slowing down takes it half as far as full speed
@@ -211,20 +217,25 @@ def _plan_references(
 class _ExecutionSamples:
     """Samples at each of T control cycles, (T, n), as in :class:`holdfast.Execution`."""
 
-    q: Array
-    rates: Array
-    reference: Array
-    torque: Array
+    q: FloatArray
+    rates: FloatArray
+    reference: FloatArray
+    torque: FloatArray
 
 
 def _drive_motion(
-    plant: ServoPlant, references: Array, lock_time: Array, stiffness: Array, damping: Array, contact_log: ContactLog
+    plant: ServoPlant,
+    references: FloatArray,
+    lock_time: FloatArray,
+    stiffness: FloatArray,
+    damping: FloatArray,
+    contact_log: ContactLog,
 ) -> tuple[_ExecutionSamples, bool]:
     """Return the measured motion, and whether the physics stayed within bounds."""
     period, rate_feed, max_leads = 1 / plant.servos.rate, damping / stiffness, reference_leads(plant.arm, stiffness)
     healthy = np.ones(plant.arm.n, dtype=bool)
     plant.set_gains(stiffness, damping)
-    cycles: list[tuple[Array, Array, Array, Array]] = []
+    cycles: list[tuple[FloatArray, FloatArray, FloatArray, FloatArray]] = []
     for cycle in track("control cycles", range(len(references)), most=True, every=100):
         still_healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
         if not still_healthy.all() and (still_healthy != healthy).any():

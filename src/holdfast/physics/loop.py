@@ -26,8 +26,7 @@ from holdfast.simulation.batch import CONVERGENCE_TOLERANCE
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Runs
 from holdfast.simulation.system import FailedArmSystem
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 REST_SPEED = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
 REST_DURATION = 0.1  # 1/Ke: for so long, without a break
@@ -132,14 +131,20 @@ def simulate_physics(
 class _LoopSamples:
     """Values at each of T control cycles, as in :class:`holdfast.PhysicalRun`."""
 
-    q: Array
-    reference: Array
-    torque: Array
-    error: Array
+    q: FloatArray
+    reference: FloatArray
+    torque: FloatArray
+    error: FloatArray
 
 
 def _drive_loop(
-    plant: ServoPlant, law: Law, runs: Runs, stiffness: Array, damping: Array, time_limit: float, contact_log: ContactLog
+    plant: ServoPlant,
+    law: Law,
+    runs: Runs,
+    stiffness: FloatArray,
+    damping: FloatArray,
+    time_limit: float,
+    contact_log: ContactLog,
 ) -> tuple[_LoopSamples, tuple[Ending, Why] | None]:
     """Simulate the physical run next to a kinematic one, and return its ending if it ended before the time limit."""
     n, period = law.arm.n, 1 / plant.servos.rate
@@ -149,7 +154,7 @@ def _drive_loop(
     healthy, next_lock = np.ones(n, dtype=bool), float(lock_time.min())
     plant.set_gains(stiffness, damping)
     rest_cycles, cycles_at_rest = int(np.ceil(REST_DURATION / law.gain / period)), 0
-    cycles: list[Array] = []
+    cycles: list[FloatArray] = []
     ending: tuple[Ending, Why] | None = None
     for cycle in track("control cycles", range(int(np.ceil(time_limit / period - 1e-9)) + 1), most=True, every=100):
         if cycle * period >= next_lock - LOCK_TIME_TOLERANCE_S:
@@ -205,14 +210,14 @@ def _command_kernel(law: Law) -> Kernel:
     return Kernel("command in physics", [system.q, system.target, system.rotation], [outputs])
 
 
-def _target_pose(law: Law, runs: Runs) -> tuple[Array, Array]:
+def _target_pose(law: Law, runs: Runs) -> tuple[FloatArray, FloatArray]:
     """Return the position (3,) and rotation (9,), row by row, of the target."""
     if runs.target.ndim == 2:
         return runs.target[:3, 3], runs.target[:3, :3].ravel()
     return runs.target @ law.task.rows[:, :3], np.eye(3).ravel()
 
 
-def _classify_ending(q: Array, rate: float, gain: float, is_revolute: NDArray[np.bool_]) -> tuple[Ending, Why]:
+def _classify_ending(q: FloatArray, rate: float, gain: float, is_revolute: NDArray[np.bool_]) -> tuple[Ending, Why]:
     """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
 
     It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
@@ -249,5 +254,5 @@ def _classify_ending(q: Array, rate: float, gain: float, is_revolute: NDArray[np
     return undecided
 
 
-def _wrap_angles(q: Array, is_revolute: NDArray[np.bool_]) -> Array:
+def _wrap_angles(q: FloatArray, is_revolute: NDArray[np.bool_]) -> FloatArray:
     return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

@@ -8,15 +8,14 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.machine import Joint, Link
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.arm.model import Arm
 from holdfast.arm.soundness import require_possible_inertia
 from holdfast.errors import ArmError
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 NO_LIMIT_RANGE = 1e9  # rad or m: a limit where there is none; MuJoCo's ranges are finite
 MIN_MOMENT_FRACTION = 1e-9  # of the largest principal moment
 MIN_MOMENT_KG_M2 = 1e-12  # kg m^2
@@ -30,7 +29,7 @@ def compile_model(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
     return model
 
 
-def build_mujoco_spec(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
+def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
     """Build the ``mujoco.MjSpec`` of an arm in which the joints ``free`` move and all others are welded at ``q``.
 
     The model's ``qpos`` counts from ``q``: it is 0 there, in rad or m. Body k + 1 is the moving frame of joint k, joints have
@@ -61,7 +60,7 @@ def build_mujoco_spec(arm: Arm, q: Array, free: Sequence[int], stops: bool = Fal
         pose = frame @ joint.origin @ joint.motion(float(q[index]))
         body = body.add_body(pos=pose[:3, 3], quat=to_quaternion(mujoco, pose[:3, :3]))
         attached_links = [part for part in (link, arm.payload if index == arm.n - 1 else None) if part is not None]
-        _set_inertia(mujoco, body, Link.joined(attached_links))
+        _set_inertia(mujoco, body, Link.merge(attached_links))
         if index in free:
             _add_joint(mujoco, body, joint, float(q[index]), stops, step)
         frame = np.eye(4)
@@ -82,7 +81,7 @@ def _require_mass(arm: Arm, free: Sequence[int]) -> None:
             )
 
 
-def to_quaternion(mujoco: ModuleType, rotation: Array) -> Array:
+def to_quaternion(mujoco: ModuleType, rotation: FloatArray) -> FloatArray:
     """Return the quaternion (4,), w, x, y, z, of a rotation (3, 3)."""
     wxyz = np.zeros(4)
     mujoco.mju_mat2Quat(wxyz, np.ascontiguousarray(rotation).ravel())

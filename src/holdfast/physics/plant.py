@@ -13,8 +13,7 @@ from holdfast.clearance.clearance import Clearance
 from holdfast.physics.model import build_mujoco_spec, compile_model
 from holdfast.physics.servos import Servos
 from holdfast.physics.surroundings import add_cell_objects
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 MAX_PHYSICAL_SPEED = 1e4  # rad/s or m/s: no arm is so fast; MuJoCo itself goes on to 1e10 and then writes a log
 LOCK_TIME_TOLERANCE_S = 1e-9  # s: a lock at a control cycle's time is not left to the next one
@@ -26,8 +25,8 @@ class ServoPlant:
     def __init__(
         self,
         arm: Arm,
-        q: Array,
-        rates: Array,
+        q: FloatArray,
+        rates: FloatArray,
         healthy: NDArray[np.bool_],
         servos: Servos,
         cell_clearance: Clearance | None = None,
@@ -39,33 +38,33 @@ class ServoPlant:
         self.data = mujoco.MjData(self.model)
         self.data.qvel[:] = rates[self.free]
 
-    def set_gains(self, stiffness: Array, damping: Array) -> None:
+    def set_gains(self, stiffness: FloatArray, damping: FloatArray) -> None:
         """Set the gains (n,) of the motors."""
         gains, biases = self.model.actuator_gainprm, self.model.actuator_biasprm
         gains[:, 0], biases[:, 1], biases[:, 2] = stiffness[self.free], -stiffness[self.free], -damping[self.free]
 
     @property
-    def q(self) -> Array:
+    def q(self) -> FloatArray:
         """(n,) configuration."""
         q = self.start.copy()
         q[self.free] += self.data.qpos
         return q
 
     @property
-    def rates(self) -> Array:
+    def rates(self) -> FloatArray:
         """(n,) joint rates, rad/s and m/s, 0 where the joint is locked."""
         rates = np.zeros(self.arm.n)
         rates[self.free] = self.data.qvel
         return rates
 
     @property
-    def torque(self) -> Array:
+    def torque(self) -> FloatArray:
         """(n,) torques of the motors, 0 where the joint is locked."""
         torque = np.zeros(self.arm.n)
         torque[self.free] = self.data.qfrc_actuator
         return torque
 
-    def step_towards(self, reference: Array) -> None:
+    def step_towards(self, reference: FloatArray) -> None:
         """Simulate one control cycle towards (n,) references with the feed of the rates in them."""
         self.data.ctrl[:] = (reference - self.start)[self.free]
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
@@ -88,7 +87,9 @@ class ServoPlant:
         return locked_plant
 
 
-def _build_model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos, cell_clearance: Clearance | None) -> Any:
+def _build_model(
+    mujoco: Any, arm: Arm, q: FloatArray, free: list[int], servos: Servos, cell_clearance: Clearance | None
+) -> Any:
     """Build the model of the arm with a motor at each free joint, whose gains are set later."""
     step = 1 / (servos.rate * servos.substeps)
     model_spec = build_mujoco_spec(arm, q, free, step=step)

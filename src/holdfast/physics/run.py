@@ -12,12 +12,12 @@ from holdfast.caching import cached_property
 from holdfast.clearance.contacts import Contact
 from holdfast.physics.servos import Servos, max_tracking_error, saturated_fraction
 from holdfast.result import Result
-from holdfast.simulation.runs import Path, Runs
+from holdfast.simulation.runs import RunPath, Runs
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
 
-Array = NDArray[np.float64]
 Ending = Literal["converged", "stuck", "moving", "undecided"]
 Why = Literal["none", "singular", "time_limit", "unstable", "contact"]
 
@@ -48,17 +48,17 @@ class PhysicalRun(Result):
 
     law: Law
     servos: Servos
-    stiffness: Array
-    damping: Array
+    stiffness: FloatArray
+    damping: FloatArray
     kinematic: Runs
     outcome: Ending
     reason: Why
-    time: Array
-    q: Array
-    reference: Array
-    torque: Array
-    x: Array
-    error: Array
+    time: FloatArray
+    q: FloatArray
+    reference: FloatArray
+    torque: FloatArray
+    x: FloatArray
+    error: FloatArray
     contacts: tuple[Contact, ...] | None = None
 
     @property
@@ -74,12 +74,12 @@ class PhysicalRun(Result):
         return self.outcome if self.reason == "none" else f"{self.outcome} ({self.reason})"
 
     @cached_property
-    def errors_apart(self) -> tuple[Array, Array]:
+    def errors_apart(self) -> tuple[FloatArray, FloatArray]:
         """Position errors (T,), m, and angle errors (T,), rad, from the target."""
         return self.kinematic._simulator.compute_errors(self.kinematic, 0, self.q)
 
     @cached_property
-    def kinematic_path(self) -> Path:
+    def kinematic_path(self) -> RunPath:
         """The kinematic run over the time of this one, or until it was at rest."""
         return self.kinematic.path(0, KINEMATIC_SAMPLES, until=max(float(self.time[-1]), 1e-3))
 
@@ -104,17 +104,17 @@ class PhysicalRun(Result):
         return max(_max_distance(physical_points, kinematic_points), _max_distance(kinematic_points, physical_points))
 
     @property
-    def tracking_error(self) -> Array:
+    def tracking_error(self) -> FloatArray:
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
-        return max_tracking_error(self.q, self.reference, self.locked)
+        return max_tracking_error(self.q, self.reference, self.is_locked)
 
     @property
-    def saturated(self) -> Array:
+    def saturated_fraction(self) -> FloatArray:
         """(n,) fraction of the time for which the motor of each joint was torque-saturated while the joint was healthy."""
-        return saturated_fraction(self.law.arm, self.torque, self.locked)
+        return saturated_fraction(self.law.arm, self.torque, self.is_locked)
 
     @cached_property
-    def locked(self) -> NDArray[np.bool_]:
+    def is_locked(self) -> NDArray[np.bool_]:
         """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.kinematic.lock_time - 1e-9)
 
@@ -128,14 +128,16 @@ class PhysicalRun(Result):
             contact_text = self.contacts[0].sentence() if self.contacts else "the arm touches nothing"
             lines.append(f"{contact_text} (with masses and servos)")
         saturated_joints = [
-            joint_name for joint_name, fraction in zip(self.law.arm.joint_names, self.saturated, strict=True) if fraction > 0
+            joint_name
+            for joint_name, fraction in zip(self.law.arm.joint_names, self.saturated_fraction, strict=True)
+            if fraction > 0
         ]
         if saturated_joints:
             lines.append(f"motors at their effort for a while: {', '.join(saturated_joints)}")
         return lines
 
 
-def _resample_evenly(points: Array) -> Array:
+def _resample_evenly(points: FloatArray) -> FloatArray:
     """Resample a path (T, 3) to points (P, 3) at equal lengths along it."""
     length = np.r_[0.0, np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()]
     if length[-1] == 0:
@@ -144,7 +146,7 @@ def _resample_evenly(points: Array) -> Array:
     return np.stack([np.interp(sample_lengths, length, column) for column in points.T], axis=1)
 
 
-def _max_distance(points: Array, path: Array) -> float:
+def _max_distance(points: FloatArray, path: FloatArray) -> float:
     """Return the largest distance of points (P, 3) from a path of straight segments (S, 3)."""
     if len(path) == 1:
         return float(np.linalg.norm(points - path[0], axis=1).max())

@@ -8,14 +8,11 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_constructor
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 INERTIA_SAMPLES = 64  # at which the inertia that a servo is tuned to is looked for
 SATURATION_FRACTION = 0.999  # of the effort: a motor at its limit
@@ -74,7 +71,7 @@ class Servos:
         """Steps of the physics in one control cycle."""
         return int(np.ceil(1 / (self.rate * self.step) - 1e-9))
 
-    def gains(self, arm: Arm, mujoco: ModuleType, model: Any, *, start: Array) -> tuple[Array, Array]:
+    def gains(self, arm: Arm, mujoco: ModuleType, model: Any, *, start: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
         if self.stiffness is not None:
             return self._read_gains("stiffness", arm), self._read_gains("damping", arm)
@@ -82,7 +79,7 @@ class Servos:
         friction = np.array([joint.friction for joint in arm.joints])
         return natural_frequency**2 * inertia + natural_frequency * friction, 2 * self.ratio * natural_frequency * inertia
 
-    def _read_gains(self, name: str, arm: Arm) -> Array:
+    def _read_gains(self, name: str, arm: Arm) -> FloatArray:
         gain_values = np.asarray(getattr(self, name), dtype=np.float64)
         lower_bound = 0.0 if name == "damping" else np.finfo(np.float64).tiny
         if gain_values.shape != (arm.n,) or not np.isfinite(gain_values).all() or (gain_values < lower_bound).any():
@@ -99,18 +96,18 @@ class Servos:
         return f"joint servos of {gains}, control at {self.rate:g} Hz{gravity}"
 
 
-def reference_leads(arm: Arm, stiffness: Array) -> Array:
+def reference_leads(arm: Arm, stiffness: FloatArray) -> FloatArray:
     """Return (n,) the largest distance of a reference from its joint, which requests the full effort."""
     effort = np.array([joint.effort for joint in arm.joints])
     return np.where(np.isfinite(effort), effort / stiffness, DEFAULT_LEAD)
 
 
-def max_tracking_error(q: Array, reference: Array, locked: Flags) -> Array:
+def max_tracking_error(q: FloatArray, reference: FloatArray, locked: BoolArray) -> FloatArray:
     """Return (n,) the largest distance of each joint (T, n) from its reference while it was not locked (T, n), rad or m."""
     return np.asarray(np.where(locked, 0.0, np.abs(q - reference)).max(axis=0, initial=0.0))
 
 
-def saturated_fraction(arm: Arm, torque: Array, locked: Flags) -> Array:
+def saturated_fraction(arm: Arm, torque: FloatArray, locked: BoolArray) -> FloatArray:
     """Return (n,) the fraction of the time (T, n) for which the motor of each joint was torque-saturated while not locked."""
     effort = np.array([joint.effort for joint in arm.joints])
     healthy = ~locked
@@ -118,7 +115,7 @@ def saturated_fraction(arm: Arm, torque: Array, locked: Flags) -> Array:
     return np.asarray(is_saturated.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
 
 
-def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> Array:
+def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: FloatArray) -> FloatArray:
     """Return (n,) the largest diagonal entry of the inertia matrix of each joint."""
     default_ranges = np.where(arm.prismatic, 1.0, np.pi)
     lower, upper = (

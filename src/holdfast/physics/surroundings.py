@@ -8,13 +8,15 @@ from holdfast.arm.mjcf import import_mujoco
 from holdfast.cell.cell import Cell
 from holdfast.cell.meshes import Mesh
 from holdfast.cell.solids import Box, HalfSpace, PrimitiveSolid, Solid, Sphere
-from holdfast.clearance.capsules import BASE_LINK, Capsule, link_name
+from holdfast.clearance.capsules import BASE_LINK, LinkCapsule, link_name
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.contacts import Contact
 from holdfast.errors import InputError
 from holdfast.physics.model import to_quaternion
 
-_ARM_CONTACT_BIT, _CELL_CONTACT_BIT = 1, 2  # bits of what touches what: the arm the cell, and nothing itself
+# _ARM_CONTACT_BIT and _CELL_CONTACT_BIT: bits of what touches what: the arm the cell, and nothing itself
+_ARM_CONTACT_BIT = 1
+_CELL_CONTACT_BIT = 2
 
 
 def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
@@ -60,7 +62,7 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
             )
 
 
-def _capsule_size(mujoco: Any, capsule: Capsule) -> dict[str, Any]:
+def _capsule_size(mujoco: Any, capsule: LinkCapsule) -> dict[str, Any]:
     if capsule.length == 0:
         return {"type": mujoco.mjtGeom.mjGEOM_SPHERE, "size": [capsule.radius, 0, 0], "pos": capsule.start}
     return {"type": mujoco.mjtGeom.mjGEOM_CAPSULE, "size": [capsule.radius, 0, 0], "fromto": [*capsule.start, *capsule.end]}

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.machine import Joint
@@ -19,8 +19,8 @@ from holdfast.notice import reports_progress, track
 from holdfast.physics.fall import BrakedDrop, FreeSwing, Outcome
 from holdfast.physics.model import build_mujoco_spec, compile_model
 from holdfast.physics.surroundings import ContactLog, add_cell_objects
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 DEFAULT_BRAKE_TIMES_MS = (50.0, 100.0, 200.0)  # ms
 DEFAULT_DAMPING_RATIO = 0.1  # of critical damping, where the arm states no friction to speak of
 MIN_DAMPING_RATIO = 0.02  # of critical damping; files carry less as a placeholder, and the joint would swing for minutes
@@ -29,7 +29,9 @@ STOP_SPEED = 1e-4  # rad/s or m/s, against a stop
 BALANCED_TRAVEL = 1e-6  # rad or m: has not moved
 NEGLIGIBLE_FRACTION = 1e-9  # relative to mass, gravity and length of what swings
 CHECK_INTERVAL_STEPS = 20  # steps
-MIN_DURATION_S, MAX_DURATION_S = 60.0, 300.0  # s, of the time allowed when none is given
+# MIN_DURATION_S and MAX_DURATION_S: s, of the time allowed when none is given
+MIN_DURATION_S = 60.0
+MAX_DURATION_S = 300.0
 MAX_STEP_S = 0.02  # s
 
 
@@ -129,7 +131,7 @@ def free_swing(
 # ---- input -------------------------------------------------------------------------------------------------------
 
 
-def _check_start(arm: Arm, q: ArrayLike) -> Array:
+def _check_start(arm: Arm, q: ArrayLike) -> FloatArray:
     start = arm.check_configurations(q)
     if start.ndim != 1:
         raise InputError(f"q has shape {start.shape}; a free swing starts from one configuration, ({arm.n},)")
@@ -240,7 +242,7 @@ class _SwingModel:
         )
         return float(np.clip(15 / slowest_rate, MIN_DURATION_S, MAX_DURATION_S))
 
-    def run(self, duration: float, min_duration: float) -> tuple[Array, Array, Array, Array, Outcome]:
+    def run(self, duration: float, min_duration: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Outcome]:
         """Simulate the swing: times (T,), angles (T,), velocities (T,), tool positions (T, 3), and the outcome."""
         mujoco, model, data = self.mujoco, self.model, self.data
         step = float(model.opt.timestep)
@@ -261,7 +263,7 @@ class _SwingModel:
                 and (outcome := self._classify_state()) != "moving"
             ):
                 break
-        table: Array = np.array(samples, dtype=np.float64)
+        table: FloatArray = np.array(samples, dtype=np.float64)
         if np.abs(table[:, 0]).max() < BALANCED_TRAVEL and outcome == "moving":
             outcome = "balanced"
         time = step * np.arange(len(table), dtype=np.float64)
@@ -286,7 +288,9 @@ class _SwingModel:
         return "rest" if amplitude < REST_AMPLITUDE_RAD else "moving"
 
 
-def _measure_drop(after_ms: float, time: Array, angle: Array, velocity: Array, tool: Array, gravity: Array) -> BrakedDrop:
+def _measure_drop(
+    after_ms: float, time: FloatArray, angle: FloatArray, velocity: FloatArray, tool: FloatArray, gravity: FloatArray
+) -> BrakedDrop:
     brake_time = after_ms / 1000
     displacement = np.array([np.interp(brake_time, time, tool[:, axis]) for axis in range(3)]) - tool[0]
     gravity_norm = float(np.linalg.norm(gravity))

@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 import yaml
 from markupsafe import Markup
-from numpy.typing import NDArray
 
 from holdfast import arms
 from holdfast.arm.model import Arm
@@ -23,8 +22,7 @@ from holdfast.regions.region import Region
 from holdfast.regions.weights import Density, swap_angles
 from holdfast.registry import INDEX_REGISTRY
 from holdfast.report.page import Block, Code, Text
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _POSES_FILE = "poses.csv"
 _CAPSULES_FILE = "capsules.yaml"
@@ -71,7 +69,7 @@ def build_command_line(assessment: Assessment) -> tuple[str | None, str]:
     return wrap_command(f"holdfast assess {shlex.quote(spec)}", [*option_words, *switches, *clearance_options, *locks]), remark
 
 
-def build_pose_command(arm: Arm, pose: Array) -> str:
+def build_pose_command(arm: Arm, pose: FloatArray) -> str:
     """Return the command that finds the best configuration of a pose (4, 4), with the pose as roll, pitch, yaw in degrees."""
     spec, option_words, _ = arms.command_words(arm)
     values = [*pose[:3, 3].tolist(), *np.rad2deg(zyx_angles(pose[:3, :3])[::-1]).tolist()]
@@ -129,7 +127,7 @@ def _has_default_shape(assessment: Assessment) -> bool:
         and library_arm.fingerprint == assessment.arm.fingerprint
         and choose_capsules(library_arm).covers
     )
-    return clearance.capsules.assumed(assessment.arm) and not has_default_cover
+    return clearance.capsules.is_assumed(assessment.arm) and not has_default_cover
 
 
 def list_capsule_files(assessment: Assessment) -> list[Block]:
@@ -183,7 +181,7 @@ def format_region_file(region: Region) -> str:
     elif region.kind in ("box", "cone"):
         box: dict[str, object] = {"center": center[:3], "size": size[:3]}
         if region.kind == "cone":
-            box["cone"] = {"axis": list(region.axis), "within": float(np.rad2deg(region.within))}
+            box["cone"] = {"axis": list(region.axis), "within": float(np.rad2deg(region.max_tilt))}
         else:
             box |= {"rpy_center": center[:2:-1], "rpy_size": size[:2:-1]}
         data["box"] = box

@@ -19,7 +19,10 @@ from holdfast.words import join_units
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MAX_SENTENCES, _MAX_TABLE_ROWS, _MAX_LINE_LETTERS = 3, 12, 80  # at most; of a line of code
+# _MAX_SENTENCES, _MAX_TABLE_ROWS and _MAX_LINE_LETTERS: at most; of a line of code
+_MAX_SENTENCES = 3
+_MAX_TABLE_ROWS = 12
+_MAX_LINE_LETTERS = 80
 _PIXEL_DENSITY = 1.5  # dots for each of the screen's
 _PIXELS_PER_INCH = 96  # px
 

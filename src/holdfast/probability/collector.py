@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import WeightSums
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 BIN_COUNT = 1 << 16
 
@@ -22,22 +21,22 @@ class DistributionCollector:
         self, better: Literal["larger", "smaller"], bound: float | None, most: int = 4_000_000, heaviest: float = 0.0
     ) -> None:
         self._better, self._bound, self._most, self._heaviest = better, bound, most, heaviest
-        self._parts: list[Array] = []
+        self._parts: list[FloatArray] = []
         self._kept = 0
-        self._edges: Array | None = None
+        self._edges: FloatArray | None = None
         self._counts: NDArray[Any] | None = None
-        self._weights: list[Array] = []
+        self._weights: list[FloatArray] = []
         self._sums: tuple[WeightSums, WeightSums, WeightSums] | None = None  # of finite values, of reached poses, of the others
         self._unreached = self._singular = self._infinite = self._reached = 0
         self._total, self._low, self._high = 0.0, np.inf, -np.inf
 
     def add(
         self,
-        values: Array,
+        values: FloatArray,
         unreached: int,
         singular: int,
-        weights: Array | None = None,
-        unreached_weights: Array | None = None,
+        weights: FloatArray | None = None,
+        unreached_weights: FloatArray | None = None,
     ) -> None:
         """Values at reached poses, number of the others, and how many of the values are singular.
 
@@ -89,7 +88,7 @@ class DistributionCollector:
         self._parts, self._weights = [], []
         self._count_in_bins(collected, weights)
 
-    def _count_in_bins(self, values: Array, weights: Array | None) -> None:
+    def _count_in_bins(self, values: FloatArray, weights: FloatArray | None) -> None:
         assert self._edges is not None
         assert self._counts is not None
         last = len(self._counts) - 1
@@ -109,7 +108,7 @@ class DistributionCollector:
                 return Distribution._from_weighted(
                     values, weights, self._better, self._unreached, self._singular, self._sums[2]
                 )
-            return Distribution.of(values, self._better, self._unreached, singular=self._singular)
+            return Distribution.from_values(values, self._better, self._unreached, singular=self._singular)
         finite, finite_sums, lost_sums = self._sums or (None, None, None)
         return Distribution(
             better=self._better,

@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.probability.intervals import Interval, WeightSums, check_confidence
+from holdfast.typing import FloatArray
 
 __all__ = ["Distribution", "Interval"]
 
-Array = NDArray[np.float64]
 
 _SMALLEST_BIN_WIDTH = 1e-300  # a density over less is no number any more
 
@@ -39,8 +39,8 @@ class Distribution:
     """
 
     better: Literal["larger", "smaller"]
-    values: Array | None = None
-    edges: Array | None = None
+    values: FloatArray | None = None
+    edges: FloatArray | None = None
     counts: NDArray[Any] | None = None
     unreached: int = 0
     singular: int = 0
@@ -48,14 +48,14 @@ class Distribution:
     total: float = 0.0
     lowest: float = np.inf
     highest: float = -np.inf
-    weights: Array | None = None
+    weights: FloatArray | None = None
     _reached: int = field(default=0, repr=False)
     _finite: WeightSums | None = field(default=None, repr=False)
     _found: WeightSums | None = field(default=None, repr=False)
     _lost: WeightSums | None = field(default=None, repr=False)
 
     @classmethod
-    def of(
+    def from_values(
         cls,
         values: ArrayLike,
         better: Literal["larger", "smaller"],
@@ -99,8 +99,8 @@ class Distribution:
     @classmethod
     def _from_weighted(
         cls,
-        values: Array,
-        weights: Array,
+        values: FloatArray,
+        weights: FloatArray,
         better: Literal["larger", "smaller"],
         unreached: int,
         singular: int,
@@ -130,7 +130,7 @@ class Distribution:
         )
 
     @property
-    def weighted(self) -> bool:
+    def has_weights(self) -> bool:
         """True if samples have weights."""
         return self._found is not None
 
@@ -174,14 +174,14 @@ class Distribution:
         return self._total_size(reachable_only)
 
     @cached_property
-    def _cumulative_weight(self) -> Array:
+    def _cumulative_weight(self) -> FloatArray:
         """Weight of the first k values, or of the first k bins."""
         parts = self.counts if self.values is None else self.weights
         assert parts is not None
         return np.asarray(np.r_[0, np.cumsum(parts)])
 
     @property
-    def _bin_ends(self) -> Array:
+    def _bin_ends(self) -> FloatArray:
         """Upper ends of the bins, none of them beyond the highest value: the last bin has no end of its own."""
         assert self.edges is not None
         return np.minimum(self.edges[1:], self.highest)
@@ -203,14 +203,14 @@ class Distribution:
             raise InputError(
                 "this distribution has no samples; no pose was reached: use reachable_only=False or another region"
             )
-        if self.weighted:
+        if self.has_weights:
             size = float(self._cumulative_weight[-1])  # not the sum of chunks: F must end at 1
             size = size if reachable_only else size + self._lost_weight
             if not size > 0:
                 raise InputError("the weights of these samples are all 0; give at least one a weight above 0")
         return size
 
-    def _weight_below(self, h: Array, reachable_only: bool) -> Array:
+    def _weight_below(self, h: FloatArray, reachable_only: bool) -> FloatArray:
         """Weight of the samples whose value is less than h: their number if all count alike."""
         if self.values is not None:
             place = np.searchsorted(self.values, h, side="left")
@@ -223,7 +223,7 @@ class Distribution:
             count = count + np.where(h > 0, self._lost_weight, 0)
         return np.asarray(count)
 
-    def cdf(self, h: ArrayLike, reachable_only: bool = False) -> Array:
+    def cdf(self, h: ArrayLike, reachable_only: bool = False) -> FloatArray:
         """``F(h)``, the share of samples with a value less than h; F(0) = 0.
 
         Source: Abdi et al. 2012, section IV; strict ``<``, so that the probability of at least 0 is 1.
@@ -264,9 +264,9 @@ class Distribution:
             assert at_most is not None
             up = np.nextafter(float(at_most), np.inf)
             hits = size if np.isposinf(at_most) else float(self._weight_below(np.asarray(up), reachable_only))
-        if self.weighted:
+        if self.has_weights:
             return Interval.of_share(float(np.clip(hits / size, 0, 1)), self.effective(reachable_only), confidence)
-        return Interval.of(hits, int(size), confidence)
+        return Interval.from_counts(hits, int(size), confidence)
 
     def band(self, confidence: float = 0.95, reachable_only: bool = False) -> float:
         """Half width of the band that holds the whole true CDF with the given confidence.
@@ -279,13 +279,13 @@ class Distribution:
         check_confidence(confidence)
         return float(min(np.sqrt(np.log(2 / (1 - confidence)) / (2 * self.effective(reachable_only))), 1.0))
 
-    def quantile(self, p: ArrayLike, reachable_only: bool = True) -> Array:
+    def quantile(self, p: ArrayLike, reachable_only: bool = True) -> FloatArray:
         """Smallest value v with ``share(value <= v) >= p``."""
         p_ = np.asarray(p, dtype=np.float64)
         if not ((p_ >= 0) & (p_ <= 1)).all():
             raise InputError("a quantile is asked for a share outside 0 to 1")
         size = self._total_size(reachable_only)
-        if self.weighted:
+        if self.has_weights:
             return self._weighted_quantile(p_, size, 0.0 if reachable_only else self._lost_weight)
         lost = 0 if reachable_only else self.unreached
         rank = np.maximum(np.ceil(p_ * size) - 1, 0)  # from 0
@@ -302,7 +302,7 @@ class Distribution:
         outside = rank < offset if worst_first else rank >= self.reached
         return np.where(outside, 0.0 if worst_first else np.inf, found)
 
-    def _weighted_quantile(self, p: Array, size: float, lost: float) -> Array:
+    def _weighted_quantile(self, p: FloatArray, size: float, lost: float) -> FloatArray:
         least = np.maximum(
             p * (1 - 1e-12), np.finfo(np.float64).tiny
         )  # sums of weights are rounded; a share of 0 asks for more
@@ -317,7 +317,7 @@ class Distribution:
             return np.where((lost > 0) & (least <= offset / size), 0.0, found)
         return np.where(beyond, np.inf, found)
 
-    def density(self, bins: int = 40) -> tuple[Array, Array]:
+    def density(self, bins: int = 40) -> tuple[FloatArray, FloatArray]:
         """Edges (bins + 1,) and probability density (bins,) of the finite values at reached poses; integrates to their share.
 
         Source: Abdi et al. 2012, section IV: counts / (N width).

@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.probability.beta import beta_quantile
-
-Array = NDArray[np.float64]
-
+from holdfast.typing import FloatArray
 
 BETTING_ORDERS = 16  # in which a gambler meets the same values; his mean capital hardly depends on the order they came in
 _MAX_BET_FRACTION = 0.75  # of the capital is the most that a single bet may lose
@@ -30,7 +28,7 @@ class Interval:
     confidence: float
 
     @classmethod
-    def of(cls, hits: float, size: float, confidence: float = 0.95) -> Interval:
+    def from_counts(cls, hits: float, size: float, confidence: float = 0.95) -> Interval:
         """Share ``hits / size`` of independent cases with its exact interval; for weighted cases neither need be whole.
 
         It covers at least as often as ``confidence`` says, for any share and any number of whole cases.
@@ -45,11 +43,11 @@ class Interval:
     @classmethod
     def of_share(cls, share: float, effective: float, confidence: float = 0.95) -> Interval:
         """A share of weighted samples with the interval of ``effective`` equal ones; see ``Sums.effective``."""
-        low, high = _interval_ends(cls.of(share * effective, effective, confidence))
+        low, high = _interval_ends(cls.from_counts(share * effective, effective, confidence))
         return cls(value=share, low=low, high=high, confidence=confidence)
 
     @classmethod
-    def of_fractions(cls, values: Array, confidence: float = 0.95) -> Interval:
+    def of_fractions(cls, values: FloatArray, confidence: float = 0.95) -> Interval:
         """Mean of independent values (N,), one or more, between 0 and 1, with an interval that always covers.
 
         Whatever the values' distribution and however few they are, it covers at least as often as ``confidence`` says: those
@@ -98,7 +96,7 @@ class Difference:
         from scipy import stats
 
         size = len(first)
-        one, two = (Interval.of(int(x.sum()), size, confidence) for x in (first, second))
+        one, two = (Interval.from_counts(int(x.sum()), size, confidence) for x in (first, second))
         both, neither = float((first & second).sum()), float((~first & ~second).sum())
         lost, won = float((first & ~second).sum()), float((~first & second).sum())
         spread = np.sqrt((both + lost) * (won + neither) * (both + won) * (lost + neither))
@@ -114,7 +112,7 @@ class Difference:
         return cls(value=value, low=max(low, -1.0), high=min(high, 1.0), confidence=confidence, p_value=p)
 
     @classmethod
-    def of_fractions(cls, differences: Array, confidence: float = 0.95) -> Difference:
+    def of_fractions(cls, differences: FloatArray, confidence: float = 0.95) -> Difference:
         """Mean of independent differences (N,), one or more, between -1 and 1, with an interval that always covers.
 
         See ``Interval.of_fractions``; the p value is one over the capital of the gambler who bets against no difference,
@@ -127,7 +125,7 @@ class Difference:
         return cls(value=float(np.mean(differences)), low=low, high=high, confidence=confidence, p_value=min(2 / capital, 1.0))
 
     @classmethod
-    def of_means(cls, differences: Array, confidence: float = 0.95) -> Difference:
+    def of_means(cls, differences: FloatArray, confidence: float = 0.95) -> Difference:
         """Mean of differences (N,), two or more, with the interval and the test of Student's t.
 
         For quantities without bounds, such as errors in m. It covers as it says for normal differences, and for many; of few
@@ -160,7 +158,7 @@ def _interval_ends(interval: Interval) -> tuple[float, float]:
 class _BettingCapital:
     """Capital of bets that the mean of values (N,) is above m; each stake depends only on earlier values."""
 
-    def __init__(self, values: Array, confidence: float) -> None:
+    def __init__(self, values: FloatArray, confidence: float) -> None:
         size, shuffle = len(values), np.random.default_rng(0)
         self._values = np.stack([values, *(shuffle.permutation(values) for _ in range(BETTING_ORDERS - 1))])
         count = np.arange(2, size + 2)
@@ -177,7 +175,7 @@ class _BettingCapital:
         return float(np.logaddexp.reduce(np.log1p(stakes * (self._values - m)).sum(axis=1)) - np.log(BETTING_ORDERS))
 
 
-def _betting_limit(values: Array, confidence: float) -> float:
+def _betting_limit(values: FloatArray, confidence: float) -> float:
     """Return the smallest mean that the bets cannot reject."""
     from scipy.optimize import brentq
 
@@ -196,7 +194,7 @@ class WeightSums:
     weight: float = 0.0
     largest: float = 0.0
 
-    def add(self, weights: Array) -> None:
+    def add(self, weights: FloatArray) -> None:
         """Add the weights of more samples."""
         self.weight += float(weights.sum())
         self.largest = max(self.largest, float(weights.max(initial=0.0)))

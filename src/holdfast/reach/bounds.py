@@ -16,8 +16,8 @@ from holdfast.errors import InputError, TaskError
 from holdfast.notice import reports_progress, track
 from holdfast.reach.extrema import CriticalPoints, critical_points
 from holdfast.solvers import joint_space
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Arcs = list[tuple[float, float]]
 
 CRITICAL_POINT_STARTS = 256
@@ -25,7 +25,7 @@ LOCKED_RESTARTS = 60
 _SCANNED_VALUES = 90  # values of each joint that are tried besides the critical ones
 _TARGET_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's own
 _BISECTION_STEPS = 18  # of a gap of the scan: 5 deg becomes 3e-7 rad
-_DUPLICATE_TOLERANCE = 1e-6  # rad and m: critical values nearer than this are one
+_CRITICAL_VALUE_TOLERANCE = 1e-6  # rad and m: critical values nearer than this are one
 _CUT_DISTANCE = 1e-4  # rad and m: nearer to a cut, a value says nothing: at the edge of the workspace it may be that wrong
 
 
@@ -94,8 +94,8 @@ def joint_bounds(
 
 
 def _find_critical_values(
-    solver: CriticalPoints, pose: Array, seeds: Array, starts: int, generator: np.random.Generator
-) -> tuple[NDArray[np.int64], Array]:
+    solver: CriticalPoints, pose: FloatArray, seeds: FloatArray, starts: int, generator: np.random.Generator
+) -> tuple[NDArray[np.int64], FloatArray]:
     """Find critical points (C, n) and the joint (C,) of which each one is critical."""
     arm = solver.arm
     joint = np.repeat(np.arange(arm.n), starts)
@@ -127,10 +127,10 @@ class _JointSegments:
     """
 
     joint: int
-    cuts: Array
+    cuts: FloatArray
     is_critical: NDArray[np.bool_]
     is_periodic: bool
-    witnesses: Array
+    witnesses: FloatArray
 
     @property
     def is_reached(self) -> NDArray[np.bool_]:
@@ -138,16 +138,16 @@ class _JointSegments:
         return np.asarray(~np.isnan(self.witnesses[:, 0]))
 
     @property
-    def boundaries(self) -> Array:
+    def boundaries(self) -> FloatArray:
         """Boundaries (S + 1,) of the segments."""
         return np.append(self.cuts, self.cuts[0] + 2 * np.pi) if self.is_periodic else self.cuts
 
     @property
-    def midpoints(self) -> Array:
+    def midpoints(self) -> FloatArray:
         """Midpoints (S,) of the segments."""
         return (self.boundaries[1:] + self.boundaries[:-1]) / 2
 
-    def record_values(self, values: Array) -> None:
+    def record_values(self, values: FloatArray) -> None:
         """Record reached values (V,) as witnesses of the segments that they are well inside of."""
         if self.is_periodic:
             values = np.where(values < self.cuts[0], values + 2 * np.pi, values)
@@ -180,12 +180,12 @@ class _JointSegments:
         pieces = sorted(pieces + [(critical_value, critical_value) for critical_value in self.cuts[self.is_critical]])
         joined: list[list[float]] = []
         for low, high in pieces:
-            if joined and low <= joined[-1][1] + 10 * _DUPLICATE_TOLERANCE:
+            if joined and low <= joined[-1][1] + 10 * _CRITICAL_VALUE_TOLERANCE:
                 joined[-1][1] = max(joined[-1][1], high)
             else:
                 joined.append([low, high])
         if self.is_periodic:
-            if len(joined) > 1 and joined[0][0] + 2 * np.pi <= joined[-1][1] + 10 * _DUPLICATE_TOLERANCE:
+            if len(joined) > 1 and joined[0][0] + 2 * np.pi <= joined[-1][1] + 10 * _CRITICAL_VALUE_TOLERANCE:
                 joined[-1][1] = max(joined[-1][1], joined[0][1] + 2 * np.pi)
                 joined.pop(0)
             periods = [2 * np.pi if low >= np.pi else 0.0 for low, _ in joined]
@@ -193,17 +193,17 @@ class _JointSegments:
         return sorted((float(low), float(high)) for low, high in joined)
 
 
-def _segment_range(arm: Arm, joint: int, critical: Array) -> _JointSegments:
+def _segment_range(arm: Arm, joint: int, critical: FloatArray) -> _JointSegments:
     """Cut the range of a joint at a scan of values and at its critical values."""
     is_periodic = bool(joint_space.is_unlimited(arm)[joint])
     lower, upper = (0.0, 2 * np.pi) if is_periodic else (float(limits[joint]) for limits in finite_limits(arm))
     values = np.sort(critical % (2 * np.pi)) if is_periodic else np.sort(critical)
-    groups = np.split(values, np.flatnonzero(np.diff(values) > _DUPLICATE_TOLERANCE) + 1) if values.size else []
+    groups = np.split(values, np.flatnonzero(np.diff(values) > _CRITICAL_VALUE_TOLERANCE) + 1) if values.size else []
     critical_values = np.array([np.median(group) for group in groups])
     if (
         is_periodic
         and critical_values.size > 1
-        and critical_values[0] + 2 * np.pi - critical_values[-1] <= _DUPLICATE_TOLERANCE
+        and critical_values[0] + 2 * np.pi - critical_values[-1] <= _CRITICAL_VALUE_TOLERANCE
     ):
         critical_values = critical_values[:-1]
     # A joint that ends on its own limit needs no other cut there.
@@ -223,11 +223,11 @@ def _segment_range(arm: Arm, joint: int, critical: Array) -> _JointSegments:
 
 
 def _decide_segments(
-    solver: CriticalPoints, pose: Array, segments: list[_JointSegments], configurations: Array, seed: int
+    solver: CriticalPoints, pose: FloatArray, segments: list[_JointSegments], configurations: FloatArray, seed: int
 ) -> None:
     """Decide which segments are reached, then move the cuts that bound reached segments to the exact bounds."""
 
-    def check_reached(joint: NDArray[np.int64], values: Array) -> NDArray[np.bool_]:
+    def check_reached(joint: NDArray[np.int64], values: FloatArray) -> NDArray[np.bool_]:
         poses = np.broadcast_to(pose, (joint.size, 4, 4))
         return solver.engine.reaches_locked(
             poses, joint, values, np.random.SeedSequence(seed), LOCKED_RESTARTS, _TARGET_TOLERANCE
@@ -267,6 +267,6 @@ def _decide_segments(
         changed.cuts[position], changed.is_critical[position] = value, False
 
 
-def _step_towards(start: Array, target: Array) -> Array:
+def _step_towards(start: FloatArray, target: FloatArray) -> FloatArray:
     """Move values ``start`` (E,) a small step towards others (E,)."""
     return np.asarray(start + np.clip(target - start, -10 * _CUT_DISTANCE, 10 * _CUT_DISTANCE) / 2)

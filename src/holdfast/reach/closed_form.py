@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 FULL_TURN_RAD = 2 * np.pi
 _EDGE_TOLERANCE_RAD = 1e-9  # rad: an angle that far beyond a limit rests on it
@@ -30,10 +29,10 @@ class ThreeLinks:
         offset, sign: (3,) link angle of joint k: ``offset[k] + sign[k] q[k]``, rad.
     """
 
-    lengths: Array
-    center: Array
-    offset: Array
-    sign: Array
+    lengths: FloatArray
+    center: FloatArray
+    offset: FloatArray
+    sign: FloatArray
 
     @classmethod
     def from_task(cls, arm: Arm, task: Task) -> ThreeLinks | None:
@@ -53,12 +52,12 @@ class ThreeLinks:
         normal = np.cross(*task.rows[:, :3])
         return cls(lengths, joint_positions[0], np.diff(direction, prepend=0.0), np.sign(arm.axes_at_zero @ normal))
 
-    def link_limits(self, limits: Array) -> Array:
+    def link_limits(self, limits: FloatArray) -> FloatArray:
         """Return artificial limits (3, 2) of the link angles, from those of the joints (3, 2)."""
         return np.sort(self.offset[:, None] + self.sign[:, None] * limits, axis=1)
 
 
-def workspace_area(arm: ThreeLinks, limits: Array, radii: int) -> Array:
+def workspace_area(arm: ThreeLinks, limits: FloatArray, radii: int) -> FloatArray:
     """Compute the area (P,), m^2, of the failure-tolerant workspace for artificial limits (P, 3, 2) of the link angles.
 
     ``int r a(r) dr`` over the annulus that locks of joints 2 and 3 leave, with the angular measure a(r) of
@@ -73,12 +72,12 @@ def workspace_area(arm: ThreeLinks, limits: Array, radii: int) -> Array:
 
 
 @cache
-def _quadrature_nodes(radii: int, panels: int = 4) -> tuple[Array, Array]:
+def _quadrature_nodes(radii: int, panels: int = 4) -> tuple[FloatArray, FloatArray]:
     x, w = np.polynomial.legendre.leggauss(max(radii // panels, 2))
     return np.concatenate([(panel + (x + 1) / 2) / panels for panel in range(panels)]), np.tile(w / 2 / panels, panels)
 
 
-def common_annulus(arm: ThreeLinks, limits: Array) -> tuple[Array, Array]:
+def common_annulus(arm: ThreeLinks, limits: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Compute the inner and outer radius (P,) that the arm reaches wherever joint 2 or joint 3 locks within its limits (P, 3,
     2).
     """
@@ -86,7 +85,7 @@ def common_annulus(arm: ThreeLinks, limits: Array) -> tuple[Array, Array]:
     return np.maximum(second_annulus[0], third_annulus[0]), np.minimum(second_annulus[1], third_annulus[1])
 
 
-def _locked_annulus(arm: ThreeLinks, limits: Array, joint: int) -> tuple[Array, Array]:
+def _locked_annulus(arm: ThreeLinks, limits: FloatArray, joint: int) -> tuple[FloatArray, FloatArray]:
     """Compute the annulus with joint 2 locked, ``|L - l3| <= r <= L + l3`` with ``L = |l1 + l2 e^(i angle)|``, or with joint 3
     locked likewise. ``joint`` counts from 0.
     """
@@ -97,7 +96,7 @@ def _locked_annulus(arm: ThreeLinks, limits: Array, joint: int) -> tuple[Array, 
     return np.maximum(np.abs(shortest - outer_length), np.abs(longest - outer_length)), shortest + outer_length
 
 
-def remaining_angles(arm: ThreeLinks, limits: Array, r: Array) -> Array:
+def remaining_angles(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> FloatArray:
     """Measure the directions, (P, R) rad, of points at radii r (P, R) that joint 1 leaves in the region.
 
     A point is there if the healthy arm reaches it within the artificial limits, and the arm with joint 1 locked at any angle
@@ -108,7 +107,7 @@ def remaining_angles(arm: ThreeLinks, limits: Array, r: Array) -> Array:
     return np.asarray(FULL_TURN_RAD - _union_length(start, end))
 
 
-def classify_points(arm: ThreeLinks, limits: Array, points: Array) -> list[NDArray[np.bool_]]:
+def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> list[NDArray[np.bool_]]:
     """Return which points (N, 2) in the task plane the healthy arm reaches within limits (3, 2) of the link angles, then for
     each joint which points it reaches wherever that joint locks. The region is the intersection of all.
     """
@@ -116,7 +115,7 @@ def classify_points(arm: ThreeLinks, limits: Array, points: Array) -> list[NDArr
     radius, direction = np.maximum(np.hypot(*displacement.T), 1e-12), np.arctan2(displacement[:, 1], displacement[:, 0])
     relative_angle = (direction - limits[0].mean())[:, None]
 
-    def outside_arcs(arcs: tuple[Array, Array]) -> NDArray[np.bool_]:
+    def outside_arcs(arcs: tuple[FloatArray, FloatArray]) -> NDArray[np.bool_]:
         start, end = arcs[0][0], arcs[1][0]
         return np.asarray(~((end > start) & ((relative_angle - start) % FULL_TURN_RAD < end - start)).any(axis=1))
 
@@ -130,7 +129,7 @@ def classify_points(arm: ThreeLinks, limits: Array, points: Array) -> list[NDArr
     return flags
 
 
-def _lost_to_first(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]:
+def _lost_to_first(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the start and end (P, R, 2) of the arcs of directions lost to some lock of joint 1; end < start for no arc.
 
     With joint 1 locked the other two links reach an annulus about the elbow.
@@ -149,7 +148,7 @@ def _lost_to_first(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Arr
     return start, np.stack(end, axis=-1) + 2 * full_arc[..., None]
 
 
-def _out_of_limits(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]:
+def _out_of_limits(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return likewise (P, R, 12) the directions that the healthy arm does not reach, with joint 1 anywhere within
     its limits.
     """
@@ -158,7 +157,7 @@ def _out_of_limits(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Arr
     return start + half_range, end - half_range
 
 
-def _unreached_directions(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]:
+def _unreached_directions(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return arcs (P, R, 12) of directions, measured from link 1, in which the arm does not reach r within limits 2 and 3.
 
     The directions that it reaches end where joint 1 is critical (joint 3 at 0 or pi) or a joint rests on its limit: twelve
@@ -207,7 +206,7 @@ def _unreached_directions(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Arr
     return np.where(is_excluded, 1.0, start), np.where(is_excluded, 0.0, end_point)
 
 
-def _is_reached(arm: ThreeLinks, limits: Array, r: Array, direction: Array) -> NDArray[np.bool_]:
+def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: FloatArray) -> NDArray[np.bool_]:
     """Return whether the arm with link 1 along 0 reaches (r, direction) (P, R, A) within the limits of joints 2 and 3."""
     first, second, third = arm.lengths
     displacement = r[..., None] * np.exp(1j * direction) - first
@@ -220,14 +219,14 @@ def _is_reached(arm: ThreeLinks, limits: Array, r: Array, direction: Array) -> N
     return is_reached
 
 
-def _within_limits(angle: Array, limits: Array) -> NDArray[np.bool_]:
+def _within_limits(angle: FloatArray, limits: FloatArray) -> NDArray[np.bool_]:
     """Return whether angles (P, ...) are within limits (P, 2), modulo full turns; NaN is not."""
     shape = (-1,) + (1,) * (angle.ndim - 1)
     lower, upper = limits[:, 0].reshape(shape), limits[:, 1].reshape(shape)
     return np.asarray((angle - lower + _EDGE_TOLERANCE_RAD) % FULL_TURN_RAD <= upper - lower + 2 * _EDGE_TOLERANCE_RAD)
 
 
-def _cosine_range(limits: Array) -> tuple[Array, Array]:
+def _cosine_range(limits: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the least and greatest cosine (P,) over intervals (P, 2)."""
     lower, upper = limits.T
     end_cosines = np.cos(limits)
@@ -236,7 +235,7 @@ def _cosine_range(limits: Array) -> tuple[Array, Array]:
     return smallest, largest
 
 
-def _union_length(start: Array, end: Array) -> Array:
+def _union_length(start: FloatArray, end: FloatArray) -> FloatArray:
     """Measure the union (...,) of arcs (..., A) on the circle; arcs with end <= start are empty."""
     length = np.minimum(end - start, FULL_TURN_RAD)
     is_empty = length <= 0

@@ -17,11 +17,10 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import cached_kernel
 from holdfast.notice import track
 from holdfast.solvers.inverse_kinematics import scaled_error, solver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 CRITICAL_POINT_TOLERANCE = 1e-10  # off the target, rad and in units of the arm's own length, and of the rank condition
-_MAX_NEWTON_STEPS = 80
+_MAX_EXTREMUM_STEPS = 80
 _CHUNK_ROWS = 4096  # rows of which the matrices are held at once
 
 
@@ -56,15 +55,15 @@ class CriticalPoints:
         outputs = ca.densify(ca.vertcat(residual, ca.vec(derivative.T)))
         return Kernel("critical points", [q, multipliers, position, rotation], [outputs])
 
-    def find_seeds(self, pose: Array, count: int, generator: np.random.Generator) -> Array:
+    def find_seeds(self, pose: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
         """Find configurations (S, n) of the pose from ``count`` random starts, S of which converge."""
         starts = self.engine.sample_starts(count, generator)
         q, converged = self.engine.attempt(starts, np.broadcast_to(pose, (count, 4, 4)), CRITICAL_POINT_TOLERANCE)
         return q[converged]
 
     def solve(
-        self, pose: Array, q: Array, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
-    ) -> tuple[Array, NDArray[np.bool_]]:
+        self, pose: FloatArray, q: FloatArray, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Find critical points of ``joint`` (B,) from starts q (B, n), with the joints ``fixed`` (B, n) at their values.
 
         Returns:
@@ -77,8 +76,8 @@ class CriticalPoints:
         return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
 
     def _solve_chunk(
-        self, pose: Array, q: Array, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
-    ) -> tuple[Array, NDArray[np.bool_]]:
+        self, pose: FloatArray, q: FloatArray, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
         n, m, count = self.arm.n, self.m, len(q)
         is_constrained = ~fixed  # whose columns must be at right angles to u
         is_constrained[np.arange(count), joint] = False
@@ -88,7 +87,7 @@ class CriticalPoints:
         is_free = np.concatenate([~fixed, np.ones((count, m), dtype=bool)], axis=1)
         done = np.zeros(count, dtype=bool)
         active = np.arange(count)
-        for _ in track("steps of Newton's method", range(_MAX_NEWTON_STEPS), most=True):
+        for _ in track("steps of Newton's method", range(_MAX_EXTREMUM_STEPS), most=True):
             residual, derivative = self._evaluate(pose, unknowns[active, :n], unknowns[active, n:])
             residual[:, m : m + n] *= is_constrained[active]
             has_converged = np.abs(residual).max(axis=1) <= CRITICAL_POINT_TOLERANCE
@@ -109,7 +108,7 @@ class CriticalPoints:
         inside = ((points >= self.arm.lower - 1e-9) & (points <= self.arm.upper + 1e-9)).all(axis=1)
         return points, done & inside
 
-    def _evaluate(self, pose: Array, q: Array, u: Array) -> tuple[Array, Array]:
+    def _evaluate(self, pose: FloatArray, q: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         outputs = self._kernel.rows(q, u, pose[:3, 3], pose[:3, :3])
         size = self.m + self.arm.n + 1
         return outputs[:, :size].copy(), outputs[:, size:].reshape(len(q), size, self.arm.n + self.m)

@@ -14,8 +14,7 @@ from holdfast.errors import InputError
 from holdfast.failures import Degraded, LockedValues, read_locks
 from holdfast.notice import reports_progress
 from holdfast.solvers.inverse_kinematics import PoseSolutions, solver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_arguments
@@ -84,11 +83,11 @@ def reachable_when_locked(
         engine.scale_tolerance(tolerance),
     )
     if single_target and angles.ndim == 1:
-        return solutions.first
+        return solutions.first_row
     return solutions
 
 
-def _read_lock_values(arm: Arm, locked: LockedValues) -> tuple[NDArray[np.int64], Array]:
+def _read_lock_values(arm: Arm, locked: LockedValues) -> tuple[NDArray[np.int64], FloatArray]:
     """Read the locked joints (k,) and their values (k,), or of one joint (1, N) values."""
     if isinstance(locked, Degraded):
         locked.require_arm(arm)

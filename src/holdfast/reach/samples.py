@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
@@ -14,9 +13,7 @@ from holdfast.errors import TaskError
 from holdfast.notice import track
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
-
-Array = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 TARGET_TOLERANCE = 1e-6
 _HEALTHY_RESTARTS = 40  # for the healthy arm
@@ -37,13 +34,13 @@ class SamplingBox:
         rotation: (3, 3) of the end effector at every point.
     """
 
-    directions: Array
-    low: Array
-    high: Array
-    rotation: Array
+    directions: FloatArray
+    low: FloatArray
+    high: FloatArray
+    rotation: FloatArray
 
     @classmethod
-    def from_arm(cls, arm: Arm, task: Task, rotation: Array) -> SamplingBox:
+    def from_arm(cls, arm: Arm, task: Task, rotation: FloatArray) -> SamplingBox:
         """Return the box of the tool points of many random configurations, 2 % wider; the random seed is fixed."""
         linear = task.rows[:, :3]
         rank = int(np.linalg.matrix_rank(linear, tol=1e-9)) if len(linear) else 0
@@ -66,7 +63,7 @@ class SamplingBox:
         """Size of the box, m^2 or m^3."""
         return float(np.prod(self.high - self.low))
 
-    def sample_poses(self, count: int, seed: int) -> Array:
+    def sample_poses(self, count: int, seed: int) -> FloatArray:
         """Return poses (N, 4, 4) at points of a low-discrepancy sequence."""
         from scipy.stats import qmc
 
@@ -77,21 +74,21 @@ class SamplingBox:
         return poses
 
 
-def with_artificial_limits(arm: Arm, limits: Array) -> Arm:
+def with_artificial_limits(arm: Arm, limits: FloatArray) -> Arm:
     """Return the arm with artificial limits (n, 2); limits of a full turn or more are ignored for a joint without limits."""
     lower, upper = limits.T
     is_unlimited = joint_space.is_unlimited(arm) & (upper - lower >= 2 * np.pi - 1e-9)
     return arm.with_limits(np.where(is_unlimited, arm.lower, lower), np.where(is_unlimited, arm.upper, upper))
 
 
-def check_reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:
+def check_reached(arm: Arm, task: Task, poses: FloatArray, seed: int) -> BoolArray:
     """Return (N,) True for poses of which a configuration was found."""
     if not len(poses):
         return np.zeros(0, dtype=bool)
     return solver(arm, task).solve(poses, np.random.SeedSequence(seed), _HEALTHY_RESTARTS, TARGET_TOLERANCE).success
 
 
-def check_survival(arm: Arm, task: Task, poses: Array, angles: list[Array], seed: int) -> list[Bools]:
+def check_survival(arm: Arm, task: Task, poses: FloatArray, angles: list[FloatArray], seed: int) -> list[BoolArray]:
     """Return for each joint whether each pose was reached (N, K) with the joint locked at each of its angles (K,)."""
     engine, tables = solver(arm, task), []
     for joint, values in enumerate(track("joints locked", angles)):
@@ -121,12 +118,12 @@ class LimitChoices:
         holds: (I, H, S) configurations within them.
     """
 
-    limits: Array
-    survives: Bools
-    holds: Bools
+    limits: FloatArray
+    survives: BoolArray
+    holds: BoolArray
 
     @classmethod
-    def from_table(cls, grid: Array, is_periodic: bool, table: Bools, q: Array) -> LimitChoices:
+    def from_table(cls, grid: FloatArray, is_periodic: bool, table: BoolArray, q: FloatArray) -> LimitChoices:
         """Return the choices of a grid (K,) of joint values, its table of reached values (H, K), and configurations q (H, S);
         NaN is in none.
         """
@@ -152,7 +149,7 @@ class LimitChoices:
         return cls(np.stack([grid[0] + step * first, grid[0] + step * last], axis=1), survives, holds)
 
 
-def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, count: int, seed: int) -> Array:
+def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, count: int, seed: int) -> FloatArray:
     """Find artificial limits (n, 2) that contain the most sampled points, by coordinate ascent from many starts.
 
     Each joint's limits are chosen in turn among all pairs of values of a grid of ``count``, the others held, as long as points
@@ -179,7 +176,7 @@ def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, coun
     return np.stack([lower, upper], axis=1) if limits is None else limits
 
 
-def choose_limits(choices: list[LimitChoices], q: Array, generator: np.random.Generator) -> Array | None:
+def choose_limits(choices: list[LimitChoices], q: FloatArray, generator: np.random.Generator) -> FloatArray | None:
     """Choose limits (n, 2) that contain most points, of which q (H, S, n) are known, by coordinate ascent; None without q."""
     best, best_count = list[int](), -1
     known = np.argwhere(~np.isnan(q[:, :, 0]))
@@ -190,7 +187,7 @@ def choose_limits(choices: list[LimitChoices], q: Array, generator: np.random.Ge
     return np.array([choice.limits[index] for choice, index in zip(choices, best, strict=True)]) if best else None
 
 
-def _limit_search_range(arm: Arm) -> tuple[Array, Array]:
+def _limit_search_range(arm: Arm) -> tuple[FloatArray, FloatArray]:
     """Return the range in which limits are searched; a revolute joint needs at most one turn."""
     lower, upper = finite_limits(arm)
     exceeds_turn = ~arm.prismatic & (upper - lower > 2 * np.pi)
@@ -198,7 +195,7 @@ def _limit_search_range(arm: Arm) -> tuple[Array, Array]:
     return np.where(exceeds_turn, middle - np.pi, lower), np.where(exceeds_turn, middle + np.pi, upper)
 
 
-def find_configurations(arm: Arm, task: Task, poses: Array, generator: np.random.Generator) -> Array:
+def find_configurations(arm: Arm, task: Task, poses: FloatArray, generator: np.random.Generator) -> FloatArray:
     """Find configurations (H, S, n) of each pose, NaN where a start did not converge."""
     engine = solver(arm, task)
     rows = np.repeat(np.arange(len(poses)), _SOLUTIONS_PER_POINT)

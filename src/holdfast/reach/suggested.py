@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
-_SEED_POINTS, _STRETCH_ROUNDS = 8, 3
+_SEED_POINTS = 8
+_STRETCH_ROUNDS = 3
 _KEPT_FRACTION = 0.9  # of each edge: between points nobody looked
 
 
-def find_inner_box(points: Array, inside: NDArray[np.bool_]) -> Array | None:
+def find_inner_box(points: FloatArray, inside: NDArray[np.bool_]) -> FloatArray | None:
     """Find a large box with sampled points inside the region and none outside.
 
     Args:
@@ -45,12 +46,12 @@ def find_inner_box(points: Array, inside: NDArray[np.bool_]) -> Array | None:
     return np.column_stack([middle - half_size, middle + half_size])
 
 
-def _stretch_axis(box: Array, axis: int, inner_points: Array, outer_points: Array, spacing: float) -> None:
+def _stretch_axis(box: FloatArray, axis: int, inner_points: FloatArray, outer_points: FloatArray, spacing: float) -> None:
     """Stretch the box in place along an axis over inner points, up to the spacing before the next outer point."""
     others = np.arange(len(box)) != axis
     lower, upper = box[others].T
 
-    def coordinates_near(points: Array, width: float) -> Array:
+    def coordinates_near(points: FloatArray, width: float) -> FloatArray:
         is_near = ((points[:, others] >= lower - width) & (points[:, others] <= upper + width)).all(axis=1)
         return np.asarray(points[is_near, axis])
 

@@ -21,19 +21,21 @@ from holdfast.reach import samples as tolerant_sampled
 from holdfast.reach.closed_form import ThreeLinks
 from holdfast.reach.suggested import find_inner_box
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from holdfast.certificates.claims import TolerantClaim
 
-Array = NDArray[np.float64]
 Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
 
-DEFAULT_POINTS, DEFAULT_ANGLES = 1000, 24
+DEFAULT_POINTS = 1000
+DEFAULT_ANGLES = 24
 _GRID_POINTS = 161  # points along each edge of the map of the exact region
 _AREA_RADII = 1600
-_SEARCH_RADII, _POLISH_RADII = 32, 160
+_SEARCH_RADII = 32
+_POLISH_RADII = 160
 _MAX_SEARCH_POINTS = 250  # at most, of which the limits are chosen
 _MAX_GENERATIONS = 60  # of a search for limits at most
 
@@ -63,11 +65,11 @@ class TolerantWorkspace(Result):
 
     arm: Arm
     task: Task
-    limits: Array
+    limits: FloatArray
     size: float
     size_interval: tuple[float, float]
     healthy_size: float
-    points: Array
+    points: FloatArray
     healthy: NDArray[np.bool_]
     within: NDArray[np.bool_]
     survives: NDArray[np.bool_]
@@ -88,7 +90,7 @@ class TolerantWorkspace(Result):
         return self.size / self.healthy_size if self.healthy_size > 0 else float("nan")
 
     @property
-    def lost_to(self) -> Array:
+    def lost_to(self) -> FloatArray:
         """Fraction (n,) of the points within the artificial limits that some lock of each joint loses; NaN without points."""
         count = int(self.within.sum())
         return 1 - self.survives.sum(axis=0) / count if count else np.full(self.arm.n, np.nan)
@@ -126,7 +128,7 @@ class TolerantWorkspace(Result):
         size = f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({method})"
         lines = [f"{self.arm.title}, task {self.task.name}: {size}"]
         for joint, (lower_limit, upper_limit), lost_fraction in zip(self.arm.joints, self.limits, self.lost_to, strict=True):
-            factor, unit = joint.shown
+            factor, unit = joint.display_unit
             ranged = f"{factor * lower_limit:.2f} to {factor * upper_limit:.2f} {unit}"
             lines.append(
                 f"{joint.name} within {ranged}: its locks lose {lost_fraction:.1%} of the points within the artificial limits"
@@ -243,7 +245,7 @@ def tolerant_workspace(
     )
 
 
-def _read_limits(arm: Arm, limits: Limits | None) -> Array:
+def _read_limits(arm: Arm, limits: Limits | None) -> FloatArray:
     ranges = np.stack(finite_limits(arm), axis=1)
     if limits is None:
         return ranges
@@ -274,7 +276,7 @@ def _sampled_workspace(
     arm: Arm,
     task: Task,
     sampling_box: tolerant_sampled.SamplingBox,
-    limits: Array,
+    limits: FloatArray,
     optimised: bool,
     points: int,
     angles: int,
@@ -292,7 +294,7 @@ def _sampled_workspace(
     survival_tables = tolerant_sampled.check_survival(arm, task, poses[within], values, seed)
     survives[within] = np.stack([table.all(axis=1) for table in survival_tables], axis=1)
     inside = np.asarray(survives.all(axis=1))
-    fraction = Interval.of(int(inside.sum()), points, confidence)
+    fraction = Interval.from_counts(int(inside.sum()), points, confidence)
     return TolerantWorkspace(
         arm=arm,
         task=task,
@@ -315,7 +317,7 @@ def _sampled_workspace(
 # ---- three links in a plane --------------------------------------------------------------------------------------
 
 
-def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Array, optimised: bool) -> TolerantWorkspace:
+def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: FloatArray, optimised: bool) -> TolerantWorkspace:
     links = planar_arm.link_limits(limits)
     links[:, 1] = np.minimum(links[:, 1], links[:, 0] + tolerant_planar.FULL_TURN_RAD)
     area, coarse = (
@@ -354,7 +356,7 @@ def _reach_radii(planar_arm: ThreeLinks) -> tuple[float, float]:
     return total, max(0.0, 2 * float(planar_arm.lengths.max()) - total)
 
 
-def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> Array:
+def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> FloatArray:
     """Find limits (3, 2) of the largest region; joint 1 is centered at 0, because the region rotates with it."""
     from scipy import optimize
 
@@ -363,12 +365,12 @@ def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> Array:
 
     arm_limits = np.stack([arm.lower, arm.upper], axis=1)
 
-    def decode_limits(x: Array) -> Array:
+    def decode_limits(x: FloatArray) -> FloatArray:
         """Return limits (P, 3, 2) from half the ranges of the joints and the middles of the last two (P, 5)."""
         half_range, middle = np.abs(x[:, [0, 2, 4]]), np.stack([np.zeros(len(x)), x[:, 1], x[:, 3]], axis=1)
         return np.stack([middle - half_range, middle + half_range], axis=2)
 
-    def negative_area(x: Array, radii: int) -> Array:
+    def negative_area(x: FloatArray, radii: int) -> FloatArray:
         joints = decode_limits(x)
         beyond = ((joints[..., 0] < arm_limits[:, 0]) | (joints[..., 1] > arm_limits[:, 1])).any(axis=1)
         links = np.array([planar_arm.link_limits(joint_limits) for joint_limits in joints])

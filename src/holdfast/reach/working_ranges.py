@@ -23,14 +23,15 @@ from holdfast.reach import samples
 from holdfast.result import Result
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
+from holdfast.typing import FloatArray
 from holdfast.words import format_percent
-
-Array = NDArray[np.float64]
 
 _BISECTION_STEPS = 10  # of the distance between a value that passes and the next one of the grid, which fails
 _MAX_CANDIDATES = 20  # combinations of intervals for which the healthy arm is tried
-_RETRY_FRACTION, _MORE_RESTARTS = 0.8, 400  # where so many are reached, the others are tried again from more starts
-_MAX_ROUNDS = 4  # of ranges that a fresh sample may shorten
+# _RETRY_FRACTION and _MORE_RESTARTS: where so many are reached, the others are tried again from more starts
+_RETRY_FRACTION = 0.8
+_MORE_RESTARTS = 400
+_MAX_SHORTENINGS = 4  # of ranges that a fresh sample may shorten
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,12 +62,12 @@ class WorkingRanges(Result):
         return self.passed == self.targets
 
     @property
-    def ranges(self) -> Array:
+    def ranges(self) -> FloatArray:
         """Working ranges (n, 2), rad and m."""
         return self.claim.working_ranges
 
     @property
-    def relative_widths(self) -> Array:
+    def relative_widths(self) -> FloatArray:
         """Width of each range (n,) as a fraction of the width of the joint's limits, of which a full turn is enough."""
         return _relative_widths(self.claim.arm, self.ranges)
 
@@ -83,14 +84,14 @@ class WorkingRanges(Result):
         arm, options = self.claim.arm, []
         for index, joint in enumerate(arm.joints):
             if (self.ranges[index] != [joint.lower, joint.upper]).any():
-                lower, upper = (f"{round(joint.shown[0] * limit, 10) + 0.0:.12g}" for limit in self.ranges[index])
+                lower, upper = (f"{round(joint.display_unit[0] * limit, 10) + 0.0:.12g}" for limit in self.ranges[index])
                 options.append(f"{joint.name}={lower}..{upper}")
         return options
 
     def describe(self) -> list[str]:
         """Return whether ranges were found, by which sample, and the limiting joint."""
         arm, index = self.claim.arm, self.claim.arm.joint_index(self.limiting_joint)
-        factor, unit = arm.joints[index].shown
+        factor, unit = arm.joints[index].display_unit
         span = f"{factor * self.ranges[index, 0]:.4g} to {factor * self.ranges[index, 1]:.4g} {unit}"
         if self.ok:
             return [
@@ -168,7 +169,7 @@ def find_working_ranges(
     bounds[locks] = np.stack(make_limits_finite(bounds[locks, 0], bounds[locks, 1], arm.prismatic[locks]), axis=1)
     narrowed_joints = {*locks, *map(arm.joint_index, working_ranges or {})}
 
-    def make_claim(ranges: Array) -> TolerantClaim:
+    def make_claim(ranges: FloatArray) -> TolerantClaim:
         pairs: dict[str | int, tuple[float, float]] = {
             joint: (float(ranges[joint, 0]), float(ranges[joint, 1])) for joint in narrowed_joints
         }
@@ -176,9 +177,9 @@ def find_working_ranges(
 
     search = _RangeSearch(make_claim(bounds), bounds, targets, values, seed)
     ranges, all_pass = search.find_widest(margin)
-    for sample in range(1, _MAX_ROUNDS + 1):
+    for sample in range(1, _MAX_SHORTENINGS + 1):
         healthy, survives = search.evaluate_ranges(ranges, sample)
-        if not all_pass or sample == _MAX_ROUNDS:
+        if not all_pass or sample == _MAX_SHORTENINGS:
             break
         if not healthy.all():
             search.add_sample(sample)
@@ -208,7 +209,7 @@ class _RangeSearch:
         seed: Seed of all random draws.
     """
 
-    def __init__(self, claim: TolerantClaim, bounds: Array, targets: int, values: int, seed: int) -> None:
+    def __init__(self, claim: TolerantClaim, bounds: FloatArray, targets: int, values: int, seed: int) -> None:
         self._claim, self._arm, self._bounds, self._seed = claim, claim.arm, bounds, seed
         self._targets, self._values = targets, values
         self._task: Task = as_task(claim.arm, claim.task)
@@ -224,7 +225,7 @@ class _RangeSearch:
             for (lower, upper), turn_count, is_periodic, is_locked in zip(bounds, turns, self._is_periodic, locks, strict=True)
         ]
 
-    def _sample_poses(self, sample: int) -> Array:
+    def _sample_poses(self, sample: int) -> FloatArray:
         """Return poses (N, 4, 4) of the corners of the box, and of targets inside."""
         from scipy.stats import qmc
 
@@ -251,7 +252,7 @@ class _RangeSearch:
         """Add a sample to the poses for which ranges are searched."""
         self._poses = np.concatenate([self._poses, self._sample_poses(sample)])
 
-    def _check_survival(self, values: list[Array], poses: Array, sample: int) -> list[NDArray[np.bool_]]:
+    def _check_survival(self, values: list[FloatArray], poses: FloatArray, sample: int) -> list[NDArray[np.bool_]]:
         """Return for each joint whether each pose is reached (N, K) with the joint locked at each of its values (K,)."""
         table = samples.check_survival(self._arm, self._task, poses, values, self._seed + sample)
         for joint, (each, column) in enumerate(zip(table, values, strict=True)):
@@ -264,7 +265,7 @@ class _RangeSearch:
                 )
         return table
 
-    def _check_healthy(self, ranges: Array, poses: Array) -> NDArray[np.bool_]:
+    def _check_healthy(self, ranges: FloatArray, poses: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) whether the healthy arm reaches each pose within the ranges."""
         limited_arm = samples.with_artificial_limits(self._arm, ranges)
         reached = samples.check_reached(limited_arm, self._task, poses, self._seed)
@@ -276,7 +277,7 @@ class _RangeSearch:
             reached[~reached] = retried.success
         return reached
 
-    def find_widest(self, margin: float) -> tuple[Array, bool]:
+    def find_widest(self, margin: float) -> tuple[FloatArray, bool]:
         """Return ranges (n, 2), and whether all targets pass."""
         table = self._check_survival(self._grids, self._poses, 0)
         intervals = [self._find_intervals(index, each) for index, each in enumerate(table)]
@@ -290,7 +291,7 @@ class _RangeSearch:
                         return ranges, True
         return self._choose_ranges(table, q), False
 
-    def _find_intervals(self, joint: int, table: NDArray[np.bool_]) -> Array:
+    def _find_intervals(self, joint: int, table: NDArray[np.bool_]) -> FloatArray:
         """Find the widest intervals (C, 2) of a joint in which no target is lost; its bounds if it does not lock."""
         grid, survives = self._grids[joint], np.asarray(table.all(axis=0))
         if survives.all():
@@ -313,12 +314,12 @@ class _RangeSearch:
             inner, outer = np.where(passed, middle, inner), np.where(passed, outer, middle)
         return np.asarray(inner)
 
-    def _check_values(self, joint: int, values: Array) -> NDArray[np.bool_]:
+    def _check_values(self, joint: int, values: FloatArray) -> NDArray[np.bool_]:
         """Return (K,) whether all targets survive a lock of a joint at each of some values (K,)."""
         value_lists = [values if other == joint else np.empty(0) for other in range(self._arm.n)]
         return np.asarray(self._check_survival(value_lists, self._poses, 0)[joint].all(axis=0), dtype=bool)
 
-    def _combine_intervals(self, intervals: list[Array], q: Array) -> list[list[Array]]:
+    def _combine_intervals(self, intervals: list[FloatArray], q: FloatArray) -> list[list[FloatArray]]:
         """Choose one interval of each joint, for combinations in which configurations q (H, S, n) lie, the best first."""
         configurations = q.reshape(-1, self._arm.n)
         interval_index = np.full(configurations.shape, -1)
@@ -334,7 +335,7 @@ class _RangeSearch:
         order = sorted(range(len(chosen)), key=lambda rank: (-widths[rank][0], -widths[rank].sum()))
         return [chosen[rank] for rank in order[:_MAX_CANDIDATES]]
 
-    def _choose_ranges(self, table: list[NDArray[np.bool_]], q: Array) -> Array:
+    def _choose_ranges(self, table: list[NDArray[np.bool_]], q: FloatArray) -> FloatArray:
         """Choose ranges (n, 2) that most targets with configurations q (H, S, n) pass."""
         choices = []
         for joint, (grid, is_periodic, survives) in enumerate(zip(self._grids, self._is_periodic, table, strict=True)):
@@ -356,16 +357,16 @@ class _RangeSearch:
             else np.array([self._round_interval(joint, pair) for joint, pair in enumerate(ranges)])
         )
 
-    def _trim_interval(self, joint: int, pair: Array, fraction: float) -> Array:
+    def _trim_interval(self, joint: int, pair: FloatArray, fraction: float) -> FloatArray:
         """Trim an interval by a margin at the ends at which targets are lost."""
         bounds = self._bounds[joint]
         shift = fraction * (pair[1] - pair[0]) * np.array([1, -1])
         return self._round_interval(joint, np.where(pair == bounds, pair, pair + shift))
 
-    def _round_interval(self, index: int, pair: Array) -> Array:
+    def _round_interval(self, index: int, pair: FloatArray) -> FloatArray:
         """Round an interval inwards to the digits of :attr:`WorkingRanges.options`; the limits of the arm stay as they are."""
         joint, (lower, upper) = self._arm.joints[index], self._bounds[index]
-        digits, factor = 4 if joint.prismatic else 2, joint.shown[0]
+        digits, factor = 4 if joint.prismatic else 2, joint.display_unit[0]
         if (pair == [joint.lower, joint.upper]).all() or factor * (pair[1] - pair[0]) < 3 * 10**-digits:
             return pair
         unit = 1.0 if joint.prismatic else np.pi / 180  # as the command line reads degrees
@@ -378,7 +379,9 @@ class _RangeSearch:
 
         return np.array([round_end(pair[0], 1), round_end(pair[1], -1)])
 
-    def evaluate_ranges(self, ranges: Array, sample: int) -> tuple[NDArray[np.bool_], list[tuple[NDArray[np.bool_], Array]]]:
+    def evaluate_ranges(
+        self, ranges: FloatArray, sample: int
+    ) -> tuple[NDArray[np.bool_], list[tuple[NDArray[np.bool_], FloatArray]]]:
         """Return for a held-out sample (N,) targets within the ranges, and for each joint (N, K) those that survive its locks.
 
         The values (K,) at which a joint is locked are the ends of its range and one value in each of equal parts of it.
@@ -392,7 +395,7 @@ class _RangeSearch:
         ]
         return self._check_healthy(ranges, poses), list(zip(self._check_survival(values, poses, sample), values, strict=True))
 
-    def shorten_ranges(self, ranges: Array, survives: list[tuple[NDArray[np.bool_], Array]]) -> bool:
+    def shorten_ranges(self, ranges: FloatArray, survives: list[tuple[NDArray[np.bool_], FloatArray]]) -> bool:
         """Shorten ranges in place to the longest run of values that lose no target; return whether any was shortened."""
         changed = False
         for joint, (table, values) in enumerate(survives):
@@ -411,7 +414,7 @@ def _find_runs(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
     return np.asarray(edges.reshape(-1, 2) - [0, 1], dtype=np.int64)
 
 
-def _relative_widths(arm: Arm, ranges: Array) -> Array:
+def _relative_widths(arm: Arm, ranges: FloatArray) -> FloatArray:
     lower, upper = finite_limits(arm)
     limit_widths = np.where(arm.prismatic, upper - lower, np.minimum(upper - lower, 2 * np.pi))
     return np.minimum(ranges[:, 1] - ranges[:, 0], limit_widths) / np.where(limit_widths > 0, limit_widths, 1.0) + (

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
@@ -19,25 +18,24 @@ from holdfast.reaction.detour import choose_posture
 from holdfast.reaction.masked import MIN_PROGRESS, PROGRESS_TIMEOUT_S, MaskedLaw
 from holdfast.reaction.plan import ACCELERATION_LIMIT, RouteFollower, plan_route
 from holdfast.reaction.run import Action, React, What
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 EARLY_BRAKE_DELAY_S = 0.020  # s after the alarm: a joint that does not move, or runs away, is braked before its kind is known
-STILL_SPEED, MOVING_SPEED, RUNAWAY_SPEED_ERROR = (
-    0.02,
-    0.2,
-    0.3,
-)  # rad/s or m/s: no motion; a motion, and so much off its reference
-LAGGING_TRACKING_RATIO, RUNAWAY_TRACKING_RATIO = (
-    1.5,
-    8.0,
-)  # of the bound of tracking; a servo at its effort is not far off a joint that falls
-SLOW_PACE, REDUCED_PACE = 0.3, 0.5  # of the commanded speed
+# STILL_SPEED, MOVING_SPEED and RUNAWAY_SPEED_ERROR: rad/s or m/s: no motion; a motion, and so much off its reference
+STILL_SPEED = 0.02
+MOVING_SPEED = 0.2
+RUNAWAY_SPEED_ERROR = 0.3
+LAGGING_TRACKING_RATIO = 1.5  # of the bound of tracking
+RUNAWAY_TRACKING_RATIO = 8.0  # a servo at its effort is not far off a joint that falls
+# SLOW_PACE and REDUCED_PACE: of the commanded speed
+SLOW_PACE = 0.3
+REDUCED_PACE = 0.5
 TRIAL_PACE = 0.2  # of the speed of a route, with a joint that may do more than was thought
 TRIAL_SPEED_FRACTION = 0.8  # of the speed that such a joint has where it falls behind
 CONTACT_END_S = 1.0  # s after which a contact is over
 GRAVITY_SAFETY_FACTOR = 1.2  # a weak motor must carry gravity so many times
-SETTLING_TIME_S, MIN_POSE_SAMPLES = 0.05, 10  # s after braking; measured poses that tell where the joint is
+SETTLING_TIME_S = 0.05  # s after braking
+MIN_POSE_SAMPLES = 10  # measured poses that tell where the joint is
 LATE_SAMPLES_WAIT_S = 0.5  # s more, for measured poses that come more slowly
 NAMING_DEADLINE_S = 2.0  # s after the alarm by which the joint must be known
 VERDICT_DEADLINE_S = 0.6  # s after the alarm; a verdict may be revised before, when the tool's pose tells more
@@ -105,7 +103,7 @@ class Controller:
         self._tries = list[What]()  # ways round that are left after a brake
         self._looked = False  # whether the law was followed ahead since
         self._true: dict[int, float] = {}  # of braked joints whose sensor is not believed
-        self._poses, self._seen = list[tuple[Array, Array]](), False
+        self._poses, self._seen = list[tuple[FloatArray, FloatArray]](), False
         self._planned: RouteFollower | None = None
         self._way = 0.0  # 1 or -1: the joint that was braked was to go up or down
         self._doubted = True  # what is wrong with it may be less than was thought
@@ -124,7 +122,7 @@ class Controller:
         ranges = {int(j): (self._lower[j], self._upper[j]) for j in range_limited if j not in locked}
         return Degraded(self.arm, locked=locked, ranges=ranges) if locked or ranges else None
 
-    def trusted_positions(self, q_measured: Array) -> Array:
+    def trusted_positions(self, q_measured: FloatArray) -> FloatArray:
         """Return the joint positions (n,), replacing those of sensors that are not trusted."""
         if not self._true:
             return q_measured
@@ -133,7 +131,7 @@ class Controller:
             q[j] = value
         return q
 
-    def rates(self, time: float, q_measured: Array) -> Array:
+    def rates(self, time: float, q_measured: FloatArray) -> FloatArray:
         """Commanded rates (n,), rad/s and m/s: smooth, within the velocity limits, and slower towards the ends of the range."""
         q, dt = self.trusted_positions(q_measured), time - self._time
         requested = self._requested_rates(time, q_measured)
@@ -146,7 +144,7 @@ class Controller:
         self._commanded = self.law.mask * np.clip(requested, self._commanded - change, self._commanded + change)
         return self._commanded
 
-    def _requested_rates(self, time: float, q_measured: Array) -> Array:
+    def _requested_rates(self, time: float, q_measured: FloatArray) -> FloatArray:
         """Return the rates that the control law or the route requests."""
         q = self._last = self.trusted_positions(q_measured)
         dt = time - self._time
@@ -169,7 +167,7 @@ class Controller:
         extra_wait = LATE_SAMPLES_WAIT_S if 0 < len(self._poses) < MIN_POSE_SAMPLES else 0.0
         return bool(np.isfinite(self._settled) and time <= self._settled + extra_wait)
 
-    def _misses_target(self, time: float, q: Array, rates: Array) -> bool:
+    def _misses_target(self, time: float, q: FloatArray, rates: FloatArray) -> bool:
         """Return whether the remaining control law fails to reach its target, by forward simulation or at its end."""
         if self.over or self.law.mask.min() > 0:
             return False
@@ -189,14 +187,21 @@ class Controller:
         is_slow = not np.isfinite(rates).all() or float(np.abs(rates).max()) < IDLE_SPEED
         return is_slow or time - self._since > PROGRESS_TIMEOUT_S
 
-    def is_idle(self, rates: Array) -> bool:
+    def is_idle(self, rates: FloatArray) -> bool:
         """Return whether no further motion is expected."""
         return self._planned is None and self._pace == self.pace and float(np.abs(rates).max()) < IDLE_SPEED
 
     # ---- what the monitor says ---------------------------------------------------------------------------------------
 
     def on_verdict(
-        self, time: float, verdict: FaultVerdict, *, tracking_error: Array, v: Array, commanded_rates: Array, gravity: Array
+        self,
+        time: float,
+        verdict: FaultVerdict,
+        *,
+        tracking_error: FloatArray,
+        v: FloatArray,
+        commanded_rates: FloatArray,
+        gravity: FloatArray,
     ) -> None:
         """Respond to a verdict of the monitor.
 
@@ -299,7 +304,7 @@ class Controller:
             self._true[self.arm.joint_index(joint)] = true_position
             self._settled = np.inf
 
-    def on_tool_pose(self, time: float, q_measured: Array, pose: Array) -> None:
+    def on_tool_pose(self, time: float, q_measured: FloatArray, pose: FloatArray) -> None:
         """Use a measured tool pose (4, 4): after braking it shows whether the joint's sensor can be trusted."""
         self._seen = True
         if not self._is_waiting(time) or time <= self._settled - MIN_POSE_SAMPLES / 100 or len(self._poses) == MIN_POSE_SAMPLES:
@@ -358,11 +363,11 @@ class Controller:
         position_error = float(np.mean([row[joint] - q[joint] for row, (q, _) in zip(rows, self._poses, strict=True)]))
         if abs(position_error) > SENSOR_TOLERANCE:
             self._true[joint] = float(rows[:, joint].mean())  # it stands, whatever its sensor does
-            factor, unit = self.arm.joints[joint].shown
+            factor, unit = self.arm.joints[joint].display_unit
             reason = f"by the tool's pose it is {factor * position_error:.3g} {unit} off what its sensor says"
             self._log_action(time, "measure", reason, joint=self.arm.joint_names[joint])
 
-    def _replan(self, time: float, q: Array) -> Array:
+    def _replan(self, time: float, q: FloatArray) -> FloatArray:
         """Return rates towards an intermediate configuration, else along a route; else the arm stops, or follows the law
         without routes.
         """
@@ -384,17 +389,17 @@ class Controller:
             self._stop(time, last_reason)
         return np.zeros(self.arm.n)
 
-    def _plan_posture_change(self, q: Array, failures: Degraded) -> RouteFollower | str:
+    def _plan_posture_change(self, q: FloatArray, failures: Degraded) -> RouteFollower | str:
         posture = choose_posture(self.law, q, max_speeds=self._most, max_tool_speed=self.law.whole.speed_limit)
         return (
             "no other posture helps" if posture is None else plan_route(self.law, q, posture, failures, max_speeds=self._most)
         )
 
-    def _plan_route(self, time: float, q: Array, failures: Degraded) -> RouteFollower | str:
+    def _plan_route(self, time: float, q: FloatArray, failures: Degraded) -> RouteFollower | str:
         follower = plan_route(self.law, q, self.law.pose, failures, max_speeds=self._most)
         return self._plan_trial(time, q) or follower if isinstance(follower, str) else follower
 
-    def _plan_trial(self, time: float, q: Array) -> RouteFollower | None:
+    def _plan_trial(self, time: float, q: FloatArray) -> RouteFollower | None:
         """Plan a slow route with the braked joint too, because a joint at a stop or a slow joint looks like one without torque.
 
         It is not sent on the way that it was to go, if there is a route without. Nothing is lost: else the arm stops here.
@@ -424,7 +429,7 @@ class Controller:
         return None
 
 
-def calibrated_speeds(arm: Arm, bounds: Bounds) -> Array:
+def calibrated_speeds(arm: Arm, bounds: Bounds) -> FloatArray:
     """Return the rates (n,) for which the monitor is calibrated, rad/s and m/s, within the limits; faster motion would raise
     alarms.
     """

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.reaction.masked import MaskedLaw
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 CENTRING_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the way of all joints to the middle of their ranges
 UNLIMITED_STEP_RAD = np.pi / 2  # rad, of a joint without limits, either way
 _PATH_SEGMENTS = 16  # of the way to a posture, for the length of the tool's
 
 
-def candidate_postures(arm: Arm, q: Array, mask: Array) -> Array:
+def candidate_postures(arm: Arm, q: FloatArray, mask: FloatArray) -> FloatArray:
     """Return candidates (K, n) near q (n,), rad and m: unmasked joints nearer to their middle, or one of them there
     or beyond.
     """
@@ -33,7 +31,7 @@ def candidate_postures(arm: Arm, q: Array, mask: Array) -> Array:
     return np.array(candidates)
 
 
-def choose_posture(law: MaskedLaw, q: Array, *, max_speeds: Array, max_tool_speed: float | None) -> Array | None:
+def choose_posture(law: MaskedLaw, q: FloatArray, *, max_speeds: FloatArray, max_tool_speed: float | None) -> FloatArray | None:
     """Choose the intermediate configuration (n,) through which the target is reached soonest; None if none reaches it.
 
     Args:

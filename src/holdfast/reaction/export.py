@@ -122,7 +122,7 @@ def export_controller(
 def _masked_law_source(law: Law) -> str:
     q, v, mask = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m), ca.SX.sym("mask", law.arm.n)
     j = law.jacobian(q) @ ca.diag(mask)
-    function = CFunction({"q": q, "v": v, "mask": mask}, {"j": [j.T], "scaled": [law.scaled(v)]})
+    function = CFunction({"q": q, "v": v, "mask": mask}, {"j": [j.T], "scaled": [law.scale_velocity(v)]})
     return f"{write_c_functions({'seen': function})}\n{law.inverse_in_c()}"
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.mjcf import import_mujoco, silence_mujoco
@@ -28,12 +28,14 @@ from holdfast.physics.servos import Servos, reference_leads
 from holdfast.reaction.controller import Controller
 from holdfast.reaction.masked import MaskedLaw
 from holdfast.reaction.run import Ended, FaultRun, React
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 CONTROL_RATE_HZ = 1000.0  # Hz, of the control cycle without a monitor
 DEFAULT_TIME_LIMIT_S = 12.0  # s
-POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD, DWELL_S = 5e-3, np.deg2rad(1.0), 0.2  # m, rad, s: a target that is reached
+# POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD and DWELL_S: m, rad, s: a target that is reached
+POSITION_TOLERANCE_M = 5e-3
+ORIENTATION_TOLERANCE_RAD = np.deg2rad(1.0)
+DWELL_S = 0.2
 POSE_RATE_HZ = 100.0  # Hz, of the measured tool
 IDLE_END_S = 0.5  # s after which nothing more is expected
 
@@ -168,7 +170,7 @@ class _SimulatedRobot:
     def __init__(
         self,
         law: Law,
-        start: Array,
+        start: FloatArray,
         body: Body,
         servos: Servos,
         *,
@@ -195,23 +197,25 @@ class _SimulatedRobot:
         self.reference, self.lead, self._pose = start.copy(), reference_leads(law.arm, stiffness), pose
         self.gravity_of = law.arm._gravity_torque_kernel.single_row()
         self.began: dict[FaultEvent, float] = {}
-        self.rows: list[tuple[Array, ...]] = []
+        self.rows: list[tuple[FloatArray, ...]] = []
         self.gravity = self.gravity_of(start)
 
-    def sense(self, cycle: int) -> tuple[Array, Array | None]:
+    def sense(self, cycle: int) -> tuple[FloatArray, FloatArray | None]:
         """Return the measured joint positions in a cycle and the measured tool pose, None without a sample."""
         self.injector.before_step(cycle * self.dt)
         for event, position in self.injector.places.items():
             self.began.setdefault(event, position)
         true = self.data.qpos
-        q_measured = self.injector.read(true, reference=self.reference) + self.rng.normal(0, self.body.joint, self.arm.n)
+        q_measured = self.injector.read_sensors(true, reference=self.reference) + self.rng.normal(
+            0, self.body.joint, self.arm.n
+        )
         self.drives.sense(q_measured, true)
         self.v = self.data.qvel + self.drives.rate_error
         if not self._pose or cycle % self.every:
             return q_measured, None
-        return q_measured, self.body.measured(self.arm.forward_kinematics(true[None]), self.rng)[0]
+        return q_measured, self.body.measure_poses(self.arm.forward_kinematics(true[None]), self.rng)[0]
 
-    def move(self, q: Array, rates: Array, mask: Array) -> Array:
+    def move(self, q: FloatArray, rates: FloatArray, mask: FloatArray) -> FloatArray:
         """Advance one cycle with commanded rates, the joints assumed at q (n,), and return the recorded motor torques (n,)."""
         reference = np.minimum(np.maximum(self.reference + self.dt * rates, q - self.lead), q + self.lead)
         inside = np.clip(reference, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
@@ -227,14 +231,14 @@ class _SimulatedRobot:
         return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
 
     def record_cycle(
-        self, true: Array, q_measured: Array, torque: Array, pose: Array | None, errors: tuple[float, float]
+        self, true: FloatArray, q_measured: FloatArray, torque: FloatArray, pose: FloatArray | None, errors: tuple[float, float]
     ) -> None:
         """Record a cycle."""
         self.rows.append(
             (true, q_measured, self.reference, torque, np.full(16, np.nan) if pose is None else pose.ravel(), np.array(errors))
         )
 
-    def recorded_arrays(self) -> dict[str, Array]:
+    def recorded_arrays(self) -> dict[str, FloatArray]:
         """Return the fields of :class:`FaultRun` that are rows over time."""
         from scipy.spatial.transform import Rotation
 

@@ -15,16 +15,17 @@ from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import task_error
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 LIMIT_TOLERANCE = 2e-3  # rad or m: a joint so near to its limit is at it, whatever the noise
-MIN_PROGRESS, PROGRESS_TIMEOUT_S = (
-    1e-3,
-    1.5,
-)  # m and rad, s: a law that does not bring the tool so much nearer in this time is at its end
+# MIN_PROGRESS and PROGRESS_TIMEOUT_S: m and rad, s: a law that does not bring the tool so much nearer in this time is at its
+# end
+MIN_PROGRESS = 1e-3
+PROGRESS_TIMEOUT_S = 1.5
 TARGET_TOLERANCE = 2e-3  # m and rad: a law that would come so near to its target reaches it
-PREDICTION_HORIZON_S, PREDICTION_STEP_S = 12.0, 0.05  # s: how far ahead a law is followed, and in which steps
+# PREDICTION_HORIZON_S and PREDICTION_STEP_S: s: how far ahead a law is followed, and in which steps
+PREDICTION_HORIZON_S = 12.0
+PREDICTION_STEP_S = 0.05
 
 
 @cached_kernel
@@ -39,7 +40,9 @@ def make_masked_kernel(law: Law) -> Kernel:
     position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     error, _ = task_error(arm, task, q, position, rotation)
     jacobian, secondary_rates = law.jacobian(q) @ ca.diag(mask), mask * pull
-    rates = mask * (law.inverse(jacobian, law.scaled(law.command(error)) - jacobian @ secondary_rates) + secondary_rates)
+    rates = mask * (
+        law.inverse(jacobian, law.scale_velocity(law.command(error)) - jacobian @ secondary_rates) + secondary_rates
+    )
     parts = [ca.norm_2(ca.SX(ca.DM(task.rows[:, rows].T)) @ error) for rows in (slice(0, 3), slice(3, 6))]
     return Kernel("law with a mask", [q, position, rotation, mask, pull], [ca.vertcat(rates, *parts)])
 
@@ -81,7 +84,7 @@ class MaskedLaw:
         self._run = self._kernel.single_row()
         self._row = np.concatenate([np.zeros(n), self.pose[:3, 3], self.pose[:3, :3].ravel(), np.ones(n), np.zeros(n)])
 
-    def rates(self, q: Array, *, mask: Array | None = None) -> Array:
+    def rates(self, q: FloatArray, *, mask: FloatArray | None = None) -> FloatArray:
         """Return commanded rates (n,) at a configuration (n,), rad/s and m/s; a joint at its limit is not commanded
         beyond it.
         """
@@ -99,17 +102,17 @@ class MaskedLaw:
             rates = self.rates(q, mask=np.where(passing, 0.0, free))
         return rates
 
-    def target_errors(self, q: Array) -> tuple[float, float]:
+    def target_errors(self, q: FloatArray) -> tuple[float, float]:
         """Return the position error in m and the orientation error in rad at a configuration (n,)."""
         self._row[: self._n] = q
         outputs = self._run(self._row)
         return float(outputs[self._n]), float(outputs[self._n + 1])
 
-    def is_collision_free(self, q: Array) -> NDArray[np.bool_]:
+    def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return whether the arm keeps its clearance, (N,) for configurations (N, n), or a scalar for one configuration."""
         return np.ones(q.shape[:-1], dtype=bool) if self._apart is None else self._apart.margin_left(q) >= 0
 
-    def predict_time_to_target(self, q: Array, *, max_speeds: Array) -> Array:
+    def predict_time_to_target(self, q: FloatArray, *, max_speeds: FloatArray) -> FloatArray:
         """Return the times (N,) in s at which the law would reach its target from configurations (N, n); infinite where it
         would not.
 
@@ -134,7 +137,7 @@ class MaskedLaw:
             q[active] = np.clip(q[active] + step * rates / slower[:, None], self._lower, self._upper)
         return durations
 
-    def _evaluate_batch(self, q: Array) -> tuple[Array, Array]:
+    def _evaluate_batch(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return rates (N, n) as :meth:`rates` does, and the sum of position and orientation error (N,), m and rad."""
         free, position, rotation = np.tile(self.mask, (len(q), 1)), self.pose[:3, 3], self.pose[:3, :3]
         while True:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.failures import Degraded
 from holdfast.reaction.masked import MaskedLaw
 from holdfast.recovery import TimedMotion, recover
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 ACCELERATION_LIMIT = 10.0  # rad/s^2 or m/s^2, of commanded rates
 ROUTE_PACE = 0.5  # of the motion at its fastest
@@ -29,7 +27,7 @@ class RouteFollower:
         duration: From its start to its end at the full pace, s.
     """
 
-    def __init__(self, motion: TimedMotion, *, waypoints: int, max_tool_speed: float | None, max_speeds: Array) -> None:
+    def __init__(self, motion: TimedMotion, *, waypoints: int, max_tool_speed: float | None, max_speeds: FloatArray) -> None:
         self.waypoints, self._motion, self._at = waypoints, motion, 0.0
         tool = (motion.arm.jacobian(motion.q)[:, :3] @ motion.qd[:, :, None])[..., 0]
         limit = np.inf if max_tool_speed is None else max_tool_speed
@@ -43,7 +41,7 @@ class RouteFollower:
         """True once the end of the route is reached."""
         return bool(self._at >= self._motion.time[-1])
 
-    def rates(self, q: Array, *, pace: float, dt: float) -> Array:
+    def rates(self, q: FloatArray, *, pace: float, dt: float) -> FloatArray:
         """Return rates (n,) for the next ``dt`` s along the route at a fraction of its pace, and back to it for an arm at q
         (n,).
         """
@@ -58,7 +56,9 @@ class RouteFollower:
         return np.asarray(rate * qd_route + ROUTE_GAIN_PER_S * (q_route - q))
 
 
-def plan_route(law: MaskedLaw, q: Array, goal: Array, failures: Degraded, *, max_speeds: Array) -> RouteFollower | str:
+def plan_route(
+    law: MaskedLaw, q: FloatArray, goal: FloatArray, failures: Degraded, *, max_speeds: FloatArray
+) -> RouteFollower | str:
     """Plan a route to a goal, or return a phrase with the obstacle; planning takes no simulated time because the arm waits.
 
     Args:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.clearance.contacts import Contact, find_first_contacts
@@ -20,6 +19,7 @@ from holdfast.paths.joint_table import joint_columns
 from holdfast.physics.body import Body
 from holdfast.physics.servos import Servos
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from holdfast.control.law import Law
     from holdfast.diagnosis.kinds import FaultVerdict
 
-Array = NDArray[np.float64]
 React = Literal["none", "stop", "chain", "known"]
 Ended = Literal["reached", "stopped", "missed", "unstable"]
 What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "stop"]
@@ -100,24 +99,24 @@ class FaultRun(Result):
     law: Law
     servos: Servos
     body: Body
-    target: Array
+    target: FloatArray
     react: React
     events: FaultEvents
-    places: Array
+    places: FloatArray
     actions: tuple[Action, ...]
     verdicts: tuple[FaultVerdict, ...]
     degraded: Degraded | None
     outcome: Ended
     clearance: Clearance | None = None
-    time: Array
-    q: Array
-    q_measured: Array
-    reference: Array
-    torque: Array
-    x: Array
-    quat: Array
-    position_error: Array
-    orientation_error: Array
+    time: FloatArray
+    q: FloatArray
+    q_measured: FloatArray
+    reference: FloatArray
+    torque: FloatArray
+    x: FloatArray
+    quat: FloatArray
+    position_error: FloatArray
+    orientation_error: FloatArray
 
     @property
     def arm(self) -> Arm:
@@ -152,7 +151,7 @@ class FaultRun(Result):
         return self.delay < 0
 
     @cached_property
-    def poses(self) -> Array:
+    def poses(self) -> FloatArray:
         """(T, 4, 4) of the end effector, m, world."""
         return self.arm.forward_kinematics(self.q)
 

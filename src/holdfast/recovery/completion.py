@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.recovery.question import RecoveryGoal
 from holdfast.recovery.recovery import Recovery, RecoveryOutcome
@@ -15,11 +14,10 @@ from holdfast.recovery.space import FreeSpace
 from holdfast.recovery.timing.motion import TimedMotion, time_motion
 from holdfast.recovery.verification import Verification, verify_waypoints
 from holdfast.recovery.waypoints import FIRST_COLUMNS, compute_first_column
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
-
-Array = NDArray[np.float64]
 
 
 def complete_recovery(
@@ -28,7 +26,7 @@ def complete_recovery(
     rows: TaskRows,
     aim: RecoveryGoal | None,
     path: Path | None,
-    timing_limits: tuple[Array, float] | None,
+    timing_limits: tuple[FloatArray, float] | None,
 ) -> Recovery:
     """Verify a recovery that has a motion, and time the motion if that is requested.
 
@@ -46,7 +44,7 @@ def complete_recovery(
         path_samples = recovery.rest.share, slice(leg.first, leg.last + 1)
 
     def verify_motion(
-        q: Array, path_samples_used: tuple[Array, slice] | None, timing: tuple[Array, Array] | None = None
+        q: FloatArray, path_samples_used: tuple[FloatArray, slice] | None, timing: tuple[FloatArray, FloatArray] | None = None
     ) -> Verification:
         goal_is_met = recovery.ending == RecoveryOutcome.GOAL_REACHED
         return verify_waypoints(
@@ -87,7 +85,7 @@ def complete_recovery(
     return replace(recovery, timed=timed_result, verified=verified.merge_timed(timed_verification))
 
 
-def _select_path_samples(timed: TimedMotion) -> tuple[Array, slice] | None:
+def _select_path_samples(timed: TimedMotion) -> tuple[FloatArray, slice] | None:
     """Return the fractions of the tool path of the samples that lie on it, and their slice; None if there are fewer
     than two.
     """

@@ -16,19 +16,20 @@ from holdfast.recovery.routes import find_reachable_goals
 from holdfast.recovery.rows import RowSolver, list_subsets, rank_relaxed_rows
 from holdfast.recovery.space import FreeSpace, JointMetric
 from holdfast.recovery.timing.motion import PATH_TOLERANCE
+from holdfast.typing import BoolArray, FloatArray
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 _SAMPLE_SPACING = 0.01  # m or rad of the end effector between samples
-_MIN_SAMPLES, _MAX_SAMPLES = 20, 400  # samples
+# _MIN_SAMPLES and _MAX_SAMPLES: samples
+_MIN_SAMPLES = 20
+_MAX_SAMPLES = 400
 _STARTS_PER_SET = 12
 _REFINEMENT_FACTOR = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
 _INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
-_MAX_BISECTIONS = 8  # times what is between two waypoints is, until it is near the path
+_MAX_WAYPOINT_BISECTIONS = 8  # times what is between two waypoints is, until it is near the path
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,13 +52,13 @@ class RestOfPath:
     """
 
     furthest: float
-    share: Array
-    found: Flags
-    q: Array
+    share: FloatArray
+    found: BoolArray
+    q: FloatArray
     deviation: float
     given_up: RelaxedRows | None
     starts: int
-    begin: Array | None = None
+    begin: FloatArray | None = None
     cut_off: bool = False
     graph: int = 0
 
@@ -103,10 +104,10 @@ def follow_rest_of_path(
     space: FreeSpace,
     metric: JointMetric,
     path: Path,
-    q_start: Array,
+    q_start: FloatArray,
     start_count: int,
     rng: np.random.Generator,
-) -> tuple[RestOfPath, list[Array]]:
+) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow a path from configurations of its first pose; also return every motion (S, n) found, the shortest first."""
     fractions = _sample_fractions(path)
     poses = path.pose(fractions)
@@ -143,10 +144,10 @@ def continue_unfinished_path(
     space: FreeSpace,
     metric: JointMetric,
     path: Path,
-    q_start: Array,
+    q_start: FloatArray,
     start_count: int,
     rng: np.random.Generator,
-) -> tuple[RestOfPath, list[Array]]:
+) -> tuple[RestOfPath, list[FloatArray]]:
     """Continue an unfinished path to its furthest reachable point; also return the motion if it gets to the end.
 
     Followed are all configurations of the first pose that were found and to which a motion leads.
@@ -182,9 +183,9 @@ def _follow_samples(
     space: FreeSpace,
     metric: JointMetric,
     path: Path,
-    first_configurations: Array,
+    first_configurations: FloatArray,
     refinement: int = 1,
-) -> tuple[RestOfPath, list[Array]]:
+) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow the path from configurations (R, n) of its first pose, with ``refinement`` times as many samples."""
     positions = np.arange((len(rest.share) - 1) * refinement + 1) / refinement
     fractions = np.interp(positions, np.arange(len(rest.share)), rest.share)
@@ -201,8 +202,8 @@ def _follow_samples(
 
 
 def relax_fewest_rows(
-    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q_start: Array, rng: np.random.Generator
-) -> tuple[RestOfPath, list[Array]]:
+    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q_start: FloatArray, rng: np.random.Generator
+) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow the path with as few rows relaxed as possible; also return the motion (S, n) if there is one."""
     poses = path.pose(rest.share)
     for size in range(1, solver.rows.m):
@@ -222,7 +223,7 @@ def relax_fewest_rows(
     return rest, []
 
 
-def _sample_fractions(path: Path) -> Array:
+def _sample_fractions(path: Path) -> FloatArray:
     rotations = path.pose(np.linspace(0, 1, 65))[:, :3, :3]
     rotation_steps = rotation_vectors(rotations[1:] @ rotations[:-1].transpose(0, 2, 1))
     total_rotation = float(np.linalg.norm(rotation_steps, axis=1).sum()) if path.oriented else 0.0
@@ -233,9 +234,9 @@ def _sample_fractions(path: Path) -> Array:
 def _retry_unreached(
     solver: RowSolver,
     space: FreeSpace,
-    poses: Array,
-    is_reached: Flags,
-    q_start: Array,
+    poses: FloatArray,
+    is_reached: BoolArray,
+    q_start: FloatArray,
     start_count: int,
     rng: np.random.Generator,
 ) -> bool:
@@ -248,7 +249,7 @@ def _retry_unreached(
 
 
 def _is_reachable(
-    solver: RowSolver, space: FreeSpace, pose: Array, q_start: Array, rng: np.random.Generator, start_count: int = 15
+    solver: RowSolver, space: FreeSpace, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator, start_count: int = 15
 ) -> bool:
     initial_configurations = np.concatenate(
         [q_start[None], solver.sample_configurations(start_count, q_start, space.free, rng)]
@@ -257,8 +258,8 @@ def _is_reachable(
 
 
 def _track_poses(
-    solver: RowSolver, space: FreeSpace, poses: Array, first_configurations: Array, row_masks: Array
-) -> tuple[Array, NDArray[np.int64]]:
+    solver: RowSolver, space: FreeSpace, poses: FloatArray, first_configurations: FloatArray, row_masks: FloatArray
+) -> tuple[FloatArray, NDArray[np.int64]]:
     """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of
     each (R,).
     """
@@ -286,13 +287,18 @@ def _track_poses(
     return q, last_samples
 
 
-def _sort_by_length(metric: JointMetric, motions: list[Array]) -> list[Array]:
+def _sort_by_length(metric: JointMetric, motions: list[FloatArray]) -> list[FloatArray]:
     return sorted(motions, key=lambda q: float(metric.cumulative_length(q)[-1]))
 
 
 def _find_best_row_set(
-    solver: RowSolver, space: FreeSpace, poses: Array, q_start: Array, row_sets: list[tuple[int, ...]], rng: np.random.Generator
-) -> tuple[tuple[int, ...], Array] | None:
+    solver: RowSolver,
+    space: FreeSpace,
+    poses: FloatArray,
+    q_start: FloatArray,
+    row_sets: list[tuple[int, ...]],
+    rng: np.random.Generator,
+) -> tuple[tuple[int, ...], FloatArray] | None:
     """Return the preferred set of rows without which the path is followed, and the motion with the least errors."""
     initial_configurations = np.concatenate(
         [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
@@ -321,7 +327,7 @@ def _find_best_row_set(
     return row_sets[set_indices[is_valid][best]], q[:, best]
 
 
-def add_motion(rest: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array | float = 1.0) -> RestOfPath:
+def add_motion(rest: RestOfPath, solver: RowSolver, path: Path, q: FloatArray, mask: FloatArray | float = 1.0) -> RestOfPath:
     """Return the result with the motion q (S, n) and its deviation between waypoints, of the rows whose ``mask`` is 1."""
     middle_poses = path.pose((rest.share[1:] + rest.share[:-1]) / 2)
     deviation = np.abs(solver.compute_errors((q[1:] + q[:-1]) / 2, middle_poses) * mask).max()
@@ -329,8 +335,8 @@ def add_motion(rest: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: 
 
 
 def refine_waypoints(
-    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q: Array
-) -> tuple[RestOfPath, Array] | None:
+    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q: FloatArray
+) -> tuple[RestOfPath, FloatArray] | None:
     """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
 
     Where joints move fast, as beside a singular configuration, straight lines in joint space are no straight lines of the tool.
@@ -339,7 +345,7 @@ def refine_waypoints(
         np.array(solver.rows.units) == "m", PATH_TOLERANCE[0] * max(solver.arm.length_unit, 1.0), PATH_TOLERANCE[1]
     )
     fractions, is_reached = rest.share, rest.found
-    for _ in range(_MAX_BISECTIONS):
+    for _ in range(_MAX_WAYPOINT_BISECTIONS):
         inner_configurations = q[:-1, None] + _INNER_FRACTIONS[:, None] * np.diff(q, axis=0)[:, None]
         inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
         path_errors = np.abs(

@@ -11,8 +11,7 @@ from holdfast.notice import track
 from holdfast.recovery.rows import RowSolver, list_subsets, rank_relaxed_rows
 from holdfast.recovery.space import FreeSpace, JointMetric
 from holdfast.solvers.descent import minimise_constrained
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MAX_CONFIGURATIONS = 48  # configurations of a goal that are kept, the nearest ones
 _SELF_MOTION_STEPS = 25
@@ -51,18 +50,18 @@ class RelaxedGoal:
     """Set of rows to relax and configurations (K, n) that meet the others."""
 
     relaxed_rows: RelaxedRows
-    q: Array
+    q: FloatArray
 
 
 def find_goal_configurations(
     solver: RowSolver,
     space: FreeSpace,
     metric: JointMetric,
-    pose: Array,
-    q_start: Array,
+    pose: FloatArray,
+    q_start: FloatArray,
     start_count: int,
     rng: np.random.Generator,
-) -> Array:
+) -> FloatArray:
     """Return configurations (K, n) that meet every row of a pose (4, 4), the nearest to ``q_start`` first; maybe none.
 
     From random starts and from ``q_start``; each is then moved along the self-motion of the pose towards ``q_start``.
@@ -91,7 +90,7 @@ def find_goal_configurations(
     return _remove_duplicates(q[np.argsort(metric.measure_length(q - q_start), kind="stable")])
 
 
-def solve_pose(solver: RowSolver, space: FreeSpace, pose: Array, initial_configurations: Array) -> Array:
+def solve_pose(solver: RowSolver, space: FreeSpace, pose: FloatArray, initial_configurations: FloatArray) -> FloatArray:
     """Return valid configurations (K, n) that meet every row of a pose (4, 4), from initial configurations (N, n)."""
     poses, row_masks = (
         np.repeat(pose[None], len(initial_configurations), axis=0),
@@ -103,13 +102,15 @@ def solve_pose(solver: RowSolver, space: FreeSpace, pose: Array, initial_configu
     return np.asarray(q[_are_valid(solver, space, q, poses, row_masks)])
 
 
-def project_onto_constraints(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, row_masks: Array) -> Array:
+def project_onto_constraints(
+    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, row_masks: FloatArray
+) -> FloatArray:
     """Project q (N, n) so that the rows whose mask (N, m) is above 0 and the tool constraints are met together."""
     indices = np.zeros(0, dtype=np.intp) if space.manifold is None else np.flatnonzero(~space.manifold.is_satisfied(q))
     if space.manifold is None or not indices.size:
         return q
 
-    def goal_rows(trial: Array, trial_indices: NDArray[np.intp]) -> tuple[Array, Array]:
+    def goal_rows(trial: FloatArray, trial_indices: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
         is_active, pose = row_masks[indices[trial_indices]] > 0, poses[indices[trial_indices]]
         return solver.compute_errors(trial, pose) * is_active, -solver.compute_jacobian(trial, pose) * is_active[:, :, None]
 
@@ -118,7 +119,7 @@ def project_onto_constraints(solver: RowSolver, space: FreeSpace, q: Array, pose
     return q
 
 
-def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: Array, q_start: Array, seed: int) -> str:
+def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: FloatArray, q_start: FloatArray, seed: int) -> str:
     """Return the pair that most often is too close where one of poses (G, 4, 4) is met; empty if there is none."""
     rng = np.random.default_rng(seed)
     for pose in poses:
@@ -136,14 +137,16 @@ def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: Array, q_star
     return ""
 
 
-def _are_valid(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, row_masks: Array) -> NDArray[np.bool_]:
+def _are_valid(
+    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, row_masks: FloatArray
+) -> NDArray[np.bool_]:
     is_valid = solver.meets_rows(q, poses, row_masks, space.free)
     indices = np.flatnonzero(is_valid)
     is_valid[indices] = space.are_valid(q[indices])
     return is_valid
 
 
-def _remove_duplicates(q: Array) -> Array:
+def _remove_duplicates(q: FloatArray) -> FloatArray:
     """Return the first of configurations that are the same, up to the number that a goal keeps."""
     retained: list[int] = []
     for candidate in range(len(q)):
@@ -155,13 +158,13 @@ def _remove_duplicates(q: Array) -> Array:
 
 
 def find_rows_to_relax(
-    solver: RowSolver, space: FreeSpace, metric: JointMetric, pose: Array, q_start: Array, rng: np.random.Generator
+    solver: RowSolver, space: FreeSpace, metric: JointMetric, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator
 ) -> list[RelaxedGoal]:
     """Return every minimal set found of rows to relax so that a pose is met: fewest rows first, orientations before positions.
 
     A row that is met all the same is not given up; of a set without any row left the configurations meet the whole pose.
     """
-    rows, configurations = solver.rows, dict[tuple[int, ...], Array]()
+    rows, configurations = solver.rows, dict[tuple[int, ...], FloatArray]()
     for size in range(1, rows.m):
         row_sets = list_subsets(rows.m, size, list(configurations))
         if not row_sets or space.is_time_over:
@@ -200,13 +203,13 @@ def find_rows_to_relax(
 
 
 def _reduce_row_set(
-    solver: RowSolver, space: FreeSpace, pose: Array, q: Array, dropped_rows: tuple[int, ...]
-) -> dict[tuple[int, ...], Array]:
+    solver: RowSolver, space: FreeSpace, pose: FloatArray, q: FloatArray, dropped_rows: tuple[int, ...]
+) -> dict[tuple[int, ...], FloatArray]:
     """Return configurations by the rows that they violate, from some (N, n) that meet all rows except the relaxed ones.
 
     Those are moved to where the rows given up are missed least, and to where one of them is met too, if that leads anywhere.
     """
-    configurations, open_sets = dict[tuple[int, ...], Array](), [(dropped_rows, q)]
+    configurations, open_sets = dict[tuple[int, ...], FloatArray](), [(dropped_rows, q)]
     while open_sets:
         lost_rows, initial_configurations = open_sets.pop()
         polished = [
@@ -236,10 +239,10 @@ def _select_least_error(
     solver: RowSolver,
     metric: JointMetric,
     space: FreeSpace,
-    pose: Array,
-    q_start: Array,
+    pose: FloatArray,
+    q_start: FloatArray,
     dropped_rows: tuple[int, ...],
-    q: Array,
+    q: FloatArray,
 ) -> RelaxedGoal:
     """Select the configurations (N, n) with the least error of the relaxed rows, the nearest first."""
     row_errors = np.abs(solver.compute_errors(q, np.repeat(pose[None], len(q), axis=0))[:, dropped_rows])
@@ -251,15 +254,17 @@ def _select_least_error(
     return RelaxedGoal(RelaxedRows(tuple(names), tuple(row_errors[error_norms.argmin()].tolist()), tuple(units)), selected)
 
 
-def _minimize_row_errors(solver: RowSolver, space: FreeSpace, pose: Array, q: Array, lost_rows: list[int]) -> Array:
+def _minimize_row_errors(
+    solver: RowSolver, space: FreeSpace, pose: FloatArray, q: FloatArray, lost_rows: list[int]
+) -> FloatArray:
     """Minimize the errors of the lost rows from q (n,), where the other rows are met."""
     arm, clearance = solver.arm, space.clearance
     met_rows = [index for index in range(solver.rows.m) if index not in lost_rows]
 
-    def errors(x: Array) -> Array:
+    def errors(x: FloatArray) -> FloatArray:
         return np.asarray(solver.compute_errors(x[None], pose[None])[0])
 
-    def evaluate_objective(x: Array) -> tuple[float, Array, Array, Array]:
+    def evaluate_objective(x: FloatArray) -> tuple[float, FloatArray, FloatArray, FloatArray]:
         error, jacobian = errors(x), solver.compute_jacobian(x, pose)
         values, gradients = error[met_rows], jacobian[met_rows]
         if clearance is not None:

@@ -6,19 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.notice import track
 from holdfast.recovery.goals import project_onto_constraints, solve_pose
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import FreeSpace, JointMetric
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
 
 MAX_JOINT_STEP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
 _MAX_LAYER_CONFIGURATIONS = 150  # configurations of a pose
@@ -45,7 +42,7 @@ class LadderGraph:
         configuration_count: Configurations in all layers.
     """
 
-    motions: list[Array]
+    motions: list[FloatArray]
     last_sample: int
     configuration_count: int
 
@@ -54,9 +51,9 @@ def search_ladder_graph(
     solver: RowSolver,
     space: FreeSpace,
     metric: JointMetric,
-    poses: Array,
-    first_configurations: Array,
-    q_start: Array,
+    poses: FloatArray,
+    first_configurations: FloatArray,
+    q_start: FloatArray,
     start_count: int,
     rng: np.random.Generator,
 ) -> LadderGraph:
@@ -100,7 +97,7 @@ def search_ladder_graph(
     configuration_count = sum(map(len, layers))
     if len(layers) < len(poses):
         return LadderGraph([], len(layers) - 1, configuration_count)
-    motions: dict[int, Array] = {}
+    motions: dict[int, FloatArray] = {}
     for last_index in np.argsort(costs, kind="stable"):
         indices = [int(last_index)]
         for source in sources[:0:-1]:
@@ -120,8 +117,8 @@ class PathContinuation:
         configuration_count: Configurations of all places together, where self-motion was used; else 0.
     """
 
-    fractions: Array
-    q: Array
+    fractions: FloatArray
+    q: FloatArray
     configuration_count: int
 
 
@@ -130,7 +127,7 @@ def continue_path(
     space: FreeSpace,
     metric: JointMetric,
     path: Path,
-    first_configurations: Array,
+    first_configurations: FloatArray,
     *,
     stride: float,
     rng: np.random.Generator,
@@ -183,12 +180,12 @@ def _compute_next_layer(
     solver: RowSolver,
     space: FreeSpace,
     metric: JointMetric,
-    before: Array,
-    costs: Array,
-    pose: Array,
+    before: FloatArray,
+    costs: FloatArray,
+    pose: FloatArray,
     copies: int,
     rng: np.random.Generator,
-) -> tuple[Array, Index, Array]:
+) -> tuple[FloatArray, IndexArray, FloatArray]:
     """Return configurations (K, n) of a pose one step from configurations (N, n), the source of each, and the costs so far."""
     source = np.tile(np.arange(len(before)), 1 + copies)
     perturbed = before[source]
@@ -211,7 +208,9 @@ def _compute_next_layer(
     return after[selected], source[selected], total_costs[selected]
 
 
-def _solve_poses(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, before: Array) -> tuple[Array, Flags]:
+def _solve_poses(
+    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, before: FloatArray
+) -> tuple[FloatArray, BoolArray]:
     """Solve poses (N, 4, 4) from q (N, n); also return which solutions meet their pose and are one step from ``before``."""
     row_masks = np.ones((len(q), solver.rows.m))
     after = project_onto_constraints(solver, space, solver.solve(q, poses, row_masks, space.free), poses, row_masks)
@@ -220,7 +219,7 @@ def _solve_poses(solver: RowSolver, space: FreeSpace, q: Array, poses: Array, be
     )
 
 
-def _select_widest_spread(q: Array, costs: Array, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> Index:
+def _select_widest_spread(q: FloatArray, costs: FloatArray, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> IndexArray:
     """Return the indices of the cheapest of configurations (N, n), then repeatedly of the one farthest from all selected."""
     if not len(q):
         return np.zeros(0, dtype=np.int64)
@@ -234,7 +233,9 @@ def _select_widest_spread(q: Array, costs: Array, max_count: int = _MAX_LAYER_CO
     return np.array(selected[:max_count])
 
 
-def shorten_along_poses(solver: RowSolver, space: FreeSpace, metric: JointMetric, poses: Array, q: Array) -> Array:
+def shorten_along_poses(
+    solver: RowSolver, space: FreeSpace, metric: JointMetric, poses: FloatArray, q: FloatArray
+) -> FloatArray:
     """Shorten the motion (S, n) along self-motions: each configuration moves towards the middle of its neighbors."""
     q = q.copy()
     for _ in range(_SHORTENING_SWEEPS):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
@@ -21,12 +21,12 @@ from holdfast.recovery.goals import RelaxedRows
 from holdfast.recovery.recovery import RecoveryOutcome
 from holdfast.recovery.rows import TaskRows
 from holdfast.solvers import joint_space
+from holdfast.typing import FloatArray
 from holdfast.words import list_names
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
 
-Array = NDArray[np.float64]
 
 NARROWEST_CONE_RAD = 1e-4  # rad, of a cone that the tool's axis may be in
 LOCK_TOLERANCE = 1e-6  # rad and m: a joint this near to its angle is there
@@ -44,8 +44,8 @@ class RecoveryGoal:
     """
 
     description: str
-    poses: Array
-    q: Array | None = None
+    poses: FloatArray
+    q: FloatArray | None = None
     mismatched_locks: RelaxedRows | None = None
 
 
@@ -89,7 +89,7 @@ class StartProblem(NamedTuple):
     certain: bool = True
 
 
-def find_home(arm: Arm) -> tuple[Array, str]:
+def find_home(arm: Arm) -> tuple[FloatArray, str]:
     """Return the home configuration (n,), rad and m, and its description: the state "home", or all joints as near to 0 as
     possible.
     """
@@ -142,7 +142,7 @@ def parse_goal(
     goal: ArrayLike | str | None,
     within: float | None,
     has_task: bool,
-    q_start: Array,
+    q_start: FloatArray,
     clearance: Clearance | None,
     margin: float,
     path: Path | None,
@@ -204,7 +204,7 @@ def parse_goal(
     return RecoveryGoal(text, poses, None, relaxed)
 
 
-def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRows | None, pose: Array) -> str:
+def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRows | None, pose: FloatArray) -> str:
     """Describe the tool constraint that every configuration of a goal pose (4, 4) violates; empty if none is proved to be.
 
     Args:
@@ -230,14 +230,18 @@ def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRow
     return ""
 
 
-def describe_doubtful_contact(clearance: Clearance, q: Array, margin: float) -> str:
+def describe_doubtful_contact(clearance: Clearance, q: FloatArray, margin: float) -> str:
     """Report that a configuration (n,) may be collision-free although the bounding capsules are too close, and name the gap."""
     unknown = describe_unknown_shape(clearance) or f"exact distances ({clearance.exact_by}) do not decide it"
     return f"it is not known whether the arm {clearance.too_close(margin, q)}: {unknown}; give its meshes or its real capsules"
 
 
 def find_start_problem(
-    degraded: Degraded, q_start: Array, clearance: Clearance | None, margin: float, constraints: Sequence[ToolConstraint] = ()
+    degraded: Degraded,
+    q_start: FloatArray,
+    clearance: Clearance | None,
+    margin: float,
+    constraints: Sequence[ToolConstraint] = (),
 ) -> StartProblem | None:
     """Return the reason why the arm may not start, or None if it may."""
     arm, lock_values = degraded.arm, degraded.lo

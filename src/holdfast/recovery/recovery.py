@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
@@ -26,12 +25,12 @@ from holdfast.recovery.timing.motion import TimedMotion
 from holdfast.recovery.verification import Verification
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from holdfast.certificates.joint_boxes.refutations import Refutation
 
-Array = NDArray[np.float64]
 Answer = Literal["solved", "proved infeasible", "argued infeasible", "undecided"]
 ProofKind = Literal["start", "limits", "reach bound", "boxes", "a pose of the path", "rows kept", "disconnected"]
 
@@ -41,8 +40,9 @@ class RecoveryVerdict:
     """Feasibility of everything that was requested, and its justification.
 
     Attributes:
-        answer: ``solved``: a motion was found and verified by other code. ``proved infeasible``: none does it, up to floating
-            point. ``argued infeasible``: every configuration that the search found is blocked, or none was found, which
+        answer: ``is_solved``: a motion was found and verified by other code. ``proved infeasible``: none does it, up to
+            floating point. ``argued infeasible``: every configuration that the search found is blocked, or none was found,
+            which
             proves nothing. ``undecided``: the search was spent, or what it found was not verified.
         why: The proof, what was searched, or at which level the search was spent; empty if solved.
         kind: Of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a pose
@@ -55,7 +55,7 @@ class RecoveryVerdict:
     kind: ProofKind | Literal[""] = ""
 
     @property
-    def solved(self) -> bool:
+    def is_solved(self) -> bool:
         """True if the motion does everything that was requested, confirmed by independent code."""
         return self.answer == "solved"
 
@@ -189,14 +189,14 @@ class Recovery(Result):
     """
 
     degraded: Degraded
-    at: Array
+    at: FloatArray
     goal: str
-    goal_pose: Array | None
+    goal_pose: FloatArray | None
     task: Task
     within: float | None = None
     ending: RecoveryOutcome = RecoveryOutcome.GOAL_REACHED
     reason: str = ""
-    q: Array
+    q: FloatArray
     timed: TimedMotion | None = None
     legs: tuple[Leg, ...] = ()
     relaxed: RelaxedRows | None = None
@@ -204,7 +204,7 @@ class Recovery(Result):
     unknown: str = ""
     proof: str | None = None
     proof_kind: ProofKind | Literal[""] = ""
-    proved_pose: Array | None = None
+    proved_pose: FloatArray | None = None
     closed_in: Literal["", "start", "goal"] = ""
     stopped: str = ""
     verified: Verification | None = None
@@ -239,7 +239,7 @@ class Recovery(Result):
     @property
     def ok(self) -> bool:
         """True only if everything that was requested is met, confirmed by independent code."""
-        return self.verdict.solved
+        return self.verdict.is_solved
 
     @property
     def verdict(self) -> RecoveryVerdict:
@@ -354,7 +354,7 @@ class Recovery(Result):
         lines = [
             f"{self.arm.title}, {self.degraded.describe()}; goal: {self.goal}",
             f"{capitalise_first(self.ending.phrase)}: {self.ending.sentence}",
-            f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.solved and self.verified is not None else ""),
+            f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.is_solved and self.verified is not None else ""),
         ]
         lines += [f"kept all the way: {constraint}" for constraint in self.keep]
         if self.reason and self.reason != self.verdict.why:

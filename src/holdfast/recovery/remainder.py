@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.clearance.clearance import Clearance
 from holdfast.failures import Degraded
@@ -14,9 +13,7 @@ from holdfast.probability.intervals import Interval, WeightSums
 from holdfast.recovery.rows import RowSolver
 from holdfast.regions.region import Region
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 STARTS_PER_TARGET = 48  # per target
 
@@ -46,9 +43,9 @@ class RemainingWorkspace(Result):
     region: str
     degraded: Degraded
     rows: tuple[str, ...]
-    position: Array
-    healthy: Flags
-    locked: Flags
+    position: FloatArray
+    healthy: BoolArray
+    locked: BoolArray
     starts: int
 
     def describe(self) -> list[str]:
@@ -116,9 +113,9 @@ def remaining_workspace(
     )
 
 
-def _estimate_fraction(weights: Array, is_hit: Flags, heaviest: float) -> Interval:
+def _estimate_fraction(weights: FloatArray, is_hit: BoolArray, heaviest: float) -> Interval:
     if (weights == weights[0]).all():
-        return Interval.of(int(is_hit.sum()), len(is_hit))
+        return Interval.from_counts(int(is_hit.sum()), len(is_hit))
     weight_sums = WeightSums(largest=heaviest)
     weight_sums.add(weights)
     fraction = min(float(weights[is_hit].sum() / weight_sums.weight), 1.0)
@@ -127,7 +124,7 @@ def _estimate_fraction(weights: Array, is_hit: Flags, heaviest: float) -> Interv
 
 def _sample_healthy(
     solver: RowSolver, clearance: Clearance | None, margin: float, samples: int, rng: np.random.Generator
-) -> Array:
+) -> FloatArray:
     """Sample configurations of the healthy arm, collision-free ones if requested; fewer than ``samples`` if hardly any is."""
     all_joints = np.ones(solver.arm.n, dtype=bool)
     configurations = np.zeros((0, solver.arm.n))
@@ -139,7 +136,7 @@ def _sample_healthy(
     return configurations[:samples]
 
 
-def _sample_region(region: Region, samples: int, seed: int) -> Array:
+def _sample_region(region: Region, samples: int, seed: int) -> FloatArray:
     blocks, count = [], 0
     for block in region.blocks(0, seed, count=samples):
         blocks.append(block.copy())
@@ -151,13 +148,13 @@ def _sample_region(region: Region, samples: int, seed: int) -> Array:
 
 def _find_reached(
     solver: RowSolver,
-    poses: Array,
-    q_locked: Array,
-    free: Flags,
+    poses: FloatArray,
+    q_locked: FloatArray,
+    free: BoolArray,
     clearance: Clearance | None,
     margin: float,
     rng: np.random.Generator,
-) -> Flags:
+) -> BoolArray:
     """Return (N,) True where a random start leads to a configuration of the pose that respects limits and clearance."""
     is_reached = np.zeros(len(poses), dtype=bool)
     used_starts, batch_starts = 0, 2

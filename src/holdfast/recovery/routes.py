@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from holdfast.notice import track
 from holdfast.recovery.space import FreeSpace, JointMetric
 from holdfast.solvers import joint_space
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
 _BATCH_SAMPLES = 48  # samples a round
@@ -41,7 +40,7 @@ class Route:
         straight: It is one straight line.
     """
 
-    q: Array
+    q: FloatArray
     length: float
     lower_bound: float
     goal: int
@@ -51,8 +50,8 @@ class Route:
 def find_route(
     space: FreeSpace,
     metric: JointMetric,
-    start: Array,
-    goals: Array,
+    start: FloatArray,
+    goals: FloatArray,
     search_count: int,
     rng: np.random.Generator,
     *,
@@ -106,7 +105,9 @@ def find_route(
     return best_route
 
 
-def find_reachable_goals(space: FreeSpace, metric: JointMetric, start: Array, goals: Array, rng: np.random.Generator) -> Flags:
+def find_reachable_goals(
+    space: FreeSpace, metric: JointMetric, start: FloatArray, goals: FloatArray, rng: np.random.Generator
+) -> BoolArray:
     """Return (G,) True for the goals (G, n) to which a motion from start (n,) was found, straight or by one search each."""
     goals = start + space.shortest_difference(goals, start)
     is_reached = space.extend_paths(metric, np.repeat(start[None], len(goals), axis=0), goals - start)[1]
@@ -129,15 +130,15 @@ def find_reachable_goals(space: FreeSpace, metric: JointMetric, start: Array, go
 class _RouteTree:
     """Configurations that can be reached from the roots, with the parent of each."""
 
-    def __init__(self, space: FreeSpace, metric: JointMetric, roots: Array) -> None:
+    def __init__(self, space: FreeSpace, metric: JointMetric, roots: FloatArray) -> None:
         self._space, self._metric = space, metric
         self._is_unlimited = joint_space.is_unlimited(space.arm) & space.free
         self.nodes = roots.copy()
         self.parent = np.full(len(roots), -1)
-        self._inner_points: dict[int, Array] = {}
+        self._inner_points: dict[int, FloatArray] = {}
         self._embedded_nodes = self._embed_configurations(roots)
 
-    def _embed_configurations(self, q: Array) -> Array:
+    def _embed_configurations(self, q: FloatArray) -> FloatArray:
         """Return points (N, e) whose distances approximately order configurations as the metric does: a revolute joint is a
         circle.
         """
@@ -146,9 +147,9 @@ class _RouteTree:
         angles = q[:, self._is_unlimited]
         return np.concatenate([linear_part, scales * np.cos(angles), scales * np.sin(angles)], axis=1)
 
-    def add_paths(self, extensions: list[Array], parents: Indices) -> Indices:
+    def add_paths(self, extensions: list[FloatArray], parents: Indices) -> Indices:
         """Add paths (k, n) from parents, except empty ones, and return the last nodes of the others."""
-        nodes, parent_nodes, last_nodes = list[Array](), list[int](), list[int]()
+        nodes, parent_nodes, last_nodes = list[FloatArray](), list[int](), list[int]()
         for extension, parent in zip(extensions, parents.tolist(), strict=True):
             for first in range(0, len(extension), _NODE_SPACING_STEPS):
                 piece = extension[first : first + _NODE_SPACING_STEPS]
@@ -166,13 +167,13 @@ class _RouteTree:
             self._embedded_nodes = np.concatenate([self._embedded_nodes, self._embed_configurations(np.stack(nodes))])
         return np.array(last_nodes, dtype=np.intp)
 
-    def find_nearest(self, q: Array) -> tuple[NDArray[np.intp], Array]:
+    def find_nearest(self, q: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
         """Return the node nearest to each q (N, n), and ``q`` minus that node (N, n)."""
         points, node_points = self._embed_configurations(q), self._embedded_nodes
         indices = ((node_points**2).sum(axis=1) - 2 * points @ node_points.T).argmin(axis=1)
         return indices, self._space.shortest_difference(q, self.nodes[indices])
 
-    def trace_to_root(self, node: int) -> tuple[Array, int]:
+    def trace_to_root(self, node: int) -> tuple[FloatArray, int]:
         """Return the configurations (K, n) from a node back to its root, and that root."""
         pieces, root = [], node
         while node >= 0:
@@ -182,8 +183,8 @@ class _RouteTree:
 
 
 def _connect_by_trees(
-    space: FreeSpace, metric: JointMetric, start: Array, goals: Array, rng: np.random.Generator
-) -> tuple[Array, int] | None:
+    space: FreeSpace, metric: JointMetric, start: FloatArray, goals: FloatArray, rng: np.random.Generator
+) -> tuple[FloatArray, int] | None:
     """Return a route from start (n,) to one of the goals (G, n) and the index of the goal, or None after the last round."""
     start_tree, goal_tree = _RouteTree(space, metric, start[None]), _RouteTree(space, metric, goals)
     max_step = _STEP_FRACTION * float(metric.measure_length(np.where(space.free, space.high - space.low, 0.0)))
@@ -211,7 +212,7 @@ def _connect_by_trees(
     return None
 
 
-def _count_new_ends(metric: JointMetric, tree: _RouteTree, extensions: list[Array], max_step: float) -> int:
+def _count_new_ends(metric: JointMetric, tree: _RouteTree, extensions: list[FloatArray], max_step: float) -> int:
     """Count the extensions that end far from every node of the tree."""
     ends = [extension[-1] for extension in extensions if len(extension)]
     return (
@@ -221,7 +222,7 @@ def _count_new_ends(metric: JointMetric, tree: _RouteTree, extensions: list[Arra
     )
 
 
-def _limit_step(metric: JointMetric, differences: Array, max_step: float) -> Array:
+def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -> FloatArray:
     lengths = metric.measure_length(differences)
     return np.asarray(differences * np.minimum(1.0, max_step / np.maximum(lengths, 1e-12))[:, None])
 
@@ -250,7 +251,7 @@ def _grow_until_meeting(
 
 def _join_branches(
     space: FreeSpace, start_tree: _RouteTree, goal_tree: _RouteTree, meeting_nodes: tuple[int, int]
-) -> tuple[Array, int]:
+) -> tuple[FloatArray, int]:
     (start_branch, _), (goal_branch, root) = (
         start_tree.trace_to_root(meeting_nodes[0]),
         goal_tree.trace_to_root(meeting_nodes[1]),
@@ -260,7 +261,7 @@ def _join_branches(
     return np.concatenate([start_branch[::-1], goal_branch + shift]), root
 
 
-def shorten_path(space: FreeSpace, metric: JointMetric, q: Array, rng: np.random.Generator) -> Array:
+def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Shorten the path q (K, n) by straight segments between random points of it, until that no longer helps."""
     if space.manifold is not None and space.manifold.has_equalities:
         return _remove_waypoints(space, _shorten_constrained(space, metric, q, rng))
@@ -285,7 +286,7 @@ def shorten_path(space: FreeSpace, metric: JointMetric, q: Array, rng: np.random
     return _remove_waypoints(space, q)
 
 
-def _shorten_constrained(space: FreeSpace, metric: JointMetric, q: Array, rng: np.random.Generator) -> Array:
+def _shorten_constrained(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Shorten a path on which constraints hold exactly, by extensions along them from waypoint to waypoint."""
     idle_rounds = 0
     while len(q) > 2 and idle_rounds < _MAX_IDLE_ROUNDS and not space.is_time_over:
@@ -306,12 +307,12 @@ def _shorten_constrained(space: FreeSpace, metric: JointMetric, q: Array, rng: n
     return q
 
 
-def _interpolate(q: Array, lengths: Array, s: Array) -> Array:
+def _interpolate(q: FloatArray, lengths: FloatArray, s: FloatArray) -> FloatArray:
     """Return points (N, n) of the path q (K, n) with cumulative lengths (K,) at lengths s (N,)."""
     return np.stack([np.interp(s, lengths, column) for column in q.T], axis=1)
 
 
-def _remove_waypoints(space: FreeSpace, q: Array) -> Array:
+def _remove_waypoints(space: FreeSpace, q: FloatArray) -> FloatArray:
     """Remove waypoints that no proof needs, because the path without one of them is not longer."""
     index = 1
     while index < len(q) - 1:

@@ -9,7 +9,6 @@ from typing import Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
@@ -21,9 +20,8 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import damped_step, pose_error
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Frame = Literal["base", "tool"]
 
 ROW_TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
@@ -51,7 +49,7 @@ class TaskRows:
     """
 
     names: tuple[str, ...]
-    matrix: Array
+    matrix: FloatArray
     linear: Frame
     angular: Frame
     within: float | None = None
@@ -76,7 +74,7 @@ class TaskRows:
         return units + ("rad",) * (self.within is not None)
 
 
-def _name_row(row: Array, index: int, linear: str, angular: str) -> str:
+def _name_row(row: FloatArray, index: int, linear: str, angular: str) -> str:
     nonzero = np.flatnonzero(np.abs(row) > 1e-12)
     frame = "tool " if (linear if nonzero[0] < 3 else angular) == "tool" else ""
     if nonzero.size == 1:
@@ -200,11 +198,11 @@ class RowSolver:
         """Return the solver for the same arm with other limits; nothing is compiled again."""
         return RowSolver(self._kernels, limited)
 
-    def compute_errors(self, q: Array, poses: Array) -> Array:
+    def compute_errors(self, q: FloatArray, poses: FloatArray) -> FloatArray:
         """Return the signed error (N, m) of every row at q (N, n), m and rad."""
         return self._kernels.error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])
 
-    def is_inside_cone(self, q: Array, pose: Array) -> Flags:
+    def is_inside_cone(self, q: FloatArray, pose: FloatArray) -> BoolArray:
         """Return (N,) True where the tool's z axis at q (N, n) is within the angle of that of a pose (4, 4), or
         none is given.
         """
@@ -212,13 +210,15 @@ class RowSolver:
             return np.ones(len(q), dtype=bool)
         return ~self.find_violated_rows(q, np.repeat(pose[None], len(q), axis=0))[:, -1]
 
-    def compute_jacobian(self, q: Array, pose: Array) -> Array:
+    def compute_jacobian(self, q: FloatArray, pose: FloatArray) -> FloatArray:
         """Return the exact derivative (m, n) of the errors at q (n,) and pose (4, 4), or (N, m, n) at (N, n) and (N, 4, 4)."""
         poses = pose.reshape(-1, 4, 4)
         entries = self._kernels.jacobian_kernel.rows(np.atleast_2d(q), poses[:, :3, 3], poses[:, :3, :3])
         return np.asarray(entries.reshape((*q.shape[:-1], self.rows.m, self.arm.n)))
 
-    def solve(self, q: Array, poses: Array, weights: Array, free: Flags, max_steps: int = _MAX_STEPS) -> Array:
+    def solve(
+        self, q: FloatArray, poses: FloatArray, weights: FloatArray, free: BoolArray, max_steps: int = _MAX_STEPS
+    ) -> FloatArray:
         """Iterate from q (N, n) with row weights (N, m); joints that are not free (n,) stay locked."""
         count = len(q)
         limits = np.clip([self.arm.lower, self.arm.upper], -_UNLIMITED, _UNLIMITED)
@@ -233,22 +233,22 @@ class RowSolver:
         )
         return self._kernels.solver_loop.run(q, parameters, (1e-2 * self._tolerance) ** 2, max_steps).state
 
-    def meets_rows(self, q: Array, poses: Array, row_masks: Array, free: Flags) -> Flags:
+    def meets_rows(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray, free: BoolArray) -> BoolArray:
         """Return (N,) True where free joints are within limits and the rows with a mask (N, m) above 0 are within tolerance."""
         inside = (((q >= self.arm.lower) & (q <= self.arm.upper)) | ~free).all(axis=1)
         return np.asarray(inside & ~(self.find_violated_rows(q, poses) & (row_masks > 0)).any(axis=1))
 
-    def find_violated_rows(self, q: Array, poses: Array) -> Flags:
+    def find_violated_rows(self, q: FloatArray, poses: FloatArray) -> BoolArray:
         """Return (N, m) True for rows whose error at q (N, n) exceeds the tolerance."""
         return np.asarray(~(np.abs(self.compute_errors(q, poses) / self._scale) <= self._tolerance))
 
-    def solve_relaxed(self, q: Array, poses: Array, row_masks: Array, free: Flags) -> Array:
+    def solve_relaxed(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray, free: BoolArray) -> FloatArray:
         """Solve from q (N, n) the rows with a mask (N, m) above 0, with the least errors of the other rows."""
         if (row_masks == 0).any():
             q = self.solve(q, poses, np.where(row_masks > 0, 1.0, _RELAXED_ROW_WEIGHT), free)
         return self.solve(q, poses, row_masks, free)
 
-    def sample_configurations(self, count: int, q_locked: Array, free: Flags, rng: np.random.Generator) -> Array:
+    def sample_configurations(self, count: int, q_locked: FloatArray, free: BoolArray, rng: np.random.Generator) -> FloatArray:
         """Sample configurations (count, n) uniformly within the limits; joints that are not free are as in ``q_locked``."""
         lower, upper = finite_limits(self.arm)
         return np.where(free, rng.uniform(lower, upper, (count, self.arm.n)), q_locked)

@@ -8,7 +8,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import as_configurations
@@ -60,12 +60,10 @@ from holdfast.recovery.second_try import retry_with_exact_distances
 from holdfast.recovery.space import FreeSpace, JointMetric, MetricName
 from holdfast.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
 from holdfast.regions.region import Region
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.paths.path import Path
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 @check_arguments
@@ -241,7 +239,7 @@ class _RecoverySearch:
         metric: JointMetric,
         search_count: int,
         rng: np.random.Generator,
-        timing_limits: tuple[Array, float] | None,
+        timing_limits: tuple[FloatArray, float] | None,
     ) -> None:
         self._timing_limits = timing_limits
         self._first_searches = max(
@@ -255,11 +253,11 @@ class _RecoverySearch:
             search_count,
             rng,
         )
-        self._motions: list[Array] = []
+        self._motions: list[FloatArray] = []
         self._legs: list[Leg] = []
         self._stopped_at = ""
 
-    def run(self, q_start: Array, target: RecoveryGoal | None, path: Path | None) -> Recovery:
+    def run(self, q_start: FloatArray, target: RecoveryGoal | None, path: Path | None) -> Recovery:
         q_current = q_start
         rest: RestOfPath | None = None
         if path is not None:
@@ -289,7 +287,7 @@ class _RecoverySearch:
         if self.space.is_time_over and not self._stopped_at:
             self._stopped_at = step_name
 
-    def _add_leg(self, name: str, q: Array, lower_bound: float, straight: bool) -> None:
+    def _add_leg(self, name: str, q: FloatArray, lower_bound: float, straight: bool) -> None:
         length = float(self.metric.cumulative_length(q)[-1])
         first = max(sum(len(motion) for motion in self._motions) - 1, 0)
         self._legs.append(
@@ -297,7 +295,7 @@ class _RecoverySearch:
         )
         self._motions.append(q if not self._motions else q[1:])
 
-    def _finish_path(self, q_current: Array, path: Path) -> RestOfPath:
+    def _finish_path(self, q_current: FloatArray, path: Path) -> RestOfPath:
         """Follow the path if possible; return the first motion that can be reached, the shortest first."""
         rest, motions = follow_rest_of_path(
             self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
@@ -323,13 +321,13 @@ class _RecoverySearch:
         rest, motions = self._extend_path(joined_rest, path, q_current)
         return self._join_path(q_current, path, rest, motions) if motions else rest
 
-    def _extend_path(self, rest: RestOfPath, path: Path, q_current: Array) -> tuple[RestOfPath, list[Array]]:
+    def _extend_path(self, rest: RestOfPath, path: Path, q_current: FloatArray) -> tuple[RestOfPath, list[FloatArray]]:
         """Extend the motion along the path as far as possible; also return the motion if it gets to the end."""
         return continue_unfinished_path(
             rest, self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
         )
 
-    def _join_path(self, q_current: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
+    def _join_path(self, q_current: FloatArray, path: Path, rest: RestOfPath, motions: list[FloatArray]) -> RestOfPath:
         """Join the first of the motions along the path that can be reached and is near the path everywhere."""
         route, proof = self._find_route_or_proof(
             q_current, np.stack([candidate[0] for candidate in motions]), path.pose(rest.share[:1])
@@ -356,12 +354,12 @@ class _RecoverySearch:
         self._add_leg("along the path", motion, float(self.metric.measure_length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
-    def _search_route(self, q_current: Array, goals: Array, repeat_count: int = 0) -> Route | None:
+    def _search_route(self, q_current: FloatArray, goals: FloatArray, repeat_count: int = 0) -> Route | None:
         search_count, max_failures = (repeat_count, None) if repeat_count else (self.search_count, self._first_searches)
         return find_route(self.space, self.metric, q_current, goals, search_count, self.rng, max_failures=max_failures)
 
     def _find_route_or_proof(
-        self, q_current: Array, goals: Array, poses: Array, q_goal: Array | None = None
+        self, q_current: FloatArray, goals: FloatArray, poses: FloatArray, q_goal: FloatArray | None = None
     ) -> tuple[Route | None, tuple[str, bool] | None]:
         """Find a route, or a proof that there is none; the proof is tried after the first failed searches, before
         the others.
@@ -376,7 +374,7 @@ class _RecoverySearch:
             route = self._search_route(q_current, goals, self.search_count - self._first_searches)
         return route, proof
 
-    def _move_to_goal(self, q_current: Array, target: RecoveryGoal) -> Recovery:
+    def _move_to_goal(self, q_current: FloatArray, target: RecoveryGoal) -> Recovery:
         """Find a motion to the goal, or to a goal with relaxed rows."""
         recovery = self.recovery
         violations = [

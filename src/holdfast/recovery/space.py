@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
@@ -17,9 +16,8 @@ from holdfast.errors import InputError
 from holdfast.keep.kept import ToolConstraint
 from holdfast.keep.manifold import ConstraintManifold
 from holdfast.solvers import joint_space
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 MetricName = Literal["travel", "time"]
 
 MIN_RESOLVED_MOTION_M = (
@@ -40,10 +38,10 @@ class JointMetric:
     """
 
     name: MetricName
-    scale: Array
+    scale: FloatArray
 
     @classmethod
-    def for_arm(cls, arm: Arm, name: MetricName, weights: Array | None, free: Flags) -> JointMetric:
+    def for_arm(cls, arm: Arm, name: MetricName, weights: FloatArray | None, free: BoolArray) -> JointMetric:
         """Return the metric of an arm whose healthy joints are ``free`` (n,).
 
         Raises:
@@ -73,12 +71,12 @@ class JointMetric:
         """Unit ``s``, or ``rad`` (1 m of a prismatic joint counts as 1 rad)."""
         return "s" if self.name == "time" else "rad"
 
-    def measure_length(self, differences: Array) -> Array:
+    def measure_length(self, differences: FloatArray) -> FloatArray:
         """Return the length of differences (..., n)."""
         scaled = differences * self.scale
         return np.asarray(np.abs(scaled).max(axis=-1) if self.name == "time" else np.linalg.norm(scaled, axis=-1))
 
-    def cumulative_length(self, q: Array) -> Array:
+    def cumulative_length(self, q: FloatArray) -> FloatArray:
         """Return the length (K,) of the path q (K, n) up to each of its points."""
         return np.concatenate([[0.0], np.cumsum(self.measure_length(np.diff(q, axis=0)))])
 
@@ -102,10 +100,10 @@ class FreeSpace:
     def __init__(
         self,
         arm: Arm,
-        free: Flags,
+        free: BoolArray,
         clearance: Clearance | None,
         margin: float,
-        around: Array,
+        around: FloatArray,
         *,
         constraints: Sequence[ToolConstraint] = (),
     ) -> None:
@@ -137,11 +135,11 @@ class FreeSpace:
         """True if the time for searches is over."""
         return self.seconds_left == 0
 
-    def are_within_limits(self, q: Array) -> Flags:
+    def are_within_limits(self, q: FloatArray) -> BoolArray:
         """Return (N,) True within the limits; locked joints are ignored."""
         return np.asarray((((q >= self._lower) & (q <= self._upper)) | ~self.free).all(axis=-1))
 
-    def are_valid(self, q: Array) -> Flags:
+    def are_valid(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where configurations (N, n) respect limits, constraints, and clearance."""
         is_valid = self.are_within_limits(q)
         if self.manifold is not None and is_valid.any():
@@ -150,7 +148,7 @@ class FreeSpace:
             is_valid[is_valid] = self._constraint_margins(q[is_valid]).min(axis=1) >= 0
         return is_valid
 
-    def are_segments_valid(self, a: Array, b: Array, deviations: Array | None = None) -> Flags:
+    def are_segments_valid(self, a: FloatArray, b: FloatArray, deviations: FloatArray | None = None) -> BoolArray:
         """Return (E,) True where the straight segment from a to b (E, n) provably respects limits, constraints, and clearance.
 
         With ``deviations`` (E, n) also everything whose joints are off it by no more, limits left aside.
@@ -159,7 +157,7 @@ class FreeSpace:
         most that its distance can change on the way (:meth:`Clearance.changes`). Pieces for which that does not do are
         halved, until it does or L is below half a millimetre: such a piece counts as blocked.
         """
-        is_valid: Flags = self.are_within_limits(a) & self.are_within_limits(b)
+        is_valid: BoolArray = self.are_within_limits(a) & self.are_within_limits(b)
         if self.manifold is not None and is_valid.any():
             is_valid[is_valid] = self.manifold.prove_edges(
                 a[is_valid], b[is_valid], None if deviations is None else deviations[is_valid]
@@ -199,7 +197,9 @@ class FreeSpace:
                 np.concatenate([middle_margins, last_margins]),
             )
 
-    def extend_paths(self, metric: JointMetric, start: Array, directions: Array) -> tuple[list[Array], Flags]:
+    def extend_paths(
+        self, metric: JointMetric, start: FloatArray, directions: FloatArray
+    ) -> tuple[list[FloatArray], BoolArray]:
         """Extend paths from start (N, n) towards ``start + directions`` as far as possible, and return which of them arrive.
 
         A way is one straight piece, or nothing; where rows are kept it goes in pieces, each brought back to the rows, as long
@@ -211,7 +211,7 @@ class FreeSpace:
             return [
                 target[None] if indices else start[:0] for target, indices in zip(targets, has_arrived, strict=True)
             ], has_arrived
-        pieces: list[list[Array]] = [[] for _ in start]
+        pieces: list[list[FloatArray]] = [[] for _ in start]
         is_valid_target = self.manifold.is_satisfied(targets)
         current, has_arrived, active = start.copy(), np.zeros(len(start), dtype=bool), np.arange(len(start))
         for _ in range(_MAX_EXTENSION_STEPS):
@@ -237,29 +237,29 @@ class FreeSpace:
             active = active[indices[~is_last_step[indices]]]
         return [np.array(points) if points else start[:0] for points in pieces], has_arrived
 
-    def _constraint_margins(self, q: Array) -> Array:
+    def _constraint_margins(self, q: FloatArray) -> FloatArray:
         """Return (N, P) the distance of every pair beyond the required one, m."""
         assert self.clearance is not None
         return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)
 
-    def name_closest_pair(self, q: Array) -> str:
+    def name_closest_pair(self, q: FloatArray) -> str:
         """Return the pair most often closest among the q (N, n) that are too close, as ``panda_joint4 & table``, or nothing."""
         if self.clearance is None:
             return ""
         pairs = self.clearance.closest_pair(q[self.clearance.margin_left(q) < self.margin])
         return self.clearance.pair_names[int(np.bincount(pairs).argmax())] if len(pairs) else ""
 
-    def describe_obstruction(self, start: Array, goal: Array) -> str:
+    def describe_obstruction(self, start: FloatArray, goal: FloatArray) -> str:
         """Name the pair that a straight line from a start (n,) to a goal (n,) collides with, a clause; empty if
         there is none.
         """
         pair = self.name_closest_pair(start + np.linspace(0, 1, 201)[:, None] * self.shortest_difference(goal, start))
         return f"; in the way of the straight line: {pair}" if pair else ""
 
-    def shortest_difference(self, a: Array, b: Array) -> Array:
+    def shortest_difference(self, a: FloatArray, b: FloatArray) -> FloatArray:
         """Return ``a - b`` of the joints that move, the shorter way round for joints without limits."""
         return np.where(self.free, joint_space.joint_difference(self.arm, a, b), 0.0)
 
-    def sample(self, count: int, rng: np.random.Generator) -> Array:
+    def sample(self, count: int, rng: np.random.Generator) -> FloatArray:
         """Sample random configurations (count, n) of the box."""
         return rng.uniform(self.low, self.high, (count, self.arm.n))

@@ -8,13 +8,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import HoldfastError
 from holdfast.failures import Degraded
 from holdfast.recovery.waypoints import FIRST_COLUMNS, check_waypoints, compute_first_column, subdivide_path
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from holdfast.paths.path import Path
     from holdfast.recovery.rows import TaskRows
 
-Array = NDArray[np.float64]
 
 WAYPOINT_TOLERANCE = 1e-5  # m of an arm of about 1 m, and rad
 PATH_TOLERANCE = 1e-3, np.deg2rad(0.5)  # m and rad: between the waypoints along a tool path
@@ -79,17 +78,17 @@ class Verification:
 
 def verify_waypoints(
     degraded: Degraded,
-    q_start: Array,
-    q: Array,
+    q_start: FloatArray,
+    q: FloatArray,
     *,
     rows: TaskRows,
-    goals: Array | None = None,
-    goal_q: Array | None = None,
-    path_samples: tuple[Path, Array, slice] | None = None,
+    goals: FloatArray | None = None,
+    goal_q: FloatArray | None = None,
+    path_samples: tuple[Path, FloatArray, slice] | None = None,
     constraints: Sequence[ToolConstraint] = (),
     clearance: Clearance | None = None,
     margin: float = 0.0,
-    timing_limits: tuple[Array, Array] | None = None,
+    timing_limits: tuple[FloatArray, FloatArray] | None = None,
 ) -> Verification:
     """Check a motion through waypoints (K, n), straight in joint space, in steps of 2 mrad.
 
@@ -184,7 +183,7 @@ def verify_waypoints(
     )
 
 
-def compute_row_errors(arm: Arm, rows: TaskRows, q: Array, poses: Array) -> Array:
+def compute_row_errors(arm: Arm, rows: TaskRows, q: FloatArray, poses: FloatArray) -> FloatArray:
     """Return the signed errors (N, m) of rows at q (N, n) and poses (N, 4, 4), m and rad, by chains of matrices in
     NumPy alone.
     """
@@ -206,7 +205,7 @@ def compute_row_errors(arm: Arm, rows: TaskRows, q: Array, poses: Array) -> Arra
     return np.column_stack([errors, np.maximum(tilt - rows.within, 0.0)])
 
 
-def compute_tool_poses(arm: Arm, q: Array) -> Array:
+def compute_tool_poses(arm: Arm, q: FloatArray) -> FloatArray:
     """Return poses (N, 4, 4) of the tool at q (N, n), joint by joint with Rodrigues' formula and without a compiled kernel."""
     pose = np.repeat(arm.base[None], len(q), axis=0)
     for index, joint in enumerate(arm.joints):

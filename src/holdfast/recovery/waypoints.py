@@ -14,7 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import require_real_numbers
 from holdfast.arm.model import Arm
@@ -29,15 +29,14 @@ from holdfast.keep.labels import KeepLike, anchor_constraints
 from holdfast.paths.joint_table import JointTable, joint_columns, motion_columns, read_joint_table
 from holdfast.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 FIRST_COLUMNS = ("time_s", "travel_rad")
 _MAX_JOINT_STEP = 2e-3  # rad and m between configurations looked at
 _CHUNK_ROWS = 100_000
 
 
-def compute_first_column(arm: Arm, q: Array) -> tuple[str, Array]:
+def compute_first_column(arm: Arm, q: FloatArray) -> tuple[str, FloatArray]:
     """Return the name and values (K,) of the first column for waypoints (K, n)."""
     joint_steps = np.abs(np.diff(q, axis=0))
     max_speeds = np.array([joint.velocity for joint in arm.joints])
@@ -48,7 +47,7 @@ def compute_first_column(arm: Arm, q: Array) -> tuple[str, Array]:
     return FIRST_COLUMNS[1], np.concatenate([[0.0], np.cumsum(np.linalg.norm(joint_steps, axis=1))])[: len(q)]
 
 
-def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
+def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
     """Write waypoints (K, n), rad and m, with every digit.
 
     Raises:
@@ -63,7 +62,7 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
     return file
 
 
-def read_waypoints(arm: Arm, path: str | Path) -> Array:
+def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
     """Read waypoints (K, n), rad and m, from a file of :func:`write_waypoints`; other columns are not needed.
 
     Raises:
@@ -72,7 +71,7 @@ def read_waypoints(arm: Arm, path: str | Path) -> Array:
     return _read_table(arm, path).read_columns(joint_columns(arm))
 
 
-def read_times(arm: Arm, path: str | Path) -> Array | None:
+def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
     """Read the times (K,) of such waypoints, s; None where the file has none.
 
     Raises:
@@ -116,8 +115,8 @@ class WaypointCheck(Result):
         paced: What of these was looked at: ``speeds``, ``speeds and accelerations``, or nothing.
     """
 
-    q: Array
-    poses: Array
+    q: FloatArray
+    poses: FloatArray
     looked_at: int
     beyond_limits: dict[str, float]
     locks_moved: dict[str, float]
@@ -238,7 +237,7 @@ def check_waypoints(
 
 
 def _check_pace(
-    arm: Arm, degraded: Degraded | None, q: Array, time: ArrayLike | None, accelerations: AccelerationsLike | None
+    arm: Arm, degraded: Degraded | None, q: FloatArray, time: ArrayLike | None, accelerations: AccelerationsLike | None
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the joints that are too fast and those that accelerate too hard, by name, with means that some instant attains."""
     if time is None:
@@ -271,7 +270,7 @@ def _check_pace(
     }
 
 
-def _find_closest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
+def _find_closest(clearance: Clearance, q: FloatArray) -> tuple[float, float, str]:
     """Return the least clearance and margin of configurations (N, n), m, and the pair with the least margin."""
     parts = [q[first : first + _CHUNK_ROWS] for first in range(0, len(q), _CHUNK_ROWS)]
     margins = np.concatenate([clearance.margin_left(part) for part in parts])
@@ -280,7 +279,7 @@ def _find_closest(clearance: Clearance, q: Array) -> tuple[float, float, str]:
     return least_clearance, float(margins.min()), clearance.pair_names[pair_index] if pair_index >= 0 else ""
 
 
-def subdivide_path(q: Array) -> Array:
+def subdivide_path(q: FloatArray) -> FloatArray:
     """Return configurations along the path through q (K, n), at most 2 mrad or 2 mm of a joint apart, with the waypoints."""
     parts = [q[:1]]
     for start, end in pairwise(q):

@@ -15,8 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.regions.weights import check_weights
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
 
@@ -30,8 +29,8 @@ class PoseList:
         weights: (N,) 0 or more, or None if all count alike.
     """
 
-    rows: Array
-    weights: Array | None = None
+    rows: FloatArray
+    weights: FloatArray | None = None
 
     def __post_init__(self) -> None:
         rows = np.array(self.rows, dtype=np.float64)
@@ -92,12 +91,12 @@ class PoseList:
     def __hash__(self) -> int:
         return hash(self.rows.tobytes())
 
-    def sample_indices(self, uniform: Array) -> NDArray[np.int64]:
+    def sample_indices(self, uniform: FloatArray) -> NDArray[np.int64]:
         """Return the indices from 0 of the poses for uniform numbers (B,) in [0, 1), each pose in proportion to its weight."""
         cumulative = np.cumsum(np.ones(len(self)) if self.weights is None else self.weights)
         return np.asarray(np.searchsorted(cumulative / cumulative[-1], uniform, side="right"))
 
-    def pose_matrices(self, indices: NDArray[np.int64]) -> Array:
+    def pose_matrices(self, indices: NDArray[np.int64]) -> FloatArray:
         """Return the poses (B, 4, 4) with the given indices (B,)."""
         from scipy.spatial.transform import Rotation
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -18,18 +18,18 @@ from holdfast.errors import InputError
 from holdfast.regions.pose_list import PoseList
 from holdfast.regions.weights import Density, check_weights, swap_angles
 from holdfast.result import Presentable
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Sampling = Literal["random", "sobol"]
 Draw = Callable[[np.random.Generator, int], ArrayLike | tuple[ArrayLike, ArrayLike]]
-Weight = Callable[[Array], ArrayLike]
+Weight = Callable[[FloatArray], ArrayLike]
 Order = Literal["urdf", "abdi"]
 
 _POSES_PER_BLOCK = 1024
 _CONFIGURATIONS_PER_BLOCK = 16384
 
 
-def rotation_from_rpy(rpy: ArrayLike) -> Array:
+def rotation_from_rpy(rpy: ArrayLike) -> FloatArray:
     """Return rotation matrices (..., 3, 3) from (roll, pitch, yaw), rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
 
     This is the order of the paper's toolbox, *not* the one of URDF and ROS, ``Rz(yaw) Ry(pitch) Rx(roll)``: the two swap
@@ -42,7 +42,7 @@ def rotation_from_rpy(rpy: ArrayLike) -> Array:
     return np.asarray(Rotation.from_euler("ZYX", np.asarray(rpy, dtype=np.float64)).as_matrix())
 
 
-def rpy_from_rotation(rotation: ArrayLike) -> Array:
+def rpy_from_rotation(rotation: ArrayLike) -> FloatArray:
     """Return one (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
     from scipy.spatial.transform import Rotation
 
@@ -51,7 +51,7 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
         return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
 
 
-def rotations_in_cone(axis: Array, samples: Array) -> Array:
+def rotations_in_cone(axis: FloatArray, samples: FloatArray) -> FloatArray:
     """Return rotations (N, 3, 3) whose z axes are on a spherical cap.
 
     Args:
@@ -207,7 +207,7 @@ class Region(Presentable):
         return cls("cone", middle, edge_lengths, name=name, weight=box.weight, axis=unit)
 
     @property
-    def within(self) -> float:
+    def max_tilt(self) -> float:
         """Largest angle between the tool's z axis and the axis of the cone, rad."""
         return float(np.arccos(np.clip(1 - self.size[3], -1.0, 1.0)))
 
@@ -284,7 +284,7 @@ class Region(Presentable):
 
     @classmethod
     @check_arguments
-    def around(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
+    def around_tool(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
         """Return the default region: a cube about the tool at ``q``, with edges that are the fraction ``share`` of the arm's
         reach.
 
@@ -317,13 +317,13 @@ class Region(Presentable):
         """Number of samples per block, the unit that has its own seed."""
         return _CONFIGURATIONS_PER_BLOCK if self.kind == "joints" else _POSES_PER_BLOCK
 
-    def weighted(self, count: int) -> bool:
+    def has_weights(self, count: int) -> bool:
         """Return whether ``count`` samples carry weights; samples drawn from a list in proportion to its weights carry none."""
         if self.listed is not None:
             return self.listed.weights is not None and count == len(self.listed)
         return self.weight is not None or (self.draw is not None and self.draw[1])
 
-    def blocks(self, first: int, seed: int, sampling: Sampling = "random", *, count: int | None = None) -> Iterator[Array]:
+    def blocks(self, first: int, seed: int, sampling: Sampling = "random", *, count: int | None = None) -> Iterator[FloatArray]:
         """Yield blocks of samples, in order, from block number ``first`` on.
 
         A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), of a sampler the first
@@ -348,8 +348,8 @@ class Region(Presentable):
                 yield self._scale_to_box(unit)
 
     def samples(
-        self, start: int, stop: int, block: int, *, seed: int, sampling: Sampling, count: int, out: Array | None = None
-    ) -> Array:
+        self, start: int, stop: int, block: int, *, seed: int, sampling: Sampling, count: int, out: FloatArray | None = None
+    ) -> FloatArray:
         """Return samples ``start`` up to ``stop`` of ``count``, at most one block of them, from the random numbers of one
         block.
 
@@ -379,7 +379,7 @@ class Region(Presentable):
         unit = self._sobol_engine(seed, 1, start).random(stop - start)
         return self.listed.sample_indices(unit[:, 0])[:, None].astype(np.float64)
 
-    def _sample_box(self, out: Array, start: int, block: int, seed: int, sampling: Sampling) -> Array:
+    def _sample_box(self, out: FloatArray, start: int, block: int, seed: int, sampling: Sampling) -> FloatArray:
         """Write samples of a box from number ``start`` on, which lies in ``block``, into ``out`` (N, w)."""
         if sampling == "sobol":
             out[:] = self._scale_to_box(self._sobol_engine(seed, out.shape[1], start).random(len(out)))
@@ -390,7 +390,7 @@ class Region(Presentable):
             self._scale_to_box(part)
         return out
 
-    def _scale_to_box(self, unit: Array) -> Array:
+    def _scale_to_box(self, unit: FloatArray) -> FloatArray:
         """Return samples of a box from points (N, w) of the unit cube, which they overwrite if it is contiguous."""
         size, lower = np.array(self.size), np.array(self.center) - np.array(self.size) / 2
         # Many samples side by side: numpy is half as fast on rows of a few numbers.
@@ -410,7 +410,7 @@ class Region(Presentable):
             engine.fast_forward(start)
         return engine
 
-    def _uniform_blocks(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[Array]:
+    def _uniform_blocks(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[FloatArray]:
         """Yield blocks (block, width) of points uniform in the unit cube."""
         engine = self._sobol_engine(seed, width, number * self.block) if sampling == "sobol" else None
         while True:
@@ -420,7 +420,7 @@ class Region(Presentable):
                 yield self._block_generator(seed, number).random((self.block, width))
             number += 1
 
-    def _sampler_blocks(self, number: int, seed: int) -> Iterator[Array]:
+    def _sampler_blocks(self, number: int, seed: int) -> Iterator[FloatArray]:
         assert self.draw is not None
         while True:
             yield self._check_sampled(self.draw[0](self._block_generator(seed, number), self.block), self.block)
@@ -430,7 +430,7 @@ class Region(Presentable):
     def _block_generator(seed: int, number: int) -> np.random.Generator:
         return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
 
-    def _check_sampled(self, sampled: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> Array:
+    def _check_sampled(self, sampled: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> FloatArray:
         """Return the poses of a sampler as samples (count, 13)."""
         from holdfast.arm.poses import check_poses
 
@@ -447,7 +447,7 @@ class Region(Presentable):
             raise InputError(f"{label} gave {len(matrices)} poses, asked were {count} of finite numbers")
         return np.concatenate([matrices[:, :3].reshape(count, 12), check_weights(weights, count, label)[:, None]], axis=1)
 
-    def poses(self, samples: Array) -> Array:
+    def poses(self, samples: FloatArray) -> FloatArray:
         """Return the poses (N, 4, 4) of samples (N, 6) of a box, (N, 1) of a list, or (N, 13) of a sampler."""
         if self.listed is not None:
             return self.listed.pose_matrices(samples[:, 0].astype(np.int64))
@@ -463,7 +463,7 @@ class Region(Presentable):
             matrices[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
         return matrices
 
-    def weights(self, samples: Array) -> Array:
+    def weights(self, samples: FloatArray) -> FloatArray:
         """Return the weights (N,) of samples, 1 where none are given."""
         if self.listed is not None and self.listed.weights is not None:
             return self.listed.weights[samples[:, 0].astype(np.int64)]
@@ -553,7 +553,7 @@ class Region(Presentable):
         if self.kind == "cone":
             x, y, z = np.round(self.axis, 12) + 0.0
             return (
-                f"{positions}z axis of the tool within {np.rad2deg(self.within):.4g} deg of ({x:.4g}, {y:.4g}, {z:.4g}), "
+                f"{positions}z axis of the tool within {np.rad2deg(self.max_tilt):.4g} deg of ({x:.4g}, {y:.4g}, {z:.4g}), "
                 f"uniform on the cap{weight}"
             )
         return (
@@ -580,7 +580,7 @@ def builtin_region(arm: str) -> Region | None:
     return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
 
 
-def _well_conditioned_configuration(arm: Arm, reach: float) -> Array:
+def _well_conditioned_configuration(arm: Arm, reach: float) -> FloatArray:
     """Return the best conditioned of 256 configurations (n,) about the middle of the joint ranges; lengths are divided by the
     arm's reach, m.
     """
@@ -605,5 +605,5 @@ def default_region(arm: Arm, spec: str | None = None) -> Region:
     if spec is None and arm.name in arms.names() and arms.load(arm.name).fingerprint == arm.fingerprint:
         spec = arm.name
     if spec is None or spec not in arms.names():
-        return Region.around(arm)
-    return builtin_region(spec) or Region.around(arm, arms.about(spec).home)
+        return Region.around_tool(arm)
+    return builtin_region(spec) or Region.around_tool(arm, arms.about(spec).home)

@@ -7,18 +7,17 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 Points = TypeVar("Points")
 
 COORDINATE_NAMES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
-def check_weights(weights: ArrayLike, count: int, label: str) -> Array:
+def check_weights(weights: ArrayLike, count: int, label: str) -> FloatArray:
     """Return the weights (count,) as float64.
 
     Raises:
@@ -82,7 +81,7 @@ class Density:
             raise InputError(f"region: a density needs at least one of {', '.join(COORDINATE_NAMES)}")
         return cls(tuple(pieces))
 
-    def __call__(self, samples: Array) -> Array:
+    def __call__(self, samples: FloatArray) -> FloatArray:
         """Return the weights (N,) of samples (N, 6) of a box."""
         weight = np.ones(len(samples))
         for name, points in self.pieces:

@@ -8,9 +8,9 @@ from holdfast.report.figures import cdf_figure as cdf_figure
 from holdfast.report.figures import compare_cdf_figure as compare_cdf_figure
 from holdfast.report.figures import distribution_figure as distribution_figure
 from holdfast.report.figures import draw_cdf as draw_cdf
-from holdfast.report.figures import finished as finished
 from holdfast.report.figures import legend_below as legend_below
 from holdfast.report.figures import save_png as save_png
+from holdfast.report.figures import settle_layout as settle_layout
 from holdfast.report.figures import style as style
 from holdfast.report.figures import svg as svg
 from holdfast.report.maps import map_figure as map_figure
@@ -38,7 +38,7 @@ from holdfast.report.palette import ORANGE as ORANGE
 from holdfast.report.palette import SKY as SKY
 from holdfast.report.palette import SOFT as SOFT
 from holdfast.report.places import Plane as Plane
-from holdfast.report.places import binned as binned
+from holdfast.report.places import bin_positions as bin_positions
 from holdfast.report.places import place_maps as place_maps
 from holdfast.report.scenes import Scale as Scale
 from holdfast.report.scenes import Scene as Scene

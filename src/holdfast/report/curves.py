@@ -15,9 +15,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, format_label, style
-
-Array = NDArray[np.float64]
+from holdfast.report.figures import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.typing import FloatArray
 
 # Colour, line width, line style and marker of each kind; sinks stand out.
 KINDS: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
@@ -45,8 +44,8 @@ class StationaryCurve:
     """
 
     kind: str
-    locked_values: Array
-    panel_values: Sequence[Array]
+    locked_values: FloatArray
+    panel_values: Sequence[FloatArray]
 
 
 def stationary_curves_figure(
@@ -110,7 +109,7 @@ def stationary_curves_figure(
             handles.append(Patch(color=_REACHABLE_COLOR, label="target within reach"))
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def basin_map_figure(
@@ -118,7 +117,7 @@ def basin_map_figure(
     names: Sequence[str],
     extent: tuple[float, float, float, float],
     points: Sequence[tuple[str, float, float, str]],
-    lines: Sequence[tuple[Array, Array]],
+    lines: Sequence[tuple[FloatArray, FloatArray]],
     labels: tuple[str, str],
     caption: str,
 ) -> Figure:
@@ -164,7 +163,7 @@ def basin_map_figure(
             if label.endswith("deg"):
                 axis.set_major_locator(MultipleLocator(60))
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float, float, float]], caption: str) -> Figure:
@@ -192,7 +191,7 @@ def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float,
         axes.set(xlabel="fraction of starts, %", xlim=(0, 112), ylim=(len(names) - 0.45, -0.55))
         axes.grid(axis="y", visible=False)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _choose_basin_colors(names: Sequence[str]) -> list[str]:
@@ -210,7 +209,7 @@ def _choose_basin_colors(names: Sequence[str]) -> list[str]:
     return colors
 
 
-def _break_at_jumps(x: Array, y: Array, period: float = 360.0) -> tuple[Array, Array]:
+def _break_at_jumps(x: FloatArray, y: FloatArray, period: float = 360.0) -> tuple[FloatArray, FloatArray]:
     """Insert NaN where a value wraps around, so that no line runs across the figure."""
     jumps = np.flatnonzero((np.abs(np.diff(x)) > 0.5 * period) | (np.abs(np.diff(y)) > 0.5 * period)) + 1
     return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)

@@ -25,7 +25,6 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
-from numpy.typing import NDArray
 
 from holdfast.files.output import replace_file
 from holdfast.notice import count_one
@@ -40,9 +39,8 @@ from holdfast.report.palette import ORANGE as ORANGE
 from holdfast.report.palette import PURPLE as PURPLE
 from holdfast.report.palette import SKY as SKY
 from holdfast.report.palette import SOFT as SOFT
+from holdfast.typing import FloatArray
 from holdfast.words import format_percent, on_one_line
-
-Array = NDArray[np.float64]
 
 # Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
 CURVE_COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
@@ -173,8 +171,8 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
 class Curve:
     """Cumulative distribution: ``share`` at ``x``, with a band of half width ``band`` if that is above 0."""
 
-    x: Array
-    share: Array
+    x: FloatArray
+    share: FloatArray
     label: str
     _: KW_ONLY
     second: bool = False
@@ -194,8 +192,8 @@ class Mark:
 class Bin:
     """Histogram: edges (B + 1,) and heights (B,)."""
 
-    edges: Array
-    heights: Array
+    edges: FloatArray
+    heights: FloatArray
     label: str
     _: KW_ONLY
     ylabel: str
@@ -229,7 +227,7 @@ def draw_histogram(axes: Axes, histogram: Bin, marks: Sequence[Mark], xlabel: st
     _set_x_axis(axes, histogram.edges, log)
 
 
-def _set_x_axis(axes: Axes, x: Array, log: bool) -> None:
+def _set_x_axis(axes: Axes, x: FloatArray, log: bool) -> None:
     if log:
         axes.set_xscale("log")
     axes.set_xlim(float(x[0]), float(x[-1]))
@@ -265,7 +263,7 @@ def cdf_figure(
         draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
         axes.set_title(title)
         legend_below(figure, axes)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def distribution_figure(
@@ -287,7 +285,7 @@ def distribution_figure(
         histogram_axes.set_title(titles[0])
         cdf_axes.set_title(titles[1])
         legend_below(figure, cdf_axes)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def compare_cdf_figure(
@@ -318,7 +316,7 @@ def compare_cdf_figure(
             axes.set(xlabel=xlabel, ylabel=ylabel, ylim=(0, 1.02), title=title)
             _set_x_axis(axes, curves[0].x, log)
         legend_below(figure, all_axes[0], 3)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def legend_below(figure: Figure, axes: Axes, columns: int = 2) -> None:
@@ -374,10 +372,10 @@ def bar_figure(
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def finished(figure: Figure) -> Figure:
+def settle_layout(figure: Figure) -> Figure:
     """Settle the layout of a figure and create its ticks while the figure style is active."""
     FigureCanvasAgg(figure)
     engine = figure.get_layout_engine()

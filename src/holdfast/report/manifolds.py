@@ -11,13 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT, WIDTH, finished, format_label, style
+from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT, WIDTH, format_label, settle_layout, style
 from holdfast.report.views import View
-
-Array = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 _CURVE_GAP_FRACTION = 0.04  # of the whole length, between two curves
 
@@ -39,8 +36,8 @@ class JointPanel:
 
 def self_motion_figure(
     joints: Sequence[JointPanel],
-    curves: Sequence[tuple[Array, Array]],
-    chains: Array,
+    curves: Sequence[tuple[FloatArray, FloatArray]],
+    chains: FloatArray,
     views: Sequence[View],
     caption: str,
 ) -> Figure:
@@ -77,10 +74,12 @@ def self_motion_figure(
         ]
         figure.legend(handles=handles, loc="outside upper right", ncols=2)
         figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def _draw_joint(axes: Axes, panel: JointPanel, joint: int, curves: Sequence[tuple[Array, Array]], total_length: float) -> None:
+def _draw_joint(
+    axes: Axes, panel: JointPanel, joint: int, curves: Sequence[tuple[FloatArray, FloatArray]], total_length: float
+) -> None:
     lower, upper = panel.value_range
     period = upper - lower
     for arc_start, arc_end in panel.arcs:
@@ -109,7 +108,7 @@ def _draw_joint(axes: Axes, panel: JointPanel, joint: int, curves: Sequence[tupl
         axes.set_xlim(-0.01 * total_length, curve_start - _CURVE_GAP_FRACTION * total_length + 0.01 * total_length)
 
 
-def _draw_arm(axes: Axes, chains: Array, view: View) -> None:
+def _draw_arm(axes: Axes, chains: FloatArray, view: View) -> None:
     for shade, chain in zip(np.linspace(0.25, 1.0, len(chains)), chains, strict=True):
         axes.plot(*chain.T, color=INK, alpha=0.25 + 0.55 * shade, linewidth=1.2 + 0.9 * shade, solid_joinstyle="round")
         axes.plot(*chain[1:-1].T, "o", color="white", markeredgecolor=INK, markeredgewidth=1.0, markersize=4, zorder=3)
@@ -132,16 +131,16 @@ class RegionMap:
         grid_size: Points along each edge, if they are a square grid, row by row from below; None for a sample.
     """
 
-    points: Array
+    points: FloatArray
     view: View
-    healthy_reach: Bools
-    limited_reach: Bools
-    lock_tolerant: Bools
+    healthy_reach: BoolArray
+    limited_reach: BoolArray
+    lock_tolerant: BoolArray
     grid_size: int | None
 
 
 def region_figure(
-    maps: Sequence[RegionMap], bars: Sequence[tuple[str, float]], unit: str, error: Array, caption: str
+    maps: Sequence[RegionMap], bars: Sequence[tuple[str, float]], unit: str, error: FloatArray, caption: str
 ) -> Figure:
     """Plot maps of a region inside the reach of the healthy arm, and bars of the sizes.
 
@@ -180,7 +179,7 @@ def region_figure(
         handles = [Patch(facecolor=color, label=legend_text) for color, legend_text in legend_entries]
         figure.legend(handles=handles, loc="outside upper left", ncols=3)
         figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_map(axes: Axes, region: RegionMap) -> None:

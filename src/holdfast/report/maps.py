@@ -11,23 +11,22 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, WIDTH, finished, style
+from holdfast.report.figures import INK, WIDTH, settle_layout, style
 from holdfast.report.scenes import Scale, label_color_bar
 from holdfast.report.views import View
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def map_figure(
-    points: Array,
-    samples: Mapping[str, Array],
+    points: FloatArray,
+    samples: Mapping[str, FloatArray],
     views: Sequence[View],
     *,
     log: bool,
     smaller_is_better: bool,
     label: str,
     bins: int = 6,
-    weights: Array | None = None,
+    weights: FloatArray | None = None,
 ) -> Figure:
     """Map a value over a projection: per cell the mean (the median if smaller is better), and how many points have a value.
 
@@ -49,9 +48,11 @@ def map_figure(
     ]
     averages = np.concatenate([grid[2].ravel() for grid_row in grids for grid in grid_row])
     has_missing = any(bool(np.isnan(values).any()) for values in samples.values())
-    scale = replace(Scale.of(averages[~np.isnan(averages)], log, smaller_is_better), pale=True)
+    scale = replace(Scale.from_values(averages[~np.isnan(averages)], log, smaller_is_better), pale=True)
     with style():
-        aspect = max(float(view_height / view_width) for view_width, view_height in (view.of(upper - lower) for view in views))
+        aspect = max(
+            float(view_height / view_width) for view_width, view_height in (view.project(upper - lower) for view in views)
+        )
         height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
         figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, height * len(samples)))
         panels = figure.subplots(len(samples), len(views), squeeze=False)
@@ -69,17 +70,17 @@ def map_figure(
             extend=scale.extend(averages),
         )
         label_color_bar(colorbar, label, scale)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def share_figure(
-    points: Array,
+    points: FloatArray,
     panels: Sequence[tuple[str, NDArray[np.bool_]]],
     view: View,
     *,
     label: str,
     bins: int = 6,
-    weights: Array | None = None,
+    weights: FloatArray | None = None,
 ) -> Figure:
     """Map the fraction of points with a property over a projection, one panel per property, all on one scale from 0 to 1.
 
@@ -94,7 +95,7 @@ def share_figure(
     lower, upper = points.min(axis=0), points.max(axis=0)
     scale = Scale(0.0, 1.0, pale=True)
     with style():
-        view_width, view_height = view.of(upper - lower)
+        view_width, view_height = view.project(upper - lower)
         aspect = float(view_height / view_width)
         figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8))
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
@@ -105,28 +106,28 @@ def share_figure(
             _draw_cells(panel_axes, x_edges, y_edges, fractions, point_counts, point_counts, scale, False)
             panel_axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
         label_color_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _average_cells(
-    points: Array,
-    values: Array,
+    points: FloatArray,
+    values: FloatArray,
     view: View,
-    lower: Array,
-    upper: Array,
+    lower: FloatArray,
+    upper: FloatArray,
     longest_cells: int,
     median: bool,
-    weights: Array | None = None,
-) -> tuple[Array, Array, Array, Array, Array]:
-    lower, size = view.of(lower), view.of(upper - lower)
+    weights: FloatArray | None = None,
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    lower, size = view.project(lower), view.project(upper - lower)
     count = np.maximum(np.round(longest_cells * size / size.max()), 1).astype(int)
     x_edges, y_edges = (
         np.linspace(axis_start, axis_start + axis_size, axis_count + 1)
         for axis_start, axis_size, axis_count in zip(lower, size, count, strict=True)
     )
 
-    def cell_index(located_points: Array) -> NDArray[np.int64]:
-        columns_rows = np.minimum(((view.of(located_points) - lower) / size * count).astype(np.int64), count - 1)
+    def cell_index(located_points: FloatArray) -> NDArray[np.int64]:
+        columns_rows = np.minimum(((view.project(located_points) - lower) / size * count).astype(np.int64), count - 1)
         return np.asarray(columns_rows[:, 1] * count[0] + columns_rows[:, 0])
 
     has_value = ~np.isnan(values)
@@ -154,7 +155,7 @@ def _average_cells(
     return x_edges, y_edges, average.reshape(shape), value_counts.reshape(shape), point_counts.reshape(shape)
 
 
-def _weighted_average(values: Array, weights: Array, median: bool) -> float:
+def _weighted_average(values: FloatArray, weights: FloatArray, median: bool) -> float:
     """Return the weighted mean, or the weighted median as the smallest value with half of the weight at or below; NaN without
     weight.
     """
@@ -169,11 +170,11 @@ def _weighted_average(values: Array, weights: Array, median: bool) -> float:
 
 def _draw_cells(
     axes: Axes,
-    x_edges: Array,
-    y_edges: Array,
-    mean: Array,
-    value_counts: Array,
-    point_counts: Array,
+    x_edges: FloatArray,
+    y_edges: FloatArray,
+    mean: FloatArray,
+    value_counts: FloatArray,
+    point_counts: FloatArray,
     scale: Scale,
     has_missing: bool,
 ) -> None:

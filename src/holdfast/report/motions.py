@@ -10,10 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, format_label, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, format_label, settle_layout, style
 from holdfast.report.views import View
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -28,11 +27,11 @@ class StickMotion:
         goal: (3,) a place marked by a ring, m, or None.
     """
 
-    chain: Array
+    chain: FloatArray
     square_corners: NDArray[np.bool_]
-    path: Array
+    path: FloatArray
     filled_corners: NDArray[np.bool_] | None = None
-    goal: Array | None = None
+    goal: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -49,8 +48,8 @@ class TimePanel:
         log_scale: On a logarithmic scale.
     """
 
-    time: Array
-    values: Array
+    time: FloatArray
+    values: FloatArray
     ylabel: str
     title: str
     reference_level: tuple[float, str] | None = None
@@ -65,7 +64,7 @@ def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time
         for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
             draw_panel(axes, panel, xlabel)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
@@ -106,12 +105,12 @@ def stick_motion_figure(
         handles, labels = view_axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), columnspacing=2.0)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_stick_figure(axes: Axes, motion: StickMotion, view: View, path_label: str) -> None:
-    def project_points(points: Array) -> Array:
-        return view.of(points).T
+    def project_points(points: FloatArray) -> FloatArray:
+        return view.project(points).T
 
     last_frame = len(motion.chain) - 1
     marked = np.zeros(len(motion.square_corners), dtype=bool) if motion.filled_corners is None else motion.filled_corners

@@ -11,7 +11,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from holdfast.report.figures import (
     BLUE,
@@ -23,12 +22,11 @@ from holdfast.report.figures import (
     SKY,
     SOFT,
     WIDTH,
-    finished,
     format_label,
+    settle_layout,
     style,
 )
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 # Light to dark as well as by hue, and hatched where two neighbours would print alike.
 OUTCOME_FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""), (PURPLE, ".."))
@@ -49,9 +47,9 @@ class Stack:
 
     name: str
     bars: Sequence[str]
-    shares: Array
-    low: Array
-    high: Array
+    shares: FloatArray
+    low: FloatArray
+    high: FloatArray
     level: float | None = None
 
 
@@ -120,7 +118,7 @@ def stack_figure(
         figure.legend(handles=legend_handles, loc=legend_location, ncols=3, columnspacing=2.0)
         if caption:
             figure.supxlabel("\n".join(format_label(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,7 @@ class Spread:
     """Quantity of several cases: its name with the unit, and quantiles (B, 5), 5, 25, 50, 75 and 95 %."""
 
     label: str
-    quantiles: Array
+    quantiles: FloatArray
     log: bool = False
 
 
@@ -149,7 +147,7 @@ def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
             Line2D([], [], color=BLUE, marker="o", linestyle="", label="median"),
         ]
         figure.legend(handles=legend_handles, loc="outside lower center", ncols=3, columnspacing=2.0)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_spread(axes: Axes, spread: Spread) -> None:
@@ -170,9 +168,9 @@ class Gains:
     """Differences or fractions of one method over several cases: values, and ends of their intervals, (C,) each."""
 
     label: str
-    value: Array
-    low: Array
-    high: Array
+    value: FloatArray
+    low: FloatArray
+    high: FloatArray
 
 
 def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains]]]) -> Figure:
@@ -188,7 +186,7 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
             _label_cases(axes, cases, 30)
         handles, labels = all_axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(max_gains, 3), columnspacing=2.0)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: str) -> Figure:
@@ -204,7 +202,7 @@ def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: st
         axes.grid(axis="y", visible=False)
         handles, labels = axes.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(fractions), 5), columnspacing=2.0)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_interval_dots(axes: Axes, gains: Sequence[Gains]) -> None:

@@ -11,10 +11,9 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import EMPTY_COLOR, INK, ORANGE, SOFT, WIDTH, finished, format_label, style
+from holdfast.report.figures import EMPTY_COLOR, INK, ORANGE, SOFT, WIDTH, format_label, settle_layout, style
 from holdfast.report.scenes import Scale, label_color_bar
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,16 +29,16 @@ class Plane:
         mark_label: What it is.
     """
 
-    points: Array
+    points: FloatArray
     labels: tuple[str, str]
     cells: NDArray[np.intp] | None = None
-    axes: tuple[Array, Array] | None = None
+    axes: tuple[FloatArray, FloatArray] | None = None
     mark: tuple[float, float] | None = None
     mark_label: str = ""
 
 
 def place_maps(
-    plane: Plane, rows: Mapping[str, Array], columns: Sequence[str], *, label: str, caption: str, most: float = 100.0
+    plane: Plane, rows: Mapping[str, FloatArray], columns: Sequence[str], *, label: str, caption: str, most: float = 100.0
 ) -> Figure:
     """Plot maps over the same positions, one panel for each row and column.
 
@@ -73,10 +72,10 @@ def place_maps(
         if plane.mark is not None:  # room for the titles, too
             handles, labels = panels[0, 0].get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside upper right")
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def _draw_position_map(axes: Axes, plane: Plane, values: Array, scale: Scale) -> None:
+def _draw_position_map(axes: Axes, plane: Plane, values: FloatArray, scale: Scale) -> None:
     has_value = ~np.isnan(values)
     if plane.cells is not None and plane.axes is not None:
         x_coordinates, y_coordinates = plane.axes
@@ -107,7 +106,7 @@ def _draw_position_map(axes: Axes, plane: Plane, values: Array, scale: Scale) ->
     axes.tick_params(colors=INK, length=2)
 
 
-def binned(points: Array, values: Array, bins: int) -> tuple[Plane, Array]:
+def bin_positions(points: FloatArray, values: FloatArray, bins: int) -> tuple[Plane, FloatArray]:
     """Gather positions in square cells, ``bins`` of them along the longer edge; return the plane and the means (B, C) of their
     values (P, C).
 

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
+
 Kind = Literal["linear", "log", "symlog"]
 
 _ROUND_STEPS = (1.0, 2.0, 2.5, 5.0)
@@ -63,7 +63,7 @@ class AxisScale:
     """
 
     def __init__(
-        self, values: Array, kind: Kind = "linear", small: float = 1.0, margin: float = 0.0, max_spaces: int = 6
+        self, values: FloatArray, kind: Kind = "linear", small: float = 1.0, margin: float = 0.0, max_spaces: int = 6
     ) -> None:
         self._kind: Kind = "linear" if kind == "log" and not (values > 0).any() else kind
         self._small = small
@@ -76,11 +76,11 @@ class AxisScale:
         self._low, self._high = lower - margin * (upper - lower), upper + margin * (upper - lower)
         self.ticks = [(float(self.to_fraction(np.array([value]))[0]), text) for value, text in self._choose_ticks(max_spaces)]
 
-    def to_fraction(self, values: Array) -> Array:
+    def to_fraction(self, values: FloatArray) -> FloatArray:
         """Return the axis fractions of values (N,); NaN for values that are not on the axis."""
         return (self._transform_values(values) - self._low) / (self._high - self._low)
 
-    def _transform_values(self, values: Array) -> Array:
+    def _transform_values(self, values: FloatArray) -> FloatArray:
         if self._kind == "linear":
             return values
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -20,10 +20,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, ORANGE, SOFT, WIDTH, finished, style
+from holdfast.report.figures import INK, ORANGE, SOFT, WIDTH, settle_layout, style
 from holdfast.report.views import View
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class Scale:
     pale: bool = False  # for text on top
 
     @classmethod
-    def of(cls, values: Array, log: bool = False, smaller_is_better: bool = False) -> Scale:
+    def from_values(cls, values: FloatArray, log: bool = False, smaller_is_better: bool = False) -> Scale:
         """Fit the scale to the range of the finite values, without the outermost 1 % at either end."""
         finite = values[np.isfinite(values)]
         lower, upper = np.quantile(finite, [0.01, 0.99]).tolist() if finite.size else (0.0, 1.0)
@@ -57,11 +56,11 @@ class Scale:
         norm = LogNorm(self.low, self.high) if self.log else Normalize(self.low, self.high)
         return ScalarMappable(norm, colormap)
 
-    def colors(self, values: Array) -> Array:
+    def colors(self, values: FloatArray) -> FloatArray:
         """Return the RGBA colours (N, 4) of values."""
         return np.asarray(self.mappable.to_rgba(np.clip(values, self.low, self.high)))
 
-    def extend(self, values: Array) -> Literal["neither", "min", "max", "both"]:
+    def extend(self, values: FloatArray) -> Literal["neither", "min", "max", "both"]:
         """Return the ends of a colour bar beyond which there are values."""
         has_below, has_above = bool((values < self.low * (1 - 1e-9)).any()), bool((values > self.high * (1 + 1e-9)).any())
         return {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[
@@ -83,17 +82,17 @@ class Scene:
         box: (2, 3) opposite corners, or None.
     """
 
-    points: Array
-    values: Array
-    missing: Array
+    points: FloatArray
+    values: FloatArray
+    missing: FloatArray
     _: KW_ONLY
-    chain: Array = field(default_factory=lambda: np.zeros((0, 3)))
-    nodes: Array = field(default_factory=lambda: np.zeros((0, 3)))
+    chain: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    nodes: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     square: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
-    box: Array | None = None
+    box: FloatArray | None = None
 
     @property
-    def extent(self) -> Array:
+    def extent(self) -> FloatArray:
         """Lowest and highest coordinates (2, 3) of all elements."""
         parts = [self.points, self.missing, self.chain, self.nodes, *([] if self.box is None else [self.box])]
         everything = np.concatenate(parts)
@@ -117,13 +116,13 @@ def draw_view(
         width: Of the panel, inches, about.
     """
     if len(scene.missing):
-        x, y = view.of(scene.missing).T
+        x, y = view.project(scene.missing).T
         axes.scatter(x, y, s=dot_area * 1.3, marker="x", c="#9aa1a8", linewidths=0.7, rasterized=True, zorder=2)
     if len(scene.points):
-        x, y = view.of(scene.points).T
+        x, y = view.project(scene.points).T
         axes.scatter(x, y, s=dot_area, c=scale.colors(scene.values), linewidths=0, alpha=0.85, rasterized=True, zorder=2.1)
     if scene.box is not None:
-        (box_left, box_bottom), (box_right, box_top) = view.of(scene.box)
+        (box_left, box_bottom), (box_right, box_top) = view.project(scene.box)
         axes.add_patch(
             Rectangle(
                 (box_left, box_bottom),
@@ -137,7 +136,7 @@ def draw_view(
             )
         )
     _draw_chain(axes, scene, view, 72 * width / spans[0])
-    middle = view.of(scene.extent.mean(axis=0))
+    middle = view.project(scene.extent.mean(axis=0))
     axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
     axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
     axes.set_aspect("equal")
@@ -150,7 +149,7 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
     """Draw the polyline with numbered nodes; ``scale`` is in points per metre."""
     if not len(scene.chain):
         return
-    projected_chain = view.of(scene.chain)
+    projected_chain = view.project(scene.chain)
     halo = [withStroke(linewidth=5.4, foreground="white")]
     axes.plot(
         projected_chain[:, 0],
@@ -164,7 +163,7 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
     )
     axes.plot(*projected_chain[0], marker="s", color=INK, markersize=8.5, zorder=3.1)
     axes.plot(*projected_chain[-1], marker="D", color=ORANGE, markeredgecolor="white", markersize=6, zorder=3.5)
-    nodes = view.of(scene.nodes)
+    nodes = view.project(scene.nodes)
     for marker, chosen in (("o", ~scene.square), ("s", scene.square)):
         axes.plot(
             nodes[chosen, 0],
@@ -195,9 +194,9 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
         )
 
 
-def _group_near_nodes(nodes: Array, max_distance: float) -> list[tuple[list[int], Array]]:
+def _group_near_nodes(nodes: FloatArray, max_distance: float) -> list[tuple[list[int], FloatArray]]:
     """Group nodes that are close together; return their numbers from 1 and their positions."""
-    clusters: list[tuple[list[int], Array]] = []
+    clusters: list[tuple[list[int], FloatArray]] = []
     for index, node in enumerate(nodes):
         for numbers, position in clusters:
             if np.linalg.norm(node - position) < max_distance:
@@ -219,7 +218,7 @@ def _format_ranges(numbers: list[int]) -> str:
     return ", ".join(str(run[0]) if len(run) == 1 else f"{run[0]}{', ' if len(run) == 2 else '–'}{run[-1]}" for run in runs)
 
 
-def _place_label(line: Array, occupied: Array, position: Array, text: str) -> Array:
+def _place_label(line: FloatArray, occupied: FloatArray, position: FloatArray, text: str) -> FloatArray:
     """Choose the offset of a text, in points, next to a position: the freest of sixteen directions, above rather than below."""
     steps = np.linspace(0, 1, 41)[:, None]
     line_points = np.concatenate([start + steps * (end - start) for start, end in pairwise(line)]) if len(line) > 1 else line
@@ -267,7 +266,7 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str
             ncols=min(len(legend), 4),
             columnspacing=2.0,
         )
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def add_color_bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str) -> None:
@@ -296,7 +295,7 @@ def choose_dot_area(scene: Scene, views: Sequence[View], scale: float) -> float:
     dots = np.concatenate([scene.points, scene.missing])
     if len(dots) < 2:
         return 28.0
-    sizes = [np.ptp(view.of(dots), axis=0) * scale * 72 for view in views]
+    sizes = [np.ptp(view.project(dots), axis=0) * scale * 72 for view in views]
     area = min(max(across, 12.0) * max(upward, 12.0) for across, upward in sizes)
     return float(np.clip(0.85 * area / len(dots), 1.2, 28))
 
@@ -305,7 +304,7 @@ def fit_view_spans(
     scene: Scene, views: Sequence[View], width: float, min_height: float, max_height: float
 ) -> tuple[tuple[float, float], float]:
     """Return the lengths of the axes, m, that contain the scene in every view, and the height of a panel, inches."""
-    across, upward = 1.2 * np.max([np.ptp(view.of(scene.extent), axis=0) for view in views], axis=0)
+    across, upward = 1.2 * np.max([np.ptp(view.project(scene.extent), axis=0) for view in views], axis=0)
     across, upward = max(across, 0.1 * upward, 1e-6), max(upward, 0.1 * across, 1e-6)
     height = float(np.clip(width * upward / across, min_height, max_height))
     if height / width < upward / across:

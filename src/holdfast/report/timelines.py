@@ -8,15 +8,14 @@ from typing import Any, Literal
 
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
 from holdfast.notice import count_one
 from holdfast.report.page import create_template_environment
 from holdfast.report.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.report.scales import AxisScale, Kind
+from holdfast.typing import FloatArray
 from holdfast.words import on_one_line
 
-Array = NDArray[np.float64]
 Look = Literal["first", "second", "third", "compared", "level"]
 
 # After Okabe and Ito, darkened for thin lines; dashes tell apart what prints alike.
@@ -39,7 +38,7 @@ _LEGEND_ROW_PX = 17  # pixels of a line of a legend
 class TimelineLine:
     """Quantity over time: values (T,), its label, and its style; without a style the line has a colour of its own."""
 
-    values: Array
+    values: FloatArray
     label: str
     look: Look | None = None
 
@@ -65,7 +64,7 @@ class Timeline:
     small: float = 1.0
 
 
-def draw_stacked_panels(time: Array, panels: Sequence[Timeline], about: str) -> Markup:
+def draw_stacked_panels(time: FloatArray, panels: Sequence[Timeline], about: str) -> Markup:
     """Draw panels one below another over one time (T,), s, each with a legend to its right if it has several lines.
 
     Args:
@@ -101,7 +100,7 @@ def draw_stacked_panels(time: Array, panels: Sequence[Timeline], about: str) -> 
     return _render_panels(placed_panels, panel_top + 28, [], about)
 
 
-def draw_small_multiples(time: Array, panels: Sequence[Timeline], about: str, xlabel: str = "time, s") -> Markup:
+def draw_small_multiples(time: FloatArray, panels: Sequence[Timeline], about: str, xlabel: str = "time, s") -> Markup:
     """Draw small panels, three in a row, over one time (T,), with a legend below for the lines of the fullest panel.
 
     Args:
@@ -177,7 +176,7 @@ def _label_width_px(labels: Sequence[str]) -> float:
 class _PanelLayout:
     """Layout of a panel that has no position yet: ``tall_px`` pixels high, with about ``max_ticks`` ticks along time."""
 
-    def __init__(self, time: Array, panel: Timeline, tall_px: float, max_ticks: int) -> None:
+    def __init__(self, time: FloatArray, panel: Timeline, tall_px: float, max_ticks: int) -> None:
         self._time, self._panel, self._height = time, panel, tall_px
         all_values = np.concatenate([line.values for line in panel.lines])
         self._value_scale = AxisScale(
@@ -222,7 +221,7 @@ def _style_line(line_index: int, line: TimelineLine) -> dict[str, Any]:
     return {"color": color, "width": width, "dashes": scaled, "label": on_one_line(line.label)}
 
 
-def _to_svg_path(x: Array, y: Array) -> str:
+def _to_svg_path(x: FloatArray, y: FloatArray) -> str:
     """Convert points (T,) to an SVG path, interrupted where a value is not finite."""
     is_finite = np.isfinite(y)
     is_start = is_finite & ~np.r_[False, is_finite[:-1]]

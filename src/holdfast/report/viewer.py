@@ -22,11 +22,12 @@ from markupsafe import Markup
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.report.palette import BLUE, FAINT, ORANGE, SOFT
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _TAN_HALF_VIEW_ANGLE = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
-_DRAWING_WIDTH_PX, _DRAWING_HEIGHT_PX = 560, 400  # pixels of the drawing
+# _DRAWING_WIDTH_PX and _DRAWING_HEIGHT_PX: pixels of the drawing
+_DRAWING_WIDTH_PX = 560
+_DRAWING_HEIGHT_PX = 400
 _VIEW_NOTE = '<p class="view3d-note view3d-once">{}</p>'
 _BODY_HTML = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
@@ -43,9 +44,9 @@ class ViewerScene:
     """
 
     data: Mapping[str, Any]
-    frames: Array
+    frames: FloatArray
     notes: tuple[str, ...] = ()
-    object_corners: tuple[Array, ...] = ()
+    object_corners: tuple[FloatArray, ...] = ()
 
     def to_html(self, name: str, about: str) -> Markup:
         """Return the view as part of a page; :func:`with_library` adds the script that makes it interactive.
@@ -158,7 +159,7 @@ def round_to_seven_digits(values: ArrayLike) -> list[Any]:
     return [float(f"{item:.7g}") + 0.0 for item in array]
 
 
-def pack_mesh(vertices: Array, faces: NDArray[np.int64]) -> dict[str, Any]:
+def pack_mesh(vertices: FloatArray, faces: NDArray[np.int64]) -> dict[str, Any]:
     """Encode triangles as text, with corners rounded to 1/65535 of the mesh's size, which is not visible.
 
     Args:
@@ -174,7 +175,7 @@ def pack_mesh(vertices: Array, faces: NDArray[np.int64]) -> dict[str, Any]:
     }
 
 
-def simplify_mesh(vertices: Array, faces: NDArray[np.int64], max_faces: int) -> tuple[Array, NDArray[np.int64]]:
+def simplify_mesh(vertices: FloatArray, faces: NDArray[np.int64], max_faces: int) -> tuple[FloatArray, NDArray[np.int64]]:
     """Reduce a mesh to at most ``max_faces`` triangles by vertex clustering in the finest grid that suffices.
 
     Rossignac and Borrel 1993.
@@ -210,7 +211,7 @@ def simplify_mesh(vertices: Array, faces: NDArray[np.int64], max_faces: int) -> 
 # ---- without a script --------------------------------------------------------------------------------------------------
 
 
-def camera_axes(camera: Mapping[str, Any], up: ArrayLike) -> tuple[Array, Array, Array, float]:
+def camera_axes(camera: Mapping[str, Any], up: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray, float]:
     """Return unit vectors (3,) to the right, upward and towards the camera, and its distance, m, consistent with camera.ts."""
     upward = np.asarray(up, dtype=np.float64)
     east = np.eye(3)[0] if abs(upward[0]) < 0.9 else np.eye(3)[1]
@@ -229,7 +230,7 @@ def draw_scene_svg(scene: ViewerScene, about: str) -> str:
     right, upward, towards_camera, distance = camera_axes(data["camera"], data["up"])
     center = np.array(data["camera"]["center"])
 
-    def project(points: ArrayLike) -> Array:
+    def project(points: ArrayLike) -> FloatArray:
         centered = np.asarray(points, dtype=np.float64) - center
         scale = _DRAWING_HEIGHT_PX / 2 / _TAN_HALF_VIEW_ANGLE / (distance - centered @ towards_camera)
         return np.stack(
@@ -290,7 +291,7 @@ def draw_scene_svg(scene: ViewerScene, about: str) -> str:
     return "".join([*elements, "</svg>"])
 
 
-def _draw_convex_outline(points: Array) -> str:
+def _draw_convex_outline(points: FloatArray) -> str:
     """Draw the outline of a convex body whose corners have the drawing coordinates (V, 2)."""
     from scipy.spatial import ConvexHull
 

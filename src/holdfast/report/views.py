@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _SIDE_VIEW_ASPECT = 1.5  # times as long along y as along x: then the side is seen along x
 
@@ -21,11 +20,11 @@ class View:
         title: One line.
     """
 
-    right: Array
-    up: Array
+    right: FloatArray
+    up: FloatArray
     title: str
 
-    def of(self, points: Array) -> Array:
+    def project(self, points: FloatArray) -> FloatArray:
         """Project points (..., 3) to coordinates (..., 2) to the right and up, m."""
         return np.stack([points @ self.right, points @ self.up], axis=-1)
 
@@ -35,7 +34,7 @@ class View:
         return f"{axis_name(self.right)}, m", f"{axis_name(self.up)}, m"
 
 
-def choose_side_and_top_views(points: Array, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
+def choose_side_and_top_views(points: FloatArray, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
     """Return the side and top views of points (..., 3), the side view being the wider one, without views that show
     only a line.
     """
@@ -50,7 +49,7 @@ def choose_side_and_top_views(points: Array, titles: tuple[str, str] = ("Side vi
 SIDE_VIEW = View(np.eye(3)[0], np.eye(3)[2], "Side view")
 
 
-def view_onto_plane(normal: Array, up: Array) -> View:
+def view_onto_plane(normal: FloatArray, up: FloatArray) -> View:
     """Return the view along a normal (3,), with ``up`` (3,) upward, or y or x where ``up`` is parallel to the normal."""
     x, y, _ = np.eye(3)
     upward = up - normal * (normal @ up)
@@ -60,7 +59,7 @@ def view_onto_plane(normal: Array, up: Array) -> View:
     return View(np.cross(upward, normal), upward, "In the plane of the arm")
 
 
-def axis_name(direction: Array) -> str:
+def axis_name(direction: FloatArray) -> str:
     """Return the name of a direction: a world axis, or its components."""
     for name, axis in zip("xyz", np.eye(3), strict=True):
         if abs(direction @ axis) > 1 - 1e-9:

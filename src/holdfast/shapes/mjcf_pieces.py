@@ -7,13 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import mjcf
 from holdfast.arm.model import Arm
 from holdfast.shapes.pieces import Kind, LinkCarriers, Missing, Piece, Place, Purpose
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def read_mjcf_pieces(
@@ -88,7 +86,7 @@ def excluded_pairs(file: Path) -> frozenset[tuple[str, str]]:
     return frozenset((a, b) for a, b in names)
 
 
-def _piece_size(kind: Kind, size: Array) -> tuple[float, ...]:
+def _piece_size(kind: Kind, size: FloatArray) -> tuple[float, ...]:
     """Return the size as :class:`Piece` defines it; MuJoCo uses half sizes."""
     x, y, z = (float(v) for v in size)
     return {

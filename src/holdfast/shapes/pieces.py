@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.tree import LinkTree, LockedJoints
 from holdfast.errors import ArmError
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "half space"]
 Purpose = Literal["visual", "collision"]
-Place = Callable[[str], tuple[int, Array] | None]  # of a link: what moves it, -1 for nothing, and its pose (4, 4) there
+Place = Callable[[str], tuple[int, FloatArray] | None]  # of a link: what moves it, -1 for nothing, and its pose (4, 4) there
 
 _POSE_TOLERANCE = 1e-9  # m and rad: two readings of one file
 
@@ -45,8 +45,8 @@ class Piece:
     kind: Kind
     name: str
     size: tuple[float, ...]
-    pose: Array
-    vertices: Array
+    pose: FloatArray
+    vertices: FloatArray
     faces: NDArray[np.int64]
     rgba: tuple[float, ...] | None = None
     label: str = ""
@@ -94,7 +94,7 @@ class LinkCarriers:
             if not (same and np.allclose(place[1] @ there.origin, joint.origin, atol=_POSE_TOLERANCE)):  # type: ignore[index, union-attr]
                 raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
 
-    def place(self, link: str) -> tuple[int, Array] | None:
+    def place(self, link: str) -> tuple[int, FloatArray] | None:
         """Return the joint that moves a link (-1 for none) and the link's pose (4, 4) there; None if it is not attached to the
         base.
         """

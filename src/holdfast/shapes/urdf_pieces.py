@@ -8,7 +8,6 @@ from typing import Any, cast
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.urdf import read_origin, read_tree, robot_element
@@ -16,8 +15,6 @@ from holdfast.errors import ArmError, HoldfastError
 from holdfast.files import mesh
 from holdfast.shapes.meshes import find_mesh
 from holdfast.shapes.pieces import Kind, LinkCarriers, Missing, Piece, Place, Purpose
-
-Array = NDArray[np.float64]
 
 _SIZE_ATTRIBUTES = {"box": ("size",), "cylinder": ("radius", "length"), "capsule": ("radius", "length"), "sphere": ("radius",)}
 

@@ -24,7 +24,7 @@ from holdfast.simulation.cycles import SUBSTEPS_PER_CYCLE, CycleStepper
 from holdfast.simulation.endless_motion import detect_periodic
 from holdfast.simulation.residual import ErrorMinimiser
 from holdfast.simulation.runge_kutta import FIRST_STEP_SIZE, MAX_STEP_TRAVEL_RAD, REST_SPEED, RungeKuttaStepper
-from holdfast.simulation.runs import Path, Reason, RunOutcome, Runs, RunSettings
+from holdfast.simulation.runs import Reason, RunOutcome, RunPath, Runs, RunSettings
 from holdfast.simulation.system import (
     LARGE_NUMBER,
     STATE_ARRIVED,
@@ -40,23 +40,21 @@ from holdfast.simulation.system import (
 )
 from holdfast.simulation.tableaus import CLASSIC_RK4, DOP853
 from holdfast.solvers.inverse_kinematics import tool_error
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 CONVERGENCE_TOLERANCE = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest counts as 0
 MIN_ENDLESS_SPEED = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not stopping
 DECAY_RATIO = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
 HALF_TURN_TOLERANCE_RAD = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction
 MAX_STEPS = 100_000
-HALF_TURN_CHECK_STEPS, HALF_TURN_CHECKS = (
-    500,
-    4,
-)  # steps between two looks at runs that half a turn may have caught; as many stretches decide
+HALF_TURN_CHECK_STEPS = 500  # steps between two looks at runs that half a turn may have caught
+HALF_TURN_CHECKS = 4  # as many stretches decide
 LOOP_CALLS_PER_RUN = 1500  # of the loop, for each run (measured of several arms, tasks and laws: 900 to 11,000, once 130)
-MAX_BLOCK_RUNS, MIN_BLOCK_RUNS = 8192, 256  # runs that one thread makes together; no result depends on it
+MAX_BLOCK_RUNS = 8192  # runs that one thread makes together
+MIN_BLOCK_RUNS = 256  # no result depends on it
 
 
-Advance = Callable[[Array, Array], tuple[Array, NDArray[np.bool_]]]
+Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, NDArray[np.bool_]]]
 
 
 class ClosedLoopSimulator:
@@ -103,7 +101,7 @@ class ClosedLoopSimulator:
         error = tool_error(law.task, tool_chain.position, tool_chain.rotation, system.target, system.rotation)
         return Kernel("turn", [system.q, system.target, system.rotation], [ca.norm_2(error[3:])])
 
-    def run(self, q0: Array, target: Array, lock_time: Array, setting: RunSettings) -> Runs:
+    def run(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> Runs:
         """Simulate runs from q0 (N, n) to target (N, 4, 4) or (N, m), with joints that lock at (N, n), s or cycles.
 
         A few thousand at a time, so that everything about them is done while they are in the cache, and by every thread.
@@ -143,7 +141,7 @@ class ClosedLoopSimulator:
         )
 
     def _run_block(
-        self, q0: Array, target: Array, lock_time: Array, setting: RunSettings, report: Tell
+        self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings, report: Tell
     ) -> dict[str, NDArray[Any]]:
         """Simulate one block of runs, and return the fields of :class:`Runs`."""
         target_values = self._system.target_values(target)
@@ -154,7 +152,7 @@ class ClosedLoopSimulator:
         locks_later = bool(((lock_time > 0) & np.isfinite(lock_time)).any())
         report_ended = ignore_count if locks_later else report
 
-        def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
+        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
             if has_orientation and not self.cycles:
                 return self._advance_until_trapped(states, parameters, report_ended)
             result = self._stepper.loop.run(
@@ -202,11 +200,13 @@ class ClosedLoopSimulator:
             "time": parts["time"][:, 0] / self._time_scale,
         }
 
-    def _is_half_turn_away(self, q: Array, position: Array, rotation: Array) -> NDArray[np.bool_]:
+    def _is_half_turn_away(self, q: FloatArray, position: FloatArray, rotation: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) True where the end effector is half a turn from its target, where the orientation error jumps."""
         return np.asarray(self._angle_kernel.rows(q, position, rotation)[:, 0] > np.pi - HALF_TURN_TOLERANCE_RAD)
 
-    def _advance_until_trapped(self, states: Array, parameters: Array, report_ended: Tell) -> tuple[Array, NDArray[np.bool_]]:
+    def _advance_until_trapped(
+        self, states: FloatArray, parameters: FloatArray, report_ended: Tell
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Advance the states as the loop does, but give up running rows that are trapped half a turn from their target.
 
         Where the motion on either side of half a turn leads to it, steps across it shrink until next to nothing is left of
@@ -246,7 +246,7 @@ class ClosedLoopSimulator:
         return 1.0 if self.cycles else self.law.gain
 
     def _classify_endings(
-        self, scaled_errors: Array, parts: dict[str, Array]
+        self, scaled_errors: FloatArray, parts: dict[str, FloatArray]
     ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.bool_]]:
         """Return outcomes and reasons, and the runs that are fast enough at the time limit to look for a limit cycle."""
         codes = parts["code"][:, 0]
@@ -269,7 +269,9 @@ class ClosedLoopSimulator:
         )
         return outcome.astype(np.uint8), reason.astype(np.uint8), may_be_endless
 
-    def _run_phases(self, q0: Array, target: Array, lock_time: Array, setting: RunSettings, advance: Advance) -> Array:
+    def _run_phases(
+        self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings, advance: Advance
+    ) -> FloatArray:
         """Return the states at the end of the runs. Nothing changes between two locks, so such a phase is one loop."""
         run_count, layout, time_scale, n = len(q0), self._stepper.layout, self._time_scale, self.law.arm.n
         states = np.zeros((run_count, layout.size))
@@ -297,7 +299,7 @@ class ClosedLoopSimulator:
             current_times[active] = parts["time"][active, 0] = phase_ends[active]
         return states
 
-    def _make_parameters(self, target: Array, setting: RunSettings) -> Array:
+    def _make_parameters(self, target: FloatArray, setting: RunSettings) -> FloatArray:
         """Return parameters of rows, in which the healthy joints and the end of the phase are still to be set."""
         parameters, n = np.empty((len(target), target.shape[1] + self.law.arm.n + 3)), self.law.arm.n
         parameters[:, : -n - 3], parameters[:, -2], parameters[:, -1] = (
@@ -307,7 +309,7 @@ class ClosedLoopSimulator:
         )
         return parameters
 
-    def _start_phase(self, states: Array, rows: slice | NDArray[np.int64], parameters: Array) -> None:
+    def _start_phase(self, states: FloatArray, rows: slice | NDArray[np.int64], parameters: FloatArray) -> None:
         """Set the parts of the states that are known where a phase begins."""
         parts, n = self._stepper.layout.view_parts(states), self.law.arm.n
         values = self._evaluate_states(states[rows], parameters)
@@ -328,7 +330,7 @@ class ClosedLoopSimulator:
                 )
         parts["code"][rows, 0] = code
 
-    def _evaluate_states(self, states: Array, parameters: Array) -> Array:
+    def _evaluate_states(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
         """Return joint rates, tool speed, speed fraction, squared error, and its time derivative at the states, (N, n + 4)."""
         layout = self._stepper.layout
         if not self._stepper.is_staged:
@@ -340,7 +342,7 @@ class ClosedLoopSimulator:
         entered_parts = layout.view_parts(self._call_step(entry_states, parameters))
         return np.concatenate([entered_parts[name] for name in ("rates", "hand", "share", "error", "slope")], axis=1)
 
-    def _split_parameters(self, parameters: Array) -> list[Array]:
+    def _split_parameters(self, parameters: FloatArray) -> list[FloatArray]:
         """Split rows of parameters into the inputs of a kernel."""
         shapes = [parameter.shape for parameter in self._stepper.parameters]
         ends = np.cumsum([rows * columns for rows, columns in shapes])[:-1]
@@ -349,7 +351,7 @@ class ClosedLoopSimulator:
 
     # ---- on demand -----------------------------------------------------------------------------------------------
 
-    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
         """Find the least error (N,) that each arm can have, and a configuration (N, n) that has it; NaN for bad input."""
         q, poses = np.atleast_2d(runs.q_final), self._target_poses(runs)
         healthy_mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
@@ -361,7 +363,7 @@ class ClosedLoopSimulator:
         )
         return least_errors, nearest
 
-    def _target_poses(self, runs: Runs) -> Array:
+    def _target_poses(self, runs: Runs) -> FloatArray:
         """Return the target poses (N, 4, 4)."""
         if runs.target.shape[-2:] == (4, 4):
             return runs.target.reshape(-1, 4, 4)
@@ -370,7 +372,7 @@ class ClosedLoopSimulator:
         poses[:, :3, 3] = components @ self.law.task.rows[:, :3]
         return poses
 
-    def path(self, runs: Runs, run: int, samples: int, until: float | None) -> Path:
+    def path(self, runs: Runs, run: int, samples: int, until: float | None) -> RunPath:
         """Sample a run at equal times; see :meth:`Runs.path`."""
         end_time = float(np.atleast_1d(runs.time)[run])
         if until is not None:
@@ -379,17 +381,17 @@ class ClosedLoopSimulator:
             end_time = min(end_time, float(until))
         return self.sample_path(runs, run, self.replay_run(runs, run, end_time)[1], np.linspace(0.0, end_time, samples))
 
-    def sample_path(self, runs: Runs, run: int, motion: Callable[[Array], Array], time: Array) -> Path:
+    def sample_path(self, runs: Runs, run: int, motion: Callable[[FloatArray], FloatArray], time: FloatArray) -> RunPath:
         """Sample run k, as :meth:`replay_run` returned it, at times (T,)."""
         q = motion(time)
         position, angle = self.compute_errors(runs, run, q)
         locked = time[:, None] >= np.atleast_2d(runs.lock_time)[run]
         tool_points = self.law.arm.forward_kinematics(q)[:, :3, 3]
-        return Path(
+        return RunPath(
             time, q, tool_points, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked
         )
 
-    def compute_errors(self, runs: Runs, run: int | NDArray[np.bool_], q: Array) -> tuple[Array, Array]:
+    def compute_errors(self, runs: Runs, run: int | NDArray[np.bool_], q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k.
 
         Where k is a mask of runs, the configurations are one for each of them.
@@ -397,13 +399,13 @@ class ClosedLoopSimulator:
         target = np.broadcast_to(self._target_poses(runs)[run], (len(q), 4, 4))
         return split_errors(self.law, self._error_search.compute_errors(q, target), self.law.arm.forward_kinematics(q), target)
 
-    def replay_run(self, runs: Runs, run: int, end: float) -> tuple[Array, Callable[[Array], Array]]:
+    def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
         """Simulate run k again up to a time, s or cycles; return the start times (S,) of its steps, and its motion: (T,) -> (T,
         n).
         """
-        history: list[tuple[Array, Array]] = []
+        history: list[tuple[FloatArray, FloatArray]] = []
 
-        def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
+        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
             parts = self._stepper.layout.view_parts(states)
             for _ in range(MAX_STEPS):
                 history.append((states[0].copy(), parameters[0].copy()))  # the next phase writes into both
@@ -425,7 +427,7 @@ class ClosedLoopSimulator:
                 [np.interp(time, substep_times, column) for column in parts["q"].T], axis=1
             )
 
-        def interpolate(time: Array) -> Array:
+        def interpolate(time: FloatArray) -> FloatArray:
             # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
             step_index = np.searchsorted(parts["time"][:, 0], time * self._time_scale, side="right") - 1
             step_parameters = parameters[step_index]
@@ -434,13 +436,13 @@ class ClosedLoopSimulator:
 
         return parts["time"][:, 0] / self._time_scale, interpolate
 
-    def _advance_step(self, states: Array, parameters: Array) -> Array:
+    def _advance_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
         """Return the states after one step."""
         for _ in range(self._stepper.calls_per_step):
             states = self._call_step(states, parameters)
         return states
 
-    def _call_step(self, states: Array, parameters: Array) -> Array:
+    def _call_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
         """Return the states after one call of the step, with the compiled step of the loop where the loop takes
         single steps.
         """

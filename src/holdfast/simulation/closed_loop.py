@@ -22,22 +22,26 @@ from holdfast.simulation.batch import compiled_simulator
 from holdfast.simulation.runs import Runs, RunSettings
 from holdfast.simulation.tableaus import CLASSIC_RK4
 from holdfast.simulation.touching import add_contacts
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Method = Literal["adaptive", "rk4"]
 
 
 class LockSchedule(Protocol):
     """Faults that state when joints lock."""
 
-    def times_of(self, joints: Sequence[str]) -> Array:
+    def times_of(self, joints: Sequence[str]) -> FloatArray:
         """Return (n,), or (N, n) of N runs, the times at which these joints lock, infinite for never."""
         ...
 
 
-TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
+# TIME_LIMIT and CYCLE_LIMIT: 1/Ke, cycles
+TIME_LIMIT = 3000.0
+CYCLE_LIMIT = 1000.0
 TARGET_RADIUS_M = 0.1  # m
-DEFAULT_TOLERANCE, MAX_TOLERANCE, MIN_TOLERANCE = 1e-9, 1e-6, 1e-13
+DEFAULT_TOLERANCE = 1e-9
+MAX_TOLERANCE = 1e-6
+MIN_TOLERANCE = 1e-13
 
 
 @check_arguments
@@ -47,7 +51,7 @@ def simulate(
     q0: ArrayLike,
     target: ArrayLike,
     *,
-    locked: Locked | NDArray[np.int64] | Array = (),
+    locked: Locked | NDArray[np.int64] | FloatArray = (),
     cycles: bool = False,
     method: Method = "adaptive",
     time_limit: float | None = None,
@@ -184,7 +188,7 @@ def simulate(
 # ---- input -------------------------------------------------------------------------------------------------------
 
 
-def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: Array) -> tuple[Array, bool]:
+def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: FloatArray) -> tuple[FloatArray, bool]:
     """Return the time at which each joint locks (M, n), infinite for never, and whether all runs share it."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
@@ -224,7 +228,7 @@ def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, s
     return times, True
 
 
-def _read_fault_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[Array, bool]:
+def _read_fault_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[FloatArray, bool]:
     """Return the lock times of sampled faults, and whether all runs share them."""
     if not hasattr(faults, "times_of"):
         raise InputError(f"faults is {faults!r}; give those of an episode, by draw, or of many, by batch")
@@ -234,7 +238,7 @@ def _read_fault_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[Arra
     return np.atleast_2d(times), times.ndim == 1
 
 
-def _check_lock_times(law: Law, locked: NDArray[Any]) -> Array:
+def _check_lock_times(law: Law, locked: NDArray[Any]) -> FloatArray:
     arm = law.arm
     if locked.shape[1] != arm.n or not np.issubdtype(locked.dtype, np.number):
         raise InputError(

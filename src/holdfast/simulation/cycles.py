@@ -30,10 +30,8 @@ from holdfast.simulation.system import (
 )
 
 SUBSTEPS_PER_CYCLE = 10
-REST_TRAVEL_FRACTION, REST_TRAVEL_LENGTHS = (
-    2e-5,
-    1e-6,
-)  # of a cycle's way at the speed limit; of the arm's own unit of length where there is no limit
+REST_TRAVEL_FRACTION = 2e-5  # of a cycle's way at the speed limit
+REST_TRAVEL_LENGTHS = 1e-6  # of the arm's own unit of length where there is no limit
 REST_CYCLES = 50  # cycles one after the other in which the end effector moved less than that: at rest
 
 

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from holdfast.simulation.runge_kutta import RungeKuttaStepper
 from holdfast.simulation.system import LARGE_NUMBER, STATE_RUNNING
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _STEPS_PER_ROUND = 1500  # of the integrator: a period is no longer
-_MAX_ROUNDS = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
-_NEWTON_STEPS, _MAX_CALLS = 6, 400  # corrections of the time of a return; calls in each
+_MAX_STRETCHES = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
+_RETURN_TIME_STEPS = 6  # corrections of the time of a return
+_MAX_CALLS = 400  # calls in each
 _GROUP_RUNS = 32  # at a time, whose ways are kept
 _RETURN_TOLERANCE = 0.1  # of the motion's extent: a return that misses by more is none
 _MAX_DRIFT = 1e-2  # of the motion's extent: the most that it may drift within the horizon
@@ -25,7 +25,7 @@ DRIFT_HORIZON = 1e5  # 1/Ke, after the end of the run
 
 
 def detect_periodic(
-    stepper: RungeKuttaStepper, states: Array, parameters: Array, is_revolute: NDArray[np.bool_], min_speed: float
+    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
 ) -> NDArray[np.bool_]:
     """Find the periodic motions: those that return to an earlier configuration, always faster than ``min_speed``.
 
@@ -48,7 +48,7 @@ def detect_periodic(
 
 
 def _detect_periodic_group(
-    stepper: RungeKuttaStepper, states: Array, parameters: Array, is_revolute: NDArray[np.bool_], min_speed: float
+    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
 ) -> NDArray[np.bool_]:
     layout = stepper.layout
     states, unlimited_parameters = states.copy(), parameters.copy()
@@ -57,7 +57,7 @@ def _detect_periodic_group(
     horizon = np.maximum(parameters[:, -2] - state_parts["clock"][:, 0], DRIFT_HORIZON)
     unlimited_parameters[:, -3:-1] = LARGE_NUMBER
     is_periodic, active = np.zeros(len(states), dtype=bool), np.arange(len(states))
-    for _ in range(_MAX_ROUNDS):
+    for _ in range(_MAX_STRETCHES):
         trajectory = np.stack(_record_steps(stepper, states[active], unlimited_parameters[active]))
         returning = np.zeros(len(active), dtype=bool)
         for column, row in enumerate(active):
@@ -70,7 +70,7 @@ def _detect_periodic_group(
     return is_periodic
 
 
-def _record_steps(stepper: RungeKuttaStepper, states: Array, parameters: Array) -> list[Array]:
+def _record_steps(stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray) -> list[FloatArray]:
     """Return the states (N, s) after each step, the initial ones first."""
     if stepper.calls_per_step == 1:
         return list(stepper.loop.trace_states(states, parameters, _STEPS_PER_ROUND))
@@ -81,7 +81,7 @@ def _record_steps(stepper: RungeKuttaStepper, states: Array, parameters: Array) 
 
 
 def _measure_drift(
-    stepper: RungeKuttaStepper, trajectory: Array, parameters: Array, is_revolute: NDArray[np.bool_], min_speed: float
+    stepper: RungeKuttaStepper, trajectory: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
 ) -> float:
     """Return the drift of a motion per 1/Ke, in units of its extent, by its first return; infinite where it does not return.
 
@@ -113,7 +113,7 @@ def _measure_drift(
 
 
 def _find_return(
-    stepper: RungeKuttaStepper, start: Array, nearby: Array, parameters: Array, is_revolute: NDArray[np.bool_]
+    stepper: RungeKuttaStepper, start: FloatArray, nearby: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_]
 ) -> tuple[float, float]:
     """Return the time at which a motion that is ``nearby`` its start passes it, and the distance; infinite if it does not."""
     layout, parameters = stepper.layout, parameters[None].copy()
@@ -123,7 +123,7 @@ def _find_return(
     direction, earlier_parts = start_parts["rates"][0], layout.view_parts(earlier)
     time = float(earlier_parts["time"][0, 0])
     earliest, current = time, earlier_parts
-    for _ in range(_NEWTON_STEPS):
+    for _ in range(_RETURN_TIME_STEPS):
         displacement = _wrap_angles(current["q"][0] - start_parts["q"][0], is_revolute)
         speed_along = float(current["rates"][0] @ direction)
         if not speed_along > 0:
@@ -135,5 +135,5 @@ def _find_return(
     return float(current["clock"][0, 0] - start_parts["clock"][0, 0]), float(np.linalg.norm(displacement))
 
 
-def _wrap_angles(q: Array, is_revolute: NDArray[np.bool_]) -> Array:
+def _wrap_angles(q: FloatArray, is_revolute: NDArray[np.bool_]) -> FloatArray:
     return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

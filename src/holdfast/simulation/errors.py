@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.simulation.runs import RunOutcome, Runs
 from holdfast.simulation.system import tool_errors
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 REPORT_DELAYS = (1.0, 10.0, 60.0)  # s, or cycles, after the first lock
 _SAMPLES_PER_RUN = 20_000  # of a run, about: more where its integrator took more steps
@@ -47,7 +45,7 @@ def error_kinds(law: Law) -> list[ErrorKind]:
     return [_POSITION_KIND] * bool(law.task.rows[:, :3].any()) + [_ANGLE_KIND] * bool(law.task.angular)
 
 
-def display_errors(law: Law, q: Array, error: Array, target: Array) -> list[Array]:
+def display_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> list[FloatArray]:
     """Compute the errors of configurations (N, n) in mm and degrees: one array (N,) for each of :func:`error_kinds`.
 
     Args:
@@ -119,10 +117,10 @@ def error_history(runs: Runs, run: int = 0) -> ErrorHistory:
     def error_at(index: int) -> ErrorAt:
         return ErrorAt(float(time[index]), float(path.position_error[index]), float(path.angle_error[index]))
 
-    def find_largest(values: Array) -> ErrorAt:
+    def find_largest(values: FloatArray) -> ErrorAt:
         return error_at(int(np.argmax(np.where(is_after_lock, values, -np.inf))))
 
-    def find_least(values: Array) -> ErrorAt:
+    def find_least(values: FloatArray) -> ErrorAt:
         return error_at(int(np.argmin(np.where(is_within_run, values, np.inf))))
 
     return ErrorHistory(

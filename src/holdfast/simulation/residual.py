@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.caching import cached_property
@@ -14,11 +13,14 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm
 from holdfast.notice import track
 from holdfast.simulation.system import FailedArmSystem
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-_MAX_STEPS, _GRADIENT_TOLERANCE = 200, 1e-9
-_INITIAL_DAMPING, _DAMPING_DECREASE, _DAMPING_INCREASE, _MAX_DAMPING = 1e-3, 0.2, 5.0, 1e8
+_MAX_DESCENT_STEPS = 200
+_GRADIENT_TOLERANCE = 1e-9
+_INITIAL_DAMPING = 1e-3
+_DAMPING_DECREASE = 0.2
+_DAMPING_INCREASE = 5.0
+_MAX_DAMPING = 1e8
 
 
 class ErrorMinimiser:
@@ -63,11 +65,13 @@ class ErrorMinimiser:
         system = self._system
         return Kernel("least error", [system.q, system.target, system.rotation], [ca.norm_2(system.compute_error(system.q)[0])])
 
-    def compute_errors(self, q: Array, poses: Array) -> Array:
+    def compute_errors(self, q: FloatArray, poses: FloatArray) -> FloatArray:
         """Return (N,) norms of the task's error, m and rad."""
         return self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
-    def search(self, q: Array, parameters: Array, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]:
+    def search(
+        self, q: FloatArray, parameters: FloatArray, restarts: int, generator: np.random.Generator
+    ) -> tuple[FloatArray, FloatArray]:
         """Find the least norms of the error (N,) from q (N, n) and from random values of the healthy joints.
 
         Returns:
@@ -80,7 +84,10 @@ class ErrorMinimiser:
         for restart in track("starts of each run", range(restarts + 1)):
             start = q if restart == 0 else np.where(healthy_mask > 0, generator.uniform(lower, upper, (run_count, n)), q)
             solutions = self._search_loop.run(
-                np.column_stack([start, np.full(run_count, _INITIAL_DAMPING)]), parameters, _GRADIENT_TOLERANCE, _MAX_STEPS
+                np.column_stack([start, np.full(run_count, _INITIAL_DAMPING)]),
+                parameters,
+                _GRADIENT_TOLERANCE,
+                _MAX_DESCENT_STEPS,
             )
             errors = self._error_kernel.rows(solutions.state[:, :n], position, rotation)[:, 0]
             is_better = errors < least_errors

@@ -17,15 +17,13 @@ from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.notice import reports_progress
 from holdfast.result import Result
+from holdfast.typing import BoolArray, FloatArray
 from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
     from holdfast.clearance.contacts import Contact
     from holdfast.control.law import Law
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 CHECKED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
@@ -91,7 +89,7 @@ UNDECIDED_REASONS = tuple(reason for reason in Reason if reason not in (Reason.N
 
 
 @dataclass(frozen=True)
-class Path:
+class RunPath:
     """One run over time.
 
     Attributes:
@@ -104,14 +102,14 @@ class Path:
         locked: (T, n) True where the joint is locked.
     """
 
-    time: Array
-    q: Array
-    x: Array
+    time: FloatArray
+    q: FloatArray
+    x: FloatArray
     _: KW_ONLY
-    error: Array
-    position_error: Array
-    angle_error: Array
-    locked: Flags
+    error: FloatArray
+    position_error: FloatArray
+    angle_error: FloatArray
+    locked: BoolArray
 
 
 @dataclass(frozen=True)
@@ -132,12 +130,12 @@ class RunSettings:
 class _Simulator(Protocol):
     """Simulator of the runs, for later questions about them."""
 
-    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[Array, Array]: ...
-    def compute_errors(self, runs: Runs, run: int | Flags, q: Array) -> tuple[Array, Array]: ...
-    def sample_path(self, runs: Runs, run: int, motion: Callable[[Array], Array], time: Array) -> Path: ...
-    def path(self, runs: Runs, run: int, samples: int, until: float | None) -> Path: ...
-    def run(self, q0: Array, target: Array, lock_time: Array, setting: RunSettings) -> Runs: ...
-    def replay_run(self, runs: Runs, run: int, end: float) -> tuple[Array, Callable[[Array], Array]]: ...
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]: ...
+    def compute_errors(self, runs: Runs, run: int | BoolArray, q: FloatArray) -> tuple[FloatArray, FloatArray]: ...
+    def sample_path(self, runs: Runs, run: int, motion: Callable[[FloatArray], FloatArray], time: FloatArray) -> RunPath: ...
+    def path(self, runs: Runs, run: int, samples: int, until: float | None) -> RunPath: ...
+    def run(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> Runs: ...
+    def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,24 +166,24 @@ class Runs(Result):
     """
 
     law: Law
-    q0: Array
-    target: Array
-    lock_time: Array
+    q0: FloatArray
+    target: FloatArray
+    lock_time: FloatArray
     cycles: bool
     code: NDArray[np.uint8]
     reason: NDArray[np.uint8]
-    q_final: Array
-    x_final: Array
-    error: Array
-    closest: Array
-    path_length: Array
-    q_low: Array
-    q_high: Array
-    limits_passed: Flags
-    time: Array
+    q_final: FloatArray
+    x_final: FloatArray
+    error: FloatArray
+    closest: FloatArray
+    path_length: FloatArray
+    q_low: FloatArray
+    q_high: FloatArray
+    limits_passed: BoolArray
+    time: FloatArray
     clearance: Clearance | None = None
     contacts: tuple[Contact, ...] | None = None
-    stopped: Array | None = None
+    stopped: FloatArray | None = None
     _simulator: _Simulator = field(repr=False, compare=False)
     _settings: RunSettings = field(repr=False, compare=False)
 
@@ -198,17 +196,17 @@ class Runs(Result):
         return np.asarray(_OUTCOME_NAMES[self.code])
 
     @property
-    def position_error(self) -> Array:
+    def position_error(self) -> FloatArray:
         """(N,) distance of the tool point from the target at the end in the directions of the task, m."""
         return self._end_errors[0]
 
     @property
-    def angle_error(self) -> Array:
+    def angle_error(self) -> FloatArray:
         """(N,) angle of the end effector from the target at the end in the directions of the task, rad."""
         return self._end_errors[1]
 
     @cached_property
-    def _end_errors(self) -> tuple[Array, Array]:
+    def _end_errors(self) -> tuple[FloatArray, FloatArray]:
         q = np.atleast_2d(self.q_final)
         is_finite = np.asarray(np.isfinite(q).all(axis=1))
         errors = np.full((2, len(q)), np.nan)
@@ -216,7 +214,7 @@ class Runs(Result):
         return (errors[0], errors[1]) if self.code.ndim else (errors[0, 0], errors[1, 0])
 
     @property
-    def held_from(self) -> Array:
+    def held_from(self) -> FloatArray:
         """(N, n) when each joint stops for good, by its lock or because the run was stopped, s or cycles."""
         lock_times = np.atleast_2d(self.lock_time)
         return lock_times if self.stopped is None else np.minimum(lock_times, np.atleast_1d(self.stopped)[:, None])
@@ -252,7 +250,7 @@ class Runs(Result):
 
     @check_arguments
     @reports_progress("looking for the least errors")
-    def least_error(self, restarts: int = 24, seed: int = 0) -> Array:
+    def least_error(self, restarts: int = 24, seed: int = 0) -> FloatArray:
         """Return (N,) the least norm of the task's error that each arm can have with its joints locked where they were at the
         end.
 
@@ -268,12 +266,12 @@ class Runs(Result):
         return least_errors if self.code.ndim else least_errors[0]
 
     @property
-    def excess_error(self) -> Array:
+    def excess_error(self) -> FloatArray:
         """(N,) error at the end minus :meth:`least_error`: 0 where the arm ends as close as it still could."""
         return np.asarray(self.error - self.least_error())
 
     @check_arguments
-    def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> Path:
+    def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> RunPath:
         """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
 
         Args:
@@ -312,7 +310,7 @@ class Runs(Result):
             return ""
         violations = []
         for joint, joint_name, minimum, maximum in zip(arm.joints, arm.joint_names, lowest, highest, strict=True):
-            factor, unit = joint.shown
+            factor, unit = joint.display_unit
             for value, limit, is_beyond in (
                 (minimum, joint.lower, minimum < joint.lower),
                 (maximum, joint.upper, maximum > joint.upper),

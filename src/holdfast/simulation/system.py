@@ -15,7 +15,6 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.caching import cached_property
@@ -23,8 +22,7 @@ from holdfast.control.law import Law
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.solvers.inverse_kinematics import scaled_error, task_error
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 LARGE_NUMBER = 1e300  # stands for "never" in kernels, which turn infinity into NaN
 MAX_UNROLLED_OPERATIONS = 12_000  # operations in one call, about
@@ -63,7 +61,7 @@ class FailedArmSystem:
         # What the motion needs to know: no orientation where no row of the task has one.
         self.inputs = self.parameters if self._uses_orientation else [self.target, self.mask]
 
-    def target_values(self, target: Array) -> Array:
+    def target_values(self, target: FloatArray) -> FloatArray:
         """Return targets, poses (N, 4, 4) or task components (N, m), as the values of ``inputs`` before the mask, (N, ...)."""
         if target.ndim == 2:
             return np.asarray(target @ self.law.task.rows[:, :3])
@@ -120,7 +118,7 @@ class FailedArmSystem:
         return StateRates(*self.rates_function(q, *self.inputs))
 
 
-def prescribed_offset(law: Law, tool: Array, target: Array) -> Array:
+def prescribed_offset(law: Law, tool: FloatArray, target: FloatArray) -> FloatArray:
     """Return (N, 3) the offsets from tools to targets, poses (N, 4, 4), in the directions that the task prescribes, m."""
     linear = law.task.rows[:, :3]
     projector = linear.T @ linear
@@ -131,7 +129,7 @@ def prescribed_offset(law: Law, tool: Array, target: Array) -> Array:
     return np.asarray(np.einsum("nij,jk,nlk,nl->ni", rotation, projector, rotation, offset))
 
 
-def split_errors(law: Law, error: Array, tool: Array, target: Array) -> tuple[Array, Array]:
+def split_errors(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Split norms of the task's error into position errors and angle errors.
 
     Args:
@@ -149,12 +147,12 @@ def split_errors(law: Law, error: Array, tool: Array, target: Array) -> tuple[Ar
     return linear, np.sqrt(np.maximum(error**2 - linear**2, 0.0))
 
 
-def tool_errors(law: Law, q: Array, error: Array, target: Array) -> tuple[Array, Array]:
+def tool_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Compute position errors (N,), m, and angle errors (N,), rad, as :func:`split_errors`, at q (N, n) for a target or N."""
     return split_errors(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
 
 
-def scale_errors(law: Law, error: Array, tool: Array, target: Array) -> Array:
+def scale_errors(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> FloatArray:
     """Return norms of errors (N,), m and rad, with lengths in units of the arm's length; tools and targets are in m."""
     linear, angular = split_errors(law, error, tool, target)
     return np.asarray(np.hypot(linear / law.arm.length_unit, angular))
@@ -186,7 +184,7 @@ class StateLayout:
         """Return the parts of a state symbol by name."""
         return {name: state[span] for name, span in self.slices.items()}
 
-    def view_parts(self, state: Array) -> dict[str, Array]:
+    def view_parts(self, state: FloatArray) -> dict[str, FloatArray]:
         """Return the parts of states (N, s) by name, each (N, size), as views."""
         return {name: state[:, span] for name, span in self.slices.items()}
 
@@ -222,11 +220,16 @@ def choose_parts(condition: SX, if_true: dict[str, SX], if_false: dict[str, SX])
 
 
 # Where a motion is: the code in the state of a loop.
-STATE_RUNNING, STATE_AT_REST, STATE_COLLAPSED, STATE_TIME_LIMIT, STATE_PHASE_END, STATE_ARRIVED = range(6)
-END_WINDOW_FRACTION, LATE_WINDOW_FRACTION = (
-    0.8,
-    0.9,
-)  # shares of the time limit: the end of a motion is watched from the first on, in two halves
+STATE_RUNNING = 0
+STATE_AT_REST = 1
+STATE_COLLAPSED = 2
+STATE_TIME_LIMIT = 3
+STATE_PHASE_END = 4
+STATE_ARRIVED = 5
+# END_WINDOW_FRACTION and LATE_WINDOW_FRACTION: shares of the time limit: the end of a motion is watched from the first on, in
+# two halves
+END_WINDOW_FRACTION = 0.8
+LATE_WINDOW_FRACTION = 0.9
 
 
 def update_end_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, SX]:

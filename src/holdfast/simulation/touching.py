@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.contacts import Contact, find_first_contacts
 from holdfast.notice import track
 from holdfast.simulation.runs import Reason, Runs
-
-Array = NDArray[np.float64]
 
 _END_FIELDS = ("code", "q_final", "x_final", "error", "closest", "path_length", "q_low", "q_high", "limits_passed", "time")
 

@@ -7,19 +7,19 @@ more random configurations, go a few steps of the linearised problem side by sid
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError
 from holdfast.solvers import joint_space
 from holdfast.solvers.optimum import Ascent, Optimum
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 FREE_STARTS = 10_000
 _SAMPLES_PER_START = 20  # random configurations for each start
 _CHECKED_PER_START = 8  # of them, for each start, are looked at for collisions
-_FIRST_STEPS, _LAST_STEPS = 8, 80  # steps of all starts, and of those that are followed to the end
+# _FIRST_STEPS and _LAST_STEPS: steps of all starts, and of those that are followed to the end
+_FIRST_STEPS = 8
+_LAST_STEPS = 80
 _REFINED_FRACTION = 0.05  # of the starts
 _VALUE_TOLERANCE = 1e-7  # values that differ by less are all the same: nothing to climb, and nothing is compiled
 
@@ -76,13 +76,13 @@ def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: 
     )
 
 
-def _ascend_starts(ascent: Ascent, q: Array, retained: int) -> tuple[Array, Array]:
+def _ascend_starts(ascent: Ascent, q: FloatArray, retained: int) -> tuple[FloatArray, FloatArray]:
     """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf where an end is not
     collision-free.
     """
     has_clearance = ascent.clearance is not None
 
-    def evaluate_worth(q: Array) -> Array:
+    def evaluate_worth(q: FloatArray) -> FloatArray:
         value = ascent.oriented_values(q)
         return np.where(np.isfinite(value) & (ascent.is_collision_free(q) if has_clearance else True), value, -np.inf)
 

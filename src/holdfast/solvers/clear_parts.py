@@ -6,15 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.clearance.clearance import Clearance
 from holdfast.solvers import joint_space
 from holdfast.solvers.curve_tracing import Component, ManifoldTracer
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
 _MAX_STRAY_FRACTION = (
@@ -33,8 +30,8 @@ class CurveConstraint:
         pair_names: (P,) of what ends a part where the room is used up.
     """
 
-    evaluate_margins: Callable[[Array], Array]
-    lipschitz_bounds: Array
+    evaluate_margins: Callable[[FloatArray], FloatArray]
+    lipschitz_bounds: FloatArray
     pair_names: Sequence[str]
 
     @classmethod
@@ -43,16 +40,16 @@ class CurveConstraint:
         of its arm.
         """
 
-        def evaluate_margins(q: Array) -> Array:
+        def evaluate_margins(q: FloatArray) -> FloatArray:
             return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
 
         return cls(evaluate_margins, clearance.lipschitz_bounds(*finite_limits(clearance.arm)), clearance.pair_names)
 
-    def is_satisfied(self, q: Array) -> Flags:
+    def is_satisfied(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where all inequalities are met at q (N, n)."""
         return np.asarray((self.evaluate_margins(q) >= 0).all(axis=1))
 
-    def find_free_parts(self, tracer: ManifoldTracer, pose: Array, curve: Component) -> list[Component]:
+    def find_free_parts(self, tracer: ManifoldTracer, pose: FloatArray, curve: Component) -> list[Component]:
         """Return the parts of a curve of a pose (4, 4) that meet the inequalities, in order, with the names of the pairs at
         their ends.
 
@@ -84,7 +81,7 @@ class CurveConstraint:
             return [curve]
         return self._proved_parts(curve, q, margins, proved)
 
-    def _proved_parts(self, curve: Component, q: Array, margins: Array, proved: Flags) -> list[Component]:
+    def _proved_parts(self, curve: Component, q: FloatArray, margins: FloatArray, proved: BoolArray) -> list[Component]:
         """Return the runs of proved segments between points q (K, n)."""
         if curve.closed:  # begin behind a piece that is not clear
             cut_index = int(np.flatnonzero(~proved)[0]) + 1
@@ -115,7 +112,7 @@ class CurveConstraint:
             )
         return parts
 
-    def _name_end(self, inside: Array, outside: Array) -> str:
+    def _name_end(self, inside: FloatArray, outside: FloatArray) -> str:
         """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is
         known beyond.
         """

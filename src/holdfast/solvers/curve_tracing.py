@@ -23,8 +23,7 @@ from holdfast.linalg import damped_least_norm, factor_householder
 from holdfast.notice import ProgressCount
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import scaled_error, solver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 CURVE_TOLERANCE = 1e-10  # rad, and lengths in units of the arm's own: how far from the pose a point may be
 _CORRECTOR_STEPS = 5  # corrector steps before a step counts as too long
@@ -50,7 +49,7 @@ class Component:
             empty where none does.
     """
 
-    q: Array
+    q: FloatArray
     closed: bool
     bounded_by: tuple[int | None, int | None]
     length: float
@@ -66,7 +65,7 @@ class Component:
         return revolutions.astype(np.int64)
 
     @property
-    def ranges(self) -> Array:
+    def ranges(self) -> FloatArray:
         """Length (n,) of the interval of values of each joint on the curve, rad or m; 2 pi of a joint that winds.
 
         Of a revolute joint 2 pi or more is every angle. The ends lie on parabolas through three points.
@@ -75,7 +74,7 @@ class Component:
         return np.where(self.winding != 0, 2 * np.pi, widths)
 
 
-def _peak_value(x: Array, closed: bool) -> float:
+def _peak_value(x: FloatArray, closed: bool) -> float:
     """Return the largest value of a smooth curve with points x (K,), by the parabola through the largest point and its
     neighbors.
     """
@@ -93,9 +92,9 @@ def _peak_value(x: Array, closed: bool) -> float:
 class _CurveRun:
     """Curves being traced, one per row: their current points, and why they ended."""
 
-    q: Array
-    tangent: Array
-    points: list[Array]
+    q: FloatArray
+    tangent: FloatArray
+    points: list[FloatArray]
     closed: NDArray[np.bool_]
     limit: NDArray[np.int64]  # joint, or -1
 
@@ -124,7 +123,7 @@ class ManifoldTracer:
         return tracer_copy
 
     @property
-    def _fixed_inputs(self) -> list[Array]:
+    def _fixed_inputs(self) -> list[FloatArray]:
         """Kernel inputs besides configurations and poses: the fixed joints, one in each row."""
         return [np.eye(self.arm.n)[list(self.fixed_joints)]] if self.fixed_joints else []
 
@@ -149,7 +148,9 @@ class ManifoldTracer:
             "self-motion", [q, position, rotation, *fixed_rows], [ca.vertcat(q + correction, ca.norm_2(errors), *null_vectors)]
         )
 
-    def find_seeds(self, poses: Array, rows: NDArray[np.intp], seed: int, starts: int) -> tuple[NDArray[np.intp], Array]:
+    def find_seeds(
+        self, poses: FloatArray, rows: NDArray[np.intp], seed: int, starts: int
+    ) -> tuple[NDArray[np.intp], FloatArray]:
         """Find configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         random_starts = self.engine.sample_starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
@@ -158,13 +159,13 @@ class ManifoldTracer:
         q, converged = self._attempt(random_starts[rows].reshape(-1, self.arm.n), poses[owner])
         return owner[converged], q[converged]
 
-    def _attempt(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _attempt(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Solve inverse kinematics from starts q (N, n); return the ends, and whether each is on the pose and within the
         limits.
         """
         return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
-    def correct(self, q: Array, poses: Array) -> tuple[Array, NDArray[np.bool_], Array]:
+    def correct(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
         """Move configurations (N, n) back to their poses; return them, whether that worked, and null vectors (N, free, n)
         there.
         """
@@ -178,7 +179,7 @@ class ManifoldTracer:
             q = np.where(on_pose[:, None], q, outputs[:, :n])
         return q, on_pose & np.isfinite(outputs).all(axis=1), outputs[:, n + 1 :].reshape(-1, self.dimension, n)
 
-    def newton_step(self, q: Array, p: Array, r: Array) -> tuple[Array, Array, Array]:
+    def newton_step(self, q: FloatArray, p: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return one least-norm step (N, n) from q (N, n) to positions p (N, 3) and rotations r (N, 3, 3), the error (N,) of q,
         in units of the arm's own, and the first null vector (N, n) at q.
         """
@@ -189,7 +190,7 @@ class ManifoldTracer:
     # ---- curves ----------------------------------------------------------------------------------------------------
 
     def trace_curves(
-        self, poses: Array, owner: NDArray[np.intp], q: Array, spacing: float, found: list[list[Component]]
+        self, poses: FloatArray, owner: NDArray[np.intp], q: FloatArray, spacing: float, found: list[list[Component]]
     ) -> list[list[Component]]:
         """Add to the curves ``found`` of each pose every other curve through a seed q (S, n) of pose ``owner`` (S,)."""
         pending = np.ones(owner.size, dtype=bool)
@@ -212,14 +213,20 @@ class ManifoldTracer:
         return found
 
     def _drop_seeds(
-        self, pending: NDArray[np.bool_], component: Component, pose: np.intp, owner: NDArray[np.intp], q: Array, spacing: float
+        self,
+        pending: NDArray[np.bool_],
+        component: Component,
+        pose: np.intp,
+        owner: NDArray[np.intp],
+        q: FloatArray,
+        spacing: float,
     ) -> None:
         """Remove the pending seeds of a pose that lie on a component."""
         own_seeds = np.flatnonzero((owner == pose) & pending)
         if own_seeds.size:
             pending[own_seeds] = distance_to_curve(self.arm, component, q[own_seeds]) > _ON_CURVE_FRACTION * spacing
 
-    def propagate_curves(self, poses: Array, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
+    def propagate_curves(self, poses: FloatArray, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
         """Add the curves at which inverse kinematics converges from the middle of a curve of the previous or next pose."""
         new_curves = [(pose_index, curve) for pose_index, curves in enumerate(found) for curve in curves]
         while new_curves:
@@ -240,7 +247,7 @@ class ManifoldTracer:
             ]
         return found
 
-    def _trace_both_ways(self, q: Array, poses: Array, spacing: float) -> list[Component | None]:
+    def _trace_both_ways(self, q: FloatArray, poses: FloatArray, spacing: float) -> list[Component | None]:
         q, sound, null_vectors = self.correct(q, poses)
         tangent = null_vectors[:, 0]
         rows = np.flatnonzero(sound)
@@ -262,7 +269,7 @@ class ManifoldTracer:
             components[row] = Component(q=points, closed=closed, bounded_by=bounds, length=float(length))
         return components
 
-    def _trace(self, q: Array, tangent: Array, poses: Array, spacing: float) -> _CurveRun:
+    def _trace(self, q: FloatArray, tangent: FloatArray, poses: FloatArray, spacing: float) -> _CurveRun:
         """Follow the curve of each row in one direction. Every pass tries one step of every active row."""
         run = _CurveRun(q.copy(), tangent.copy(), [], np.zeros(len(q), dtype=bool), np.full(len(q), -1))
         taken_rows, taken_points = [np.arange(len(q))], [q]
@@ -310,7 +317,7 @@ class ManifoldTracer:
         run.points = np.split(np.concatenate(taken_points)[order], np.searchsorted(all_rows[order], np.arange(1, len(q))))
         return run
 
-    def _fraction_within_limits(self, q: Array, new: Array) -> tuple[Array, NDArray[np.int64]]:
+    def _fraction_within_limits(self, q: FloatArray, new: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
         """Return the fraction (N,) of the step from q to new that stays within the limits, and the joint that ends it."""
         displacement = new - q
         distance_to_limit = np.where(displacement > 0, self.arm.upper - q, self.arm.lower - q)
@@ -319,7 +326,7 @@ class ManifoldTracer:
             fraction = np.where(outside, np.maximum(distance_to_limit / displacement, 0.0), 1.0)
         return fraction.min(axis=1), fraction.argmin(axis=1)
 
-    def _closes_curve(self, q: Array, new: Array, first: Array, direction: Array) -> NDArray[np.bool_]:
+    def _closes_curve(self, q: FloatArray, new: FloatArray, first: FloatArray, direction: FloatArray) -> NDArray[np.bool_]:
         """Return True where the step from q to new (N, n) passes the first point of the curve, in the direction of
         its start.
         """
@@ -331,7 +338,7 @@ class ManifoldTracer:
 
     # ---- samples ---------------------------------------------------------------------------------------------------
 
-    def sample_manifold(self, pose: Array, q: Array, spacing: float) -> Array:
+    def sample_manifold(self, pose: FloatArray, q: FloatArray, spacing: float) -> FloatArray:
         """Sample points (N, n) of a manifold of dimension 2 or more, from seeds q (S, n), by a growing front of neighbors."""
         points = front = self._thin_points(np.empty((0, self.arm.n)), q, spacing)
         angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
@@ -352,7 +359,7 @@ class ManifoldTracer:
             points = np.concatenate([points, front])
         return points[:_MAX_POINTS]
 
-    def _thin_points(self, points: Array, q: Array, spacing: float) -> Array:
+    def _thin_points(self, points: FloatArray, q: FloatArray, spacing: float) -> FloatArray:
         """Return those of q (N, n), in order, that are ``spacing`` away from the points and from the points returned before."""
         if len(points) and len(q):
             q = q[joint_space.find_nearest(self.arm, points, q)[0] >= spacing]
@@ -365,7 +372,7 @@ class ManifoldTracer:
         return q[is_retained]
 
 
-def distance_to_curve(arm: Arm, component: Component, q: Array) -> Array:
+def distance_to_curve(arm: Arm, component: Component, q: FloatArray) -> FloatArray:
     """Return the distance (N,) of configurations (N, n) from the polygon of a component, near it; rad (and m)."""
     points, segments = component.q, _curve_segments(arm, component.q, component.closed)
     _, nearest = joint_space.find_nearest(arm, points, q)
@@ -376,14 +383,14 @@ def distance_to_curve(arm: Arm, component: Component, q: Array) -> Array:
     )
 
 
-def _distance_to_segment(displacement: Array, segment: Array) -> Array:
+def _distance_to_segment(displacement: FloatArray, segment: FloatArray) -> FloatArray:
     """Return the distance (N,) of points ``displacement`` (N, n) from segments (N, n) that begin at the origin."""
     square_length = np.maximum(np.einsum("ij,ij->i", segment, segment), 1e-300)
     fraction = np.clip(np.einsum("ij,ij->i", displacement, segment) / square_length, 0.0, 1.0)
     return np.asarray(np.linalg.norm(displacement - fraction[:, None] * segment, axis=1))
 
 
-def _curve_segments(arm: Arm, q: Array, closed: bool) -> Array:
+def _curve_segments(arm: Arm, q: FloatArray, closed: bool) -> FloatArray:
     """Return the vectors (K, n) from each point to the next; from the last to the first if closed, else 0."""
     segments = np.diff(q, axis=0, append=q[-1:])
     if closed:

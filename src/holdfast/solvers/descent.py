@@ -6,18 +6,22 @@ from collections.abc import Callable
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
-_MAX_STEPS, _MAX_HALVINGS = 60, 12
+_MAX_STEPS = 60
+_MAX_HALVINGS = 12
 _STEP_TOLERANCE = 1e-9  # a shorter step ends it
 _QUIET_OPTIONS = {"print_iter": False, "print_header": False, "print_info": False, "error_on_fail": False}
 
 
 def minimise_constrained(
-    evaluate: Callable[[Array], tuple[float, Array, Array, Array]], x: Array, low: Array, high: Array, equal: int
-) -> Array:
+    evaluate: Callable[[FloatArray], tuple[float, FloatArray, FloatArray, FloatArray]],
+    x: FloatArray,
+    low: FloatArray,
+    high: FloatArray,
+    equal: int,
+) -> FloatArray:
     """Descend from x (n,) to a local minimum of a cost where its constraints hold; return the last point if that fails.
 
     Sequential quadratic programming with damped BFGS updates, and a search on the sum of the cost and what the constraints
@@ -37,7 +41,7 @@ def minimise_constrained(
     program = ca.conic("step", "qrqp", {"h": ca.Sparsity.dense(n, n), "a": ca.Sparsity.dense(*jacobian.shape)}, _QUIET_OPTIONS)
     curvature, is_equality, penalties = np.eye(n), np.arange(len(constraints)) < equal, np.zeros(len(constraints))
 
-    def solve_subproblem(values: Array) -> tuple[Array, Array] | None:
+    def solve_subproblem(values: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         """Return the step to where the constraints, linearised with these values, hold, and its multipliers; None if none."""
         upper = np.where(is_equality, -values, np.inf)
         try:
@@ -49,7 +53,7 @@ def minimise_constrained(
             (np.clip(step, low - x, high - x), multipliers) if program.stats()["success"] and np.isfinite(step).all() else None
         )
 
-    def violation(values: Array) -> Array:
+    def violation(values: FloatArray) -> FloatArray:
         return np.abs(np.where(is_equality, values, np.minimum(values, 0)))
 
     for _ in range(_MAX_STEPS):

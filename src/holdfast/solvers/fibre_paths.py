@@ -16,10 +16,9 @@ from holdfast.notice import reports_progress
 from holdfast.solvers import joint_space
 from holdfast.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres
 from holdfast.status import Status, require_ok
+from holdfast.typing import FloatArray, IndexArray
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
-Objective = Callable[[Array], ArrayLike]
+Objective = Callable[[FloatArray], ArrayLike]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -39,12 +38,12 @@ class FibrePath:
             infinite at all of them) or ``BAD_INPUT``.
     """
 
-    q: Array
-    value: Array
-    global_value: Array
-    global_q: Array
-    gaps: Index
-    reach: Array
+    q: FloatArray
+    value: FloatArray
+    global_value: FloatArray
+    global_q: FloatArray
+    gaps: IndexArray
+    reach: FloatArray
     status: NDArray[np.uint8]
 
     @property
@@ -164,7 +163,9 @@ class _Transitions:
         size: (P,) its length, as a share of the reach.
     """
 
-    def __init__(self, arm: Arm, from_points: Array, to_points: Array, spacing: float, limit: Array | None) -> None:
+    def __init__(
+        self, arm: Arm, from_points: FloatArray, to_points: FloatArray, spacing: float, limit: FloatArray | None
+    ) -> None:
         self.source = self.target = np.empty(0, dtype=np.int64)
         self.size, self.reach = np.empty(0), np.nan
         if not len(from_points) or not len(to_points):
@@ -185,7 +186,9 @@ class _Transitions:
             self.source, self.target, self.size = self.source[allowed], self.target[allowed], self.size[allowed]
 
 
-def _choose_points(values: list[Array], steps: list[_Transitions], weight: float, cost: str) -> tuple[list[int], list[int]]:
+def _choose_points(
+    values: list[FloatArray], steps: list[_Transitions], weight: float, cost: str
+) -> tuple[list[int], list[int]]:
     """Choose a point at each pose (-1: none exists), and return the gaps too."""
     chosen: list[int] = [-1] * len(values)
     gaps: list[int] = []
@@ -205,7 +208,7 @@ def _choose_points(values: list[Array], steps: list[_Transitions], weight: float
     return chosen, gaps
 
 
-def _last_reached(values: list[Array], steps: list[_Transitions], start: int) -> int:
+def _last_reached(values: list[FloatArray], steps: list[_Transitions], start: int) -> int:
     """Return the last pose to which some point of pose ``start`` leads."""
     is_reached = np.isfinite(values[start])
     for t in range(start, len(steps)):
@@ -219,11 +222,11 @@ def _last_reached(values: list[Array], steps: list[_Transitions], start: int) ->
 
 
 def _cheapest_path(
-    values: list[Array], steps: list[_Transitions], join: Callable[[Array, Array], Array], weight: float
+    values: list[FloatArray], steps: list[_Transitions], join: Callable[[FloatArray, FloatArray], FloatArray], weight: float
 ) -> tuple[float, list[int]]:
     """Return the smallest joined value of the paths from the first pose to the last, and the points of one such path."""
     total = values[0]
-    predecessors: list[Index] = []
+    predecessors: list[IndexArray] = []
     for value, step in zip(values[1:], steps, strict=True):
         costs = total[step.source] + weight * step.size**2
         order = np.lexsort((costs, step.target))
@@ -240,7 +243,7 @@ def _cheapest_path(
     return float(total[last_point]), points[::-1]
 
 
-def _evaluate_points(objective_value: Objective, points: list[Array]) -> list[Array]:
+def _evaluate_points(objective_value: Objective, points: list[FloatArray]) -> list[FloatArray]:
     """Evaluate the objective at the points of each pose; infinite where it is NaN."""
     all_points = np.concatenate(points)
     value = np.asarray(objective_value(all_points), dtype=np.float64)
@@ -252,7 +255,7 @@ def _evaluate_points(objective_value: Objective, points: list[Array]) -> list[Ar
     return np.split(value, np.cumsum([len(pose_points) for pose_points in points])[:-1])
 
 
-def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
+def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> FloatArray | None:
     if rate_limit is None:
         return None
     limit = np.asarray(rate_limit, dtype=np.float64)
@@ -263,7 +266,7 @@ def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
     return np.broadcast_to(limit, (arm.n,))
 
 
-def _unwrap_path(arm: Arm, q: Array) -> Array:
+def _unwrap_path(arm: Arm, q: FloatArray) -> FloatArray:
     """Make joints without limits take the short way from one pose to the next, also across -pi to pi."""
     displacements = np.nan_to_num(joint_space.joint_difference(arm, q[1:], q[:-1]))
     unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))

@@ -27,18 +27,19 @@ from holdfast.linalg import damped_least_norm
 from holdfast.notice import ProgressCount, reports_progress
 from holdfast.solvers import joint_space
 from holdfast.status import Status, require_ok
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-Accept = Callable[[Array], NDArray[np.bool_]]
+Accept = Callable[[FloatArray], NDArray[np.bool_]]
 
 MAX_STEPS = 40  # per start; most starts that reach the target do so within 15
-_HALF_TURN_SINE, _ZERO_SINE, _ROUNDING_SINE = (
-    1e-6,
-    1e-9,
-    1e-15,
-)  # sines of half a turn, of no turn, and of which nothing is left but rounding
+# _HALF_TURN_SINE, _ZERO_SINE and _ROUNDING_SINE: sines of half a turn, of no turn, and of which nothing is left but rounding
+_HALF_TURN_SINE = 1e-6
+_ZERO_SINE = 1e-9
+_ROUNDING_SINE = 1e-15
 _WAVE_ROWS = 8192  # rows of starts that run side by side when poses are left over
-_ROW_MULTIPLIER, _START_MULTIPLIER = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
+# _ROW_MULTIPLIER and _START_MULTIPLIER: odd numbers: each row walks through the whole pool of starts
+_ROW_MULTIPLIER = 2654435761
+_START_MULTIPLIER = 40503
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,10 +54,10 @@ class PoseSolutions:
         restarts: (N,) starts used.
     """
 
-    q: Array
+    q: FloatArray
     status: NDArray[np.uint8]
-    position_error: Array
-    rotation_error: Array
+    position_error: FloatArray
+    rotation_error: FloatArray
     restarts: NDArray[np.int64]
 
     @property
@@ -65,7 +66,7 @@ class PoseSolutions:
         return np.asarray(self.status == Status.OK)
 
     @property
-    def first(self) -> PoseSolutions:
+    def first_row(self) -> PoseSolutions:
         """The first row alone, without the leading N."""
         return PoseSolutions(**{field.name: getattr(self, field.name)[0] for field in fields(self)})
 
@@ -167,13 +168,13 @@ def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -
     return task.error(ca.vertcat(target - chain.position, rotation_vector), chain.rotation)
 
 
-def _pose_parameters(poses: Array) -> Array:
+def _pose_parameters(poses: FloatArray) -> FloatArray:
     return np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
 
 
 @dataclass(frozen=True)
 class _StartSearchResult:
-    q: Array
+    q: FloatArray
     restarts: NDArray[np.int64]
 
 
@@ -217,13 +218,13 @@ class InverseKinematics:
         """Return the tolerance that keeps errors within ``tolerance`` m and rad."""
         return tolerance / max(self._unit, 1.0)
 
-    def sample_starts(self, rows: int, generator: np.random.Generator) -> Array:
+    def sample_starts(self, rows: int, generator: np.random.Generator) -> FloatArray:
         """Sample random configurations (rows, n), uniform within the limits."""
         return generator.uniform(self._low, self._high, (rows, self.arm.n))
 
     def attempt(
-        self, q: Array, poses: Array, tolerance: float, fixed_joints: Sequence[int] = ()
-    ) -> tuple[Array, NDArray[np.bool_]]:
+        self, q: FloatArray, poses: FloatArray, tolerance: float, fixed_joints: Sequence[int] = ()
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Try one start q (N, n) for each pose; return the ends, and whether each is on the pose and within the limits.
 
         Joints that are ``fixed_joints``, by index from 0, stay where they are.
@@ -247,9 +248,9 @@ class InverseKinematics:
 
     def solve_locked(
         self,
-        poses: Array,
+        poses: FloatArray,
         locked: NDArray[np.int64],
-        angles: Array,
+        angles: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
@@ -266,7 +267,7 @@ class InverseKinematics:
         parameters = np.concatenate([_pose_parameters(poses), is_free], axis=1)
         finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
 
-        def lock_joints(start: Array, chosen: NDArray[np.int64]) -> Array:
+        def lock_joints(start: FloatArray, chosen: NDArray[np.int64]) -> FloatArray:
             start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
             return start
 
@@ -289,9 +290,9 @@ class InverseKinematics:
 
     def reaches_locked(
         self,
-        poses: Array,
+        poses: FloatArray,
         locked: NDArray[np.int64],
-        angles: Array,
+        angles: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
@@ -303,7 +304,9 @@ class InverseKinematics:
         """
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
 
-    def solve_near(self, q: Array, pose: Array, free: Array, tolerance: float, steps: int = MAX_STEPS) -> tuple[Array, bool]:
+    def solve_near(
+        self, q: FloatArray, pose: FloatArray, free: FloatArray, tolerance: float, steps: int = MAX_STEPS
+    ) -> tuple[FloatArray, bool]:
         """Solve from q (n,) towards one pose (4, 4), without restarts, for an end effector that is dragged.
 
         Args:
@@ -329,13 +332,13 @@ class InverseKinematics:
     def _search_starts(
         self,
         loop: Loop,
-        parameters: Array,
+        parameters: FloatArray,
         rows: NDArray[np.int64],
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
-        prepare: Callable[[Array, NDArray[np.int64]], Array],
-        first: Array | None = None,
+        prepare: Callable[[FloatArray, NDArray[np.int64]], FloatArray],
+        first: FloatArray | None = None,
         accept: Accept | None = None,
         steps: int = MAX_STEPS,
     ) -> _StartSearchResult:
@@ -389,26 +392,28 @@ class InverseKinematics:
                 advance(wave_size)
         return _StartSearchResult(q, start_counts)
 
-    def check_solutions(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
+    def check_solutions(self, q: FloatArray, poses: FloatArray, tolerance: float) -> NDArray[np.bool_]:
         """Return (N,) True where q is on the pose and within the limits."""
         return self._is_reached(q, *self.task_errors(q, poses), tolerance)
 
-    def _is_reached(self, q: Array, position_error: Array, rotation_error: Array, tolerance: float) -> NDArray[np.bool_]:
+    def _is_reached(
+        self, q: FloatArray, position_error: FloatArray, rotation_error: FloatArray, tolerance: float
+    ) -> NDArray[np.bool_]:
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
         return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
-    def task_errors(self, q: Array, poses: Array) -> tuple[Array, Array]:
+    def task_errors(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is NaN."""
         errors = self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])
         return errors[:, 0], errors[:, 1]
 
     def solve(
         self,
-        poses: Array,
+        poses: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
-        first: Array | None = None,
+        first: FloatArray | None = None,
         accept: Accept | None = None,
         steps: int = MAX_STEPS,
     ) -> PoseSolutions:
@@ -441,7 +446,7 @@ class InverseKinematics:
             q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=start_counts
         )
 
-    def prefer_configurations(self, reach: PoseSolutions, q: Array, poses: Array, tolerance: float) -> PoseSolutions:
+    def prefer_configurations(self, reach: PoseSolutions, q: FloatArray, poses: FloatArray, tolerance: float) -> PoseSolutions:
         """Replace the configurations of a result by those of q (N, n) that meet their poses (N, 4, 4) within the limits."""
         position_error, rotation_error = self.task_errors(q, poses)
         is_reached = self._is_reached(q, position_error, rotation_error, tolerance)
@@ -559,5 +564,5 @@ def solve_ik(
         first = np.clip(first, arm.lower, arm.upper)
     result = engine.solve(targets, np.random.SeedSequence(seed), restarts, engine.scale_tolerance(tolerance), first)
     if np.ndim(poses) == 2:
-        return result.first
+        return result.first_row
     return result

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
 
-Array = NDArray[np.float64]
 
 _MAX_PAIRWISE_DISTANCES = 1 << 20
 
@@ -22,20 +22,20 @@ def is_unlimited(arm: Arm) -> NDArray[np.bool_]:
     return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
 
 
-def joint_difference(arm: Arm, a: Array, b: Array) -> Array:
+def joint_difference(arm: Arm, a: FloatArray, b: FloatArray) -> FloatArray:
     """Return ``a - b`` (..., n), the short way round where a joint has no limits."""
     raw_difference = a - b
     return np.where(is_unlimited(arm), np.arctan2(np.sin(raw_difference), np.cos(raw_difference)), raw_difference)
 
 
-def build_tree(arm: Arm, q: Array) -> KDTree:
+def build_tree(arm: Arm, q: FloatArray) -> KDTree:
     """Build a k-d tree for neighbors of configurations (N, n) in that distance."""
     from scipy.spatial import KDTree
 
     return KDTree(fold_joints(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
 
 
-def find_nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.intp]]:
+def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
     that point.
     """
@@ -47,7 +47,7 @@ def find_nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.i
     return np.asarray(distance), np.asarray(index)
 
 
-def find_close_pairs(arm: Arm, q: Array, max_distance: float) -> NDArray[np.intp]:
+def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> NDArray[np.intp]:
     """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
     m, in order.
     """
@@ -57,12 +57,12 @@ def find_close_pairs(arm: Arm, q: Array, max_distance: float) -> NDArray[np.intp
     return np.asarray(close_pairs[np.lexsort(close_pairs.T[::-1])])
 
 
-def _are_few(a: Array, b: Array) -> bool:
+def _are_few(a: FloatArray, b: FloatArray) -> bool:
     """Return True if computing all distances takes less time than importing SciPy's trees; the bits are the same."""
     return 0 < len(a) * len(b) <= _MAX_PAIRWISE_DISTANCES
 
 
-def _pairwise_distances(arm: Arm, a: Array, b: Array) -> Array:
+def _pairwise_distances(arm: Arm, a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the distances (N, P) of configurations a (N, n) from b (P, n)."""
     squares = np.zeros((len(a), len(b)))
     for first, second, periodic in zip(fold_joints(arm, a).T, fold_joints(arm, b).T, is_unlimited(arm), strict=True):
@@ -71,12 +71,12 @@ def _pairwise_distances(arm: Arm, a: Array, b: Array) -> Array:
     return np.sqrt(squares)
 
 
-def wrap_joints(arm: Arm, q: Array) -> Array:
+def wrap_joints(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (..., n) with joints without limits in -pi to pi."""
     return np.where(is_unlimited(arm), np.arctan2(np.sin(q), np.cos(q)), q)
 
 
-def unwind_joints(arm: Arm, q: Array) -> Array:
+def unwind_joints(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without
     limits.
     """
@@ -86,7 +86,7 @@ def unwind_joints(arm: Arm, q: Array) -> Array:
     return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, revolutions)
 
 
-def fold_joints(arm: Arm, q: Array) -> Array:
+def fold_joints(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (N, n) with joints without limits in 0 to 2 pi, 2 pi excluded."""
     remainder = q % (2 * np.pi)
     return np.where(is_unlimited(arm), np.where(remainder >= 2 * np.pi, 0.0, remainder), q)

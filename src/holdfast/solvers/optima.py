@@ -26,12 +26,12 @@ from holdfast.solvers.anywhere import FREE_STARTS, optimise_without_pose
 from holdfast.solvers.joint_space import unwind_joints
 from holdfast.solvers.optimum import Optimum, default_starts, objective_ascent
 from holdfast.status import Status
+from holdfast.typing import FloatArray
 from holdfast.words import format_count, format_number
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
 
-Array = NDArray[np.float64]
 
 _SMALL_FRACTION = 0.1  # of a loss, and of the value that is lost
 _ZERO_TOLERANCE = 1e-9  # of an index after a failure that ends the task: rounding
@@ -88,8 +88,8 @@ class Optima(Optimum, Result):
     objective: Objective
     task: Task
     free: bool
-    poses: Array
-    initial: Array | None
+    poses: FloatArray
+    initial: FloatArray | None
     clearance: Clearance | None
     margin: float
     seed: int
@@ -109,20 +109,20 @@ class Optima(Optimum, Result):
         return replace(self, **arrays, poses=self.poses[None], initial=initial)
 
     @property
-    def before(self) -> Array:
+    def q_before(self) -> FloatArray:
         """Configurations (N, n) that were given or found first (the best random one without poses); NaN where none was."""
         return np.where(self.success[..., None], self.start_q, np.nan) if self.initial is None else self.initial
 
     @property
-    def value_before(self) -> Array:
-        """Value (N,) of the objective at :attr:`before`."""
+    def value_before(self) -> FloatArray:
+        """Value (N,) of the objective at :attr:`q_before`."""
         return self.start_value if self.initial is None else self.objective(self.initial)
 
-    def apart(self, q: Array) -> Array:
+    def clearance_at(self, q: FloatArray) -> FloatArray:
         """Compute the clearance of the arm from itself and its cell, (N,) m, at q (N, n); NaN if no clearance is given."""
         return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
 
-    def close(self, q: Array) -> NDArray[np.bool_]:
+    def close(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) True where the clearance is below the margin at q (N, n); False if no clearance is given."""
         return np.zeros(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.margin_left(q) < self.margin
 
@@ -142,7 +142,7 @@ class Optima(Optimum, Result):
         """Flags (N,) of the given configurations that are better than those found, and as collision-free."""
         loss = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
         better = loss > 1e-9 * np.abs(self.value)
-        return np.asarray(better & ~self.close(self.before))
+        return np.asarray(better & ~self.close(self.q_before))
 
     @cached_property
     def cap(self) -> Cap | None:
@@ -154,7 +154,7 @@ class Optima(Optimum, Result):
         index, rows = self.objective, self.rows
         if not isinstance(index, Index) or len(index.failures) < 2 or not rows.success.any():
             return None
-        before, after = (index.by_joint(q[rows.success]) for q in (rows.before, rows.q))
+        before, after = (index.by_joint(q[rows.success]) for q in (rows.q_before, rows.q))
         if not (np.isfinite(before) & np.isfinite(after)).all():
             return None
         sign = 1.0 if index.better == "larger" else -1.0

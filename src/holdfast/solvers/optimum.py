@@ -29,11 +29,11 @@ from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import InverseKinematics, PoseSolutions, clip_to_limits, solver, task_error
 from holdfast.solvers.maximin import maximin_step
 from holdfast.status import Status, require_ok
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
 
-Array = NDArray[np.float64]
 
 _MORE_WAVES = 7  # of random starts, for poses that fewer than half of a wave reached
 FIRST_STEPS = 4  # of every start
@@ -65,15 +65,15 @@ class Optimum:
             INFEASIBLE, of the pair that most often has the least at the configurations found; else -1.
     """
 
-    q: Array
-    value: Array
-    start_value: Array
-    start_q: Array
+    q: FloatArray
+    value: FloatArray
+    start_value: FloatArray
+    start_q: FloatArray
     status: NDArray[np.uint8]
-    position_error: Array
-    rotation_error: Array
+    position_error: FloatArray
+    rotation_error: FloatArray
     starts: NDArray[np.int64]
-    agreeing: Array
+    agreeing: FloatArray
     blocked: NDArray[np.bool_]
     blocked_by: NDArray[np.int64]
 
@@ -198,8 +198,8 @@ class Ascent:
         return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, around, self.free)
 
     def ascend(
-        self, collision_free: bool, q: Array, poses: Array, steps: int, radius: Array | None = None
-    ) -> tuple[Array, Array]:
+        self, collision_free: bool, q: FloatArray, poses: FloatArray, steps: int, radius: FloatArray | None = None
+    ) -> tuple[FloatArray, FloatArray]:
         """Take steps from q (N, n); return the ends and the last trust radius."""
         n = self.arm.n
         trust_radius = np.full(len(q), INITIAL_RADIUS) if radius is None else radius
@@ -221,14 +221,14 @@ class Ascent:
             state[is_invalid] = previous[is_invalid]
         return state[:, :n], state[:, n]
 
-    def oriented_values(self, q: Array) -> Array:
+    def oriented_values(self, q: FloatArray) -> FloatArray:
         """Return the objective with its sign set so that larger is better."""
         value = self.objective(q)
         return value if self.objective.better == "larger" else -value
 
     def _refine_starts(
-        self, owner: NDArray[np.int64], q: Array, poses: Array, tolerance: float, collision_free: bool
-    ) -> tuple[NDArray[np.int64], Array, Array]:
+        self, owner: NDArray[np.int64], q: FloatArray, poses: FloatArray, tolerance: float, collision_free: bool
+    ) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
         """Ascend from starts q of poses ``owner`` and drop the poor ones; return owners, ends, and oriented values.
 
         The value is -inf where the end is not on its pose or, if asked, not clear.
@@ -248,12 +248,12 @@ class Ascent:
             is_valid &= self.is_collision_free(q)
         return owner, q, np.where(is_valid, self.oriented_values(q), -np.inf)
 
-    def is_collision_free(self, q: Array) -> NDArray[np.bool_]:
+    def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) True where q (N, n) respects the margin."""
         assert self.clearance is not None
         return np.asarray(self.clearance.margin_left(q) >= self.margin)
 
-    def _most_often_nearest(self, owner: NDArray[np.int64], q: Array, poses: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _most_often_nearest(self, owner: NDArray[np.int64], q: FloatArray, poses: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return for each of some poses (H,) the pair that has the smallest margin at most of its configurations among q (K,
         n).
         """
@@ -264,8 +264,8 @@ class Ascent:
         return np.asarray(votes.argmax(axis=1), dtype=np.int64)
 
     def _sample_starts(
-        self, poses: Array, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
-    ) -> tuple[NDArray[np.int64], Array]:
+        self, poses: FloatArray, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
+    ) -> tuple[NDArray[np.int64], FloatArray]:
         """Sample start configurations of the reached poses; return the pose of each and the configurations.
 
         Where joint limits let few random starts converge, more waves of them follow, so that hard poses are searched as
@@ -291,7 +291,9 @@ class Ascent:
             converged += np.bincount(owner[has_converged], minlength=len(poses))
         return np.concatenate(owners), np.concatenate(starts_found)
 
-    def solve(self, poses: Array, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float) -> Optimum:
+    def solve(
+        self, poses: FloatArray, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
+    ) -> Optimum:
         """Find the best of several starts for (N, 4, 4) poses.
 
         Args:
@@ -316,7 +318,7 @@ class Ascent:
             owner, q = self._sample_starts(poses, first, seed, starts, tolerance)
             start_counts = np.bincount(owner, minlength=count)
 
-            def choose_best(owner: NDArray[np.int64], q: Array, value: Array, chosen: NDArray[np.int64]) -> None:
+            def choose_best(owner: NDArray[np.int64], q: FloatArray, value: FloatArray, chosen: NDArray[np.int64]) -> None:
                 best_index = best_per_owner(owner, value, 1)
                 # A formula of the user's own may have no value at the first configuration: any other is better.
                 best_index = best_index[(value[best_index] > -np.inf) & ~(value[best_index] <= best_value[owner[best_index]])]
@@ -381,7 +383,7 @@ def default_starts(arm: Arm, task: Task) -> int:
     return 128 if arm.n - task.m <= 1 else 32
 
 
-def best_per_owner(owner: NDArray[np.int64], value: Array, count: int) -> NDArray[np.int64]:
+def best_per_owner(owner: NDArray[np.int64], value: FloatArray, count: int) -> NDArray[np.int64]:
     """Return the positions of the ``count`` largest values of each owner, ordered by owner, then value."""
     order = np.lexsort((-value, owner))
     sorted_owner = owner[order]

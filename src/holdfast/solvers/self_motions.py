@@ -30,8 +30,7 @@ from holdfast.solvers import joint_space
 from holdfast.solvers.clear_parts import CurveConstraint
 from holdfast.solvers.curve_tracing import Component, ManifoldTracer
 from holdfast.status import Status
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 TRACING_STARTS = 128
 
@@ -57,11 +56,11 @@ class SelfMotion(Result):
     """
 
     arm: Arm
-    pose: Array
+    pose: FloatArray
     task: Task
     redundancy: int
     components: tuple[Component, ...]
-    q: Array
+    q: FloatArray
     spacing: float
     status: Status
     clearance: Clearance | None = None
@@ -83,7 +82,7 @@ class SelfMotion(Result):
             revolute_count = np.count_nonzero(~self.arm.prismatic)
             lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {revolute_count} whole turns")
         for joint, arcs in zip(self.arm.joints, self.bounds or [], strict=False):
-            factor, unit = joint.shown
+            factor, unit = joint.display_unit
             ranges = " or ".join(f"{factor * lower:.2f} to {factor * upper:.2f} {unit}" for lower, upper in arcs)
             lines.append(f"{joint.name} may lock {f'at {ranges}' if arcs else 'nowhere'} without losing the target")
         return lines
@@ -280,7 +279,7 @@ def fibres(
 def trace_self_motions(
     engine: ManifoldTracer,
     task: Task,
-    targets: Array,
+    targets: FloatArray,
     *,
     spacing: float,
     seed: int,

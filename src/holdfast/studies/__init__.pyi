@@ -1,2 +1,2 @@
 from holdfast.studies.study_file import StudyFile as StudyFile
-from holdfast.studies.study_file import read as read
+from holdfast.studies.study_file import read_study_file as read_study_file

@@ -13,7 +13,7 @@ from holdfast.assessment.answer import ZERO_INDEX
 from holdfast.assessment.bins import add_chunks
 from holdfast.assessment.plan import AssessmentPlan
 from holdfast.assessment.rows import AssessmentTally
-from holdfast.convergence.maps import NO_CONFIGURATION, shared
+from holdfast.convergence.maps import NO_CONFIGURATION, average_fraction
 from holdfast.convergence.origins import mean_intervals, mean_over
 from holdfast.engine.store import Store
 from holdfast.engine.study import Study
@@ -22,8 +22,8 @@ from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.simulation.runs import RunOutcome
 from holdfast.teleop.trials.recordings import End
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 
@@ -164,9 +164,9 @@ class DrivenCell:
     labels: dict[str, Any]
     joints: tuple[str, ...]
     motions: int
-    ends: Array
+    ends: FloatArray
     reaches: tuple[Interval, ...]
-    fraction_by_motion: Array
+    fraction_by_motion: FloatArray
     mean_fraction: Interval
     in_reach: float
     touched: float | None = None
@@ -187,9 +187,9 @@ def read_convergence(study: Study, cell: int) -> DrivenCell | None:
     ends = np.stack([(codes[is_known] == number).mean(axis=0) for number in RunOutcome], axis=1)
     has_converged = codes == RunOutcome.CONVERGED
     fraction_by_motion = np.where(is_known, has_converged[:, :-1].mean(axis=1), np.nan)
-    reaches = tuple(Interval.of(int(has_converged[is_known, number].sum()), runs) for number in range(codes.shape[1]))
+    reaches = tuple(Interval.from_counts(int(has_converged[is_known, number].sum()), runs) for number in range(codes.shape[1]))
     joints = tuple(joint["name"] for joint in store.plan["arm"]["joints"] if joint["type"] != "fixed")
-    whole = shared(fraction_by_motion, codes.shape[1] - 1, 0.95)
+    whole = average_fraction(fraction_by_motion, codes.shape[1] - 1, 0.95)
     labels = read_labels(study, cell)
     in_reach_fraction = float(in_reach[is_known, :-1].mean())
     touched = float(np.concatenate(contact_flags)[is_known, :-1].mean()) if contact_flags else None
@@ -248,7 +248,7 @@ def read_bank(study: Study, cell: int) -> MeasureTable | None:
     values = {}
     for number, case in enumerate(("healthy", "failed")):
         has_arrived = endings[..., number] == End.ARRIVED
-        interval = Interval.of(int(has_arrived.sum()), has_arrived.size)
+        interval = Interval.from_counts(int(has_arrived.sum()), has_arrived.size)
         values[f"reached, {case}"] = (100 * interval.value, 100 * interval.low, 100 * interval.high)
         median = float(np.median(cycles[..., number][has_arrived])) if has_arrived.any() else np.nan
         values[f"time, {case}"] = (median, np.nan, np.nan)
@@ -271,11 +271,11 @@ class DesignSweep:
 
     labels: dict[str, Any]
     plan: Mapping[str, Any]
-    values: Array
-    guaranteed: Array
-    median: Array
-    reached: Array
-    reach: Array
+    values: FloatArray
+    guaranteed: FloatArray
+    median: FloatArray
+    reached: FloatArray
+    reach: FloatArray
     start: int | None
 
 

@@ -168,7 +168,7 @@ class StudyFile:
     text: str
 
 
-def read(path: str | Path) -> StudyFile:
+def read_study_file(path: str | Path) -> StudyFile:
     """Read the study in a file.
 
     Raises:

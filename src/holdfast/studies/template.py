@@ -100,7 +100,7 @@ def write(
         InputError: Wrong numbers, an unknown arm, index or law, or there is such a file already.
         StoreError: It cannot be written.
     """
-    from holdfast.studies.study_file import read
+    from holdfast.studies.study_file import read_study_file
 
     path = Path(file)
     chunk = choose_chunk(poses) if chunk is None else chunk
@@ -138,7 +138,7 @@ def write(
     )
     replace_file(path, study_text, "study file")
     try:
-        read(path)
+        read_study_file(path)
     except InputError:
         path.unlink()
         raise

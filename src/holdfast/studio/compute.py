@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.studio.motions import PlayedMotion, simulate_law_motions, simulate_swing_motion
@@ -14,8 +13,8 @@ from holdfast.studio.scene.cloud import RegionCloud, assess_around_tool, read_cl
 from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
 from holdfast.studio.watching import simulate_monitor_demo
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 OPTIMUM_RESTARTS = 64  # of the search for a best configuration
 
@@ -29,7 +28,7 @@ class ExtremeConfigurations:
         values: Of the objective, there and where the arm is.
     """
 
-    q: tuple[Array, Array]
+    q: tuple[FloatArray, FloatArray]
     values: tuple[float, float, float]
 
 

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.paths.joint_table import joint_columns, read_joint_table
 from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 TIME_COLUMNS = ("time_s", "time_cycles", "travel_rad")
 MOTION_SAMPLES = 240
 SHOWN_TIME_CONSTANTS = 15.0  # 1/Ke
@@ -33,11 +32,11 @@ class PlayedMotion:
     """
 
     label: str
-    time: Array
+    time: FloatArray
     unit: str
-    q: Array
+    q: FloatArray
 
-    def configuration_at(self, time: float) -> Array:
+    def configuration_at(self, time: float) -> FloatArray:
         """Return the configuration (n,) at a time by linear interpolation, and the first or last one outside the motion."""
         segment = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
         if len(self.time) == 1 or self.time[segment + 1] <= self.time[segment]:
@@ -95,7 +94,7 @@ def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[
     for law_number, law_label in enumerate(state.laws):
         progress(2 * law_number, 4)
         law = machine.get_law(law_label)
-        runs = simulate(law, np.array(state.q), target, locked=list(state.failed))
+        runs = simulate(law, np.array(state.q), target, locked=list(state.failed_joints))
         progress(2 * law_number + 1, 4)
         # The last approach to rest takes most of the time and moves nothing.
         sampled_path = runs.path(samples=MOTION_SAMPLES, until=min(float(runs.time), SHOWN_TIME_CONSTANTS / law.gain) or None)
@@ -127,8 +126,8 @@ def simulate_swing_motion(arm: Arm, state: State) -> PlayedMotion:
     q = np.tile(np.array(state.q), (len(free_motion.time), 1))
     q[:, joint] += free_motion.angle
     stride = max(1, len(q) // (8 * MOTION_SAMPLES))
-    factor, unit = arm.joints[joint].shown
-    rest_note = f", rests {factor * free_motion.rest_angle:.3g} {unit} away" if free_motion.settled else ""
+    factor, unit = arm.joints[joint].display_unit
+    rest_note = f", rests {factor * free_motion.rest_angle:.3g} {unit} away" if free_motion.is_settled else ""
     drop_notes = "".join(
         f"; braked after {drop.after_ms:g} ms it has moved {factor * drop.angle:.3g} {unit}, the tool "
         f"{1000 * drop.distance:.3g} mm"

@@ -10,11 +10,10 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from holdfast.present.stick_figure import choose_views
-from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, format_label, style, svg
+from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, format_label, settle_layout, style, svg
 from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def encode_png(picture: NDArray[np.uint8]) -> bytes:
@@ -28,7 +27,7 @@ def encode_png(picture: NDArray[np.uint8]) -> bytes:
     return buffer.getvalue()
 
 
-def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[Array] = ()) -> str:
+def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArray] = ()) -> str:
     """Draw a view as SVG text.
 
     Args:
@@ -45,16 +44,16 @@ def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[Array] = 
         for position, view in enumerate(views, 1):
             axes = figure.add_subplot(1, len(views), position)
             for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
-                axes.plot(*view.of(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
-            _draw_arm(axes, view.of(chains[-1]), state)
+                axes.plot(*view.project(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
+            _draw_arm(axes, view.project(chains[-1]), state)
             axes.set_aspect("equal", adjustable="datalim")
             axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
         figure.suptitle(format_label(_format_caption(state)), x=0.01, ha="left", fontsize=9.5)
-        finished(figure)
+        settle_layout(figure)
     return svg(figure, "studio", _format_caption(state))
 
 
-def _draw_arm(axes: Axes, chain: Array, state: State) -> None:
+def _draw_arm(axes: Axes, chain: FloatArray, state: State) -> None:
     axes.plot(*chain.T, color=INK, linewidth=2.6, solid_capstyle="round", zorder=3)
     axes.plot(*chain[0], marker="s", color=INK, markersize=8, zorder=3.1)
     axes.plot(*chain[-1], marker="D", color=SOFT, markersize=6, zorder=3.5)
@@ -74,5 +73,5 @@ def _draw_arm(axes: Axes, chain: Array, state: State) -> None:
 
 
 def _format_caption(state: State) -> str:
-    failed = ", ".join(f"{state.names[k]} {state.conditions[k]}" for k in state.failed)
+    failed = ", ".join(f"{state.names[k]} {state.conditions[k]}" for k in state.failed_joints)
     return f"{state.arm}: {failed or 'all joints healthy'}"

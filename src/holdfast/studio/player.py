@@ -5,15 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from holdfast.studio.motions import PlayedMotion
 from holdfast.studio.page.panel import ControlPanel
 from holdfast.studio.scene.stage import GHOST_COLORS, Stage
 from holdfast.studio.work import TICK_S, Clock
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class Player:
@@ -27,16 +23,16 @@ class Player:
     """
 
     def __init__(
-        self, stage: Stage, panel: ControlPanel, clock: Clock, on_moved: Callable[[float, Array | None], None]
+        self, stage: Stage, panel: ControlPanel, clock: Clock, on_moved: Callable[[float, FloatArray | None], None]
     ) -> None:
         self._stage, self._panel, self._clock, self._on_moved = stage, panel, clock, on_moved
         self._arm = stage.machine.arm
         self._motions: list[PlayedMotion] = []
-        self.ghosts: list[Array] = []
+        self.ghosts: list[FloatArray] = []
         self.is_playing = False
         self._current_time = 0.0
 
-    def place_ghosts(self, configurations: list[Array], labels: Sequence[str]) -> None:
+    def place_ghosts(self, configurations: list[FloatArray], labels: Sequence[str]) -> None:
         """Place ghosts at configurations (n,)."""
         self.discard_motions()
         self.ghosts = configurations

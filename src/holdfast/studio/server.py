@@ -239,4 +239,4 @@ def _choose_camera(machine: CompiledArm, q: Any, portrait: bool = False) -> tupl
 def _compile_first_view(machine: CompiledArm, state: State) -> None:
     """Compile the functions of the first picture while the browser loads the page."""
     with suppress(HoldfastError):  # the window says it
-        machine.evaluate(np.array(state.q), state.failed, state.index, state.susceptibility)
+        machine.evaluate(np.array(state.q), state.failed_joints, state.index, state.susceptibility)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.studio.page.panel import ControlPanel
 from holdfast.studio.scene.machine import MAX_SLIDE_STEP, CompiledArm
 from holdfast.studio.work import TICK_S, Clock
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 MAX_SLIDE_SPEED_RAD_S = 0.8  # rad/s at the end of the slider
 
 
@@ -32,8 +31,8 @@ class SelfMotionSlider:
         panel: ControlPanel,
         clock: Clock,
         *,
-        current_state: Callable[[], tuple[Array, Sequence[int]]],
-        set_configuration: Callable[[Array], None],
+        current_state: Callable[[], tuple[FloatArray, Sequence[int]]],
+        set_configuration: Callable[[FloatArray], None],
     ) -> None:
         self._machine, self._panel, self._clock, self._current_state, self._set_configuration = (
             machine,

@@ -84,7 +84,7 @@ class State:
         object.__setattr__(self, "fault", (kind, joint or self.names[n // 2], onset))
 
     @property
-    def failed(self) -> tuple[int, ...]:
+    def failed_joints(self) -> tuple[int, ...]:
         """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes catch them."""
         return tuple(k for k, c in enumerate(self.conditions) if c != "healthy")
 

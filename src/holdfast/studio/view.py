@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_from_quaternion
 from holdfast.errors import HoldfastError
@@ -22,8 +21,7 @@ from holdfast.studio.scene.stage import Stage
 from holdfast.studio.state import State
 from holdfast.studio.watching import MonitorDemo
 from holdfast.studio.work import TICK_S, Clock, LatestRequests
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class StudioView:
@@ -59,11 +57,11 @@ class StudioView:
         self._guide = TourGuide(request_action, self.panel.show_tour)
 
     @property
-    def q(self) -> Array:
+    def q(self) -> FloatArray:
         """Configuration (n,) of the arm, rad and m."""
         return np.array(self.state.q)
 
-    def _set_configuration(self, q: Array) -> None:
+    def _set_configuration(self, q: FloatArray) -> None:
         self.state = replace(self.state, q=tuple(float(value) for value in q))
         self._refresh()
 
@@ -74,7 +72,7 @@ class StudioView:
         with self.client.atomic():
             self.stage.move_arm(frames, moves_gizmo=self.dragged != "hand")
             self.panel.move_sliders(q, self.dragged if isinstance(self.dragged, int) else None)
-        reading = self._reading = self.machine.evaluate(q, state.failed, state.index, state.susceptibility)
+        reading = self._reading = self.machine.evaluate(q, state.failed_joints, state.index, state.susceptibility)
         with self.client.atomic():
             self.stage.show_reading(reading, frames[-1])
             self.panel.show_reading(reading, state)
@@ -92,7 +90,7 @@ class StudioView:
         has_extras = state.show != "arm" or state.target is not None or bool(self.player.ghosts) or self.cloud is not None
         return {
             "home": state.q != self._initial_state.q,
-            "heal": bool(state.failed),
+            "heal": bool(state.failed_joints),
             "swing": bool(state.free) and machine.can_swing,
             "best-worst": not isinstance(machine.get_objectives(state.objective), str),
             "take0": ghosts > 0,
@@ -100,12 +98,12 @@ class StudioView:
             "target": state.target is None,
             "laws": state.target is not None and not self._is_at_target(),
             "region": not isinstance(reading.bars, str),
-            "watch": machine.can_swing and not state.failed,
+            "watch": machine.can_swing and not state.failed_joints,
             "inject": state.show == "watch" and self.monitor_demo is not None and not self._is_busy,
             "clear": has_extras or self._is_busy,
             "tour": True,
             "next": not self._is_busy,
-            "slide": len(machine.self_motion_directions(self.q, state.failed)) > 0,
+            "slide": len(machine.self_motion_directions(self.q, state.failed_joints)) > 0,
         }
 
     def show_refusal(self, text: str) -> None:
@@ -138,7 +136,7 @@ class StudioView:
             self.state = self.state.with_object(*value)
             self._refresh()
 
-    def _follow_motion(self, time: float, q: Array | None) -> None:
+    def _follow_motion(self, time: float, q: FloatArray | None) -> None:
         self.state = replace(self.state, time=time)
         if q is None:
             self._refresh()

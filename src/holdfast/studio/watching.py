@@ -14,7 +14,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_from_quaternion, rotations_of_quaternions
 from holdfast.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S, SENSOR_REVISION_TIME_S
@@ -22,6 +21,7 @@ from holdfast.errors import InputError
 from holdfast.studio.motions import MOTION_SAMPLES, PlayedMotion
 from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.diagnosis.answer import Diagnosis
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from holdfast.faults.log import Log
     from holdfast.reaction.run import FaultRun
 
-Array = NDArray[np.float64]
 
 FAULT_PARAMETERS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
     {
@@ -44,14 +43,23 @@ FAULT_PARAMETERS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
     }
 )
 LATEST_ONSET_S = 4.0  # s: the last time at which a fault can begin
-SPEED_LIMIT_M_S, LAW_GAIN_PER_S, MOTION_TIME_LIMIT_S = 0.25, 2.0, 8.0  # m/s, 1/s, s: of the motions
-HEALTHY_MOTIONS, THRESHOLD_FACTOR = (
-    4,
-    2.0,
-)  # motions that the bounds are of, and what these are multiplied by: few records need more room
-MAX_LINE_POINTS, PLAYBACK_STEPS = 150, 60  # of a line, and of the time as it plays
-_MIN_DRAWN_RATIO, _MAX_DRAWN_RATIO = 0.1, 30.0  # of a bound: what the drawing shows
-_PANEL_WIDTH_PX, _PANEL_HEIGHT_PX = 300, 74  # of one panel
+# SPEED_LIMIT_M_S, LAW_GAIN_PER_S and MOTION_TIME_LIMIT_S: m/s, 1/s, s: of the motions
+SPEED_LIMIT_M_S = 0.25
+LAW_GAIN_PER_S = 2.0
+MOTION_TIME_LIMIT_S = 8.0
+# HEALTHY_MOTIONS and THRESHOLD_FACTOR: motions that the bounds are of, and what these are multiplied by: few records need more
+# room
+HEALTHY_MOTIONS = 4
+THRESHOLD_FACTOR = 2.0
+# MAX_LINE_POINTS and PLAYBACK_STEPS: of a line, and of the time as it plays
+MAX_LINE_POINTS = 150
+PLAYBACK_STEPS = 60
+# _MIN_DRAWN_RATIO and _MAX_DRAWN_RATIO: of a bound: what the drawing shows
+_MIN_DRAWN_RATIO = 0.1
+_MAX_DRAWN_RATIO = 30.0
+# _PANEL_WIDTH_PX and _PANEL_HEIGHT_PX: of one panel
+_PANEL_WIDTH_PX = 300
+_PANEL_HEIGHT_PX = 74
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +80,8 @@ class MonitorDemo:
     """
 
     motion: PlayedMotion
-    time: Array
-    residuals: Mapping[str, Array]
+    time: FloatArray
+    residuals: Mapping[str, FloatArray]
     onset: float
     alarm_time: float
     joint: int | None
@@ -138,7 +146,7 @@ def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable
     return _evaluate_monitor(run, monitor.run(run.log()), onset if faults else np.inf, state.names)
 
 
-def _to_task_target(machine: CompiledArm, pose: Array) -> Array:
+def _to_task_target(machine: CompiledArm, pose: FloatArray) -> FloatArray:
     """Convert a pose to a target of the task."""
     return pose if machine.task.angular else np.asarray(machine.task.rows[:, :3] @ pose[:3, 3])
 
@@ -198,7 +206,7 @@ def _encode_record(log: Log, monitor: str, onset: float) -> str:
     )
 
 
-def _downsample_maxima(values: Array, stride: int) -> Array:
+def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:
     """Return the largest value of each group of samples, so that no peak is lost: (T', n); NaN without values."""
     groups = -(-len(values) // stride)
     padded = np.full((groups * stride, values.shape[1]), -np.inf)
@@ -231,7 +239,7 @@ def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> s
     )
 
 
-def _draw_panel(quantity: str, demo: MonitorDemo, values: Array, current: float, names: tuple[str, ...]) -> str:
+def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: float, names: tuple[str, ...]) -> str:
     end = float(demo.time[-1]) or 1.0
     is_past = demo.time <= current
     x = _PANEL_WIDTH_PX * demo.time / end

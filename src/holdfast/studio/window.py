@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_from_quaternion, pose_numbers
 from holdfast.errors import HoldfastError, InputError
@@ -27,8 +26,8 @@ from holdfast.studio.state import State
 from holdfast.studio.view import StudioView
 from holdfast.studio.watching import MonitorDemo
 from holdfast.studio.work import LongJobWorker
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Check = Callable[[], None]
 Load = Callable[[Any, str, bytes], None]
 
@@ -70,7 +69,7 @@ class Window(StudioView):
             machine,
             self.panel,
             self._clock,
-            current_state=lambda: (self.q, self.state.failed),
+            current_state=lambda: (self.q, self.state.failed_joints),
             set_configuration=self._set_configuration,
         )
         self._saver = ViewSaver(client, machine, self.stage, self._show_saved, self._show_error)
@@ -164,11 +163,11 @@ class Window(StudioView):
         self._set_configuration(q)
         self.dragged = None
 
-    def _on_hand(self, value: tuple[str, Array, Array]) -> None:
+    def _on_hand(self, value: tuple[str, FloatArray, FloatArray]) -> None:
         phase, position, quaternion = value
         self.dragged = None if phase == "end" else "hand"
-        q, is_reached = self.machine.solve_near(self.q, pose_from_quaternion(position, quaternion), self.state.failed)
-        locked = f" with {self._format_failed_joints()} locked" if self.state.failed else ""
+        q, is_reached = self.machine.solve_near(self.q, pose_from_quaternion(position, quaternion), self.state.failed_joints)
+        locked = f" with {self._format_failed_joints()} locked" if self.state.failed_joints else ""
         self._discard_results(q)
         self._set_configuration(q)
         if is_reached:
@@ -190,7 +189,7 @@ class Window(StudioView):
         self._discard_results(np.array(self._initial_state.q))
         self._set_configuration(np.array(self._initial_state.q))
 
-    def _discard_results(self, q: Array | None = None) -> None:
+    def _discard_results(self, q: FloatArray | None = None) -> None:
         """Discard results that depend on the configuration, before it becomes q or a joint fails, because ghosts elsewhere
         mislead.
         """
@@ -234,7 +233,7 @@ class Window(StudioView):
         self._refresh()
 
     def _format_failed_joints(self) -> str:
-        return " and ".join(f"{self.state.names[joint]} ({self.state.conditions[joint]})" for joint in self.state.failed)
+        return " and ".join(f"{self.state.names[joint]} ({self.state.conditions[joint]})" for joint in self.state.failed_joints)
 
     # ---- what takes long -------------------------------------------------------------------------------------------
 
@@ -395,7 +394,7 @@ class Window(StudioView):
         self.panel.show_message("Drag the second handle to where the end effector should go, or take it as it is.")
         self._refresh()
 
-    def _on_goal(self, value: tuple[str, Array, Array]) -> None:
+    def _on_goal(self, value: tuple[str, FloatArray, FloatArray]) -> None:
         phase, position, quaternion = value
         self.state = replace(self.state, target=(*position.tolist(), *quaternion.tolist()))
         self._refresh()

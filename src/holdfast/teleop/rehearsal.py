@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from holdfast.typing import IndexArray
+
 from collections.abc import Callable, Sequence
 from hashlib import sha256
 from pathlib import Path
@@ -14,7 +16,7 @@ from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.notice import reports_progress, warn_now
 from holdfast.teleop.bank.tasks import drive_tasks
-from holdfast.teleop.protocol.order import Indices
+from holdfast.teleop.protocol.order import
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Subject, SubjectKind, SubjectState, TrialKind
 from holdfast.teleop.records.file import LOCK, RECORDS_FILE
@@ -222,7 +224,7 @@ def _run_sessions(
             records.set_state(subjects[k].code, SubjectState.COMPLETED)
 
 
-def _drive_people(protocol: Protocol, tasks: PointTasks, scenario: Indices, people: list[Person], seed: int) -> Trials:
+def _drive_people(protocol: Protocol, tasks: PointTasks, scenario: IndexArray, people: list[Person], seed: int) -> Trials:
     operator = SimulatedPeople(people, protocol.rate, protocol.stick, radius=protocol.radius, seed=seed)
     return drive_tasks(protocol.plants, protocol.scenarios, scenario, tasks, operator, protocol.stick, protocol.rules)
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.crew import SearchBudget
@@ -19,9 +18,11 @@ from holdfast.certificates.proof import BisectionResult, format_early_stop
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tree import UNDECIDED_TOKEN
 from holdfast.indices import relative_manipulability
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-_SAMPLE_COUNT, _LOCAL_SEARCH_COUNT, _LOCAL_SEARCH_STEPS = 20_000, 64, 80
+_SAMPLE_COUNT = 20_000
+_LOCAL_SEARCH_COUNT = 64
+_LOCAL_SEARCH_STEPS = 80
 _SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # of screws: axes, then moments
 
 
@@ -38,7 +39,7 @@ class ManipulabilityBound(BisectionResult):
     """
 
     claim: BoundClaim
-    extreme: Array
+    extreme: FloatArray
     value: float
 
     @property
@@ -94,7 +95,7 @@ def _bound_sign(claim: BoundClaim) -> float:
     return 1.0 if claim.kind == "ceiling" else -1.0
 
 
-def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[Array, float]:
+def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[FloatArray, float]:
     """Return the best or worst configuration of samples, corners among them, refined by random local searches from some of
     them.
     """

@@ -22,17 +22,20 @@ from holdfast.certificates.joint_boxes.jobs import bisect_box
 from holdfast.certificates.joint_boxes.rows import TaskErrorBound
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
 from holdfast.certificates.taylor import CertificateChain, ReachSolver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
 _MAX_LEMMAS = 12
 _DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
-_SAMPLE_COUNT, _LOCAL_SEARCH_COUNT, _LOCAL_SEARCH_STEPS = 2048, 32, 60
+_SAMPLE_COUNT = 2048
+_LOCAL_SEARCH_COUNT = 32
+_LOCAL_SEARCH_STEPS = 60
 _MAX_LEMMA_NODES = 40_000
 _LEMMA_WIDENING = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
 _MAX_LEMMA_HALVINGS = 40
-_WITNESS_TOLERANCE, _WITNESS_LIMIT_MARGIN = 1e-10, 1e-6  # m and rad: of a target, and from limits, of a witness
+# _WITNESS_TOLERANCE and _WITNESS_LIMIT_MARGIN: m and rad: of a target, and from limits, of a witness
+_WITNESS_TOLERANCE = 1e-10
+_WITNESS_LIMIT_MARGIN = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +50,7 @@ class Lemma:
     """
 
     link: int
-    point: Array
+    point: FloatArray
     least: float
     most: float
     tree: bytes
@@ -72,10 +75,10 @@ class Exclusion:
     leaves: int
     nodes: int
     finished: bool
-    witness: Array | None = None
+    witness: FloatArray | None = None
 
 
-def joint_ranges(claim: OutOfReachClaim) -> Array:
+def joint_ranges(claim: OutOfReachClaim) -> FloatArray:
     """Return (n, 2) ranges of the joints, rad, the locked one included; revolute joints turn one full revolution at most."""
     limits = claim.limits.copy()
     if claim.angle is not None:
@@ -128,14 +131,14 @@ class _ExclusionTest:
         self.n, self.m, self.lemmas, self.error_bound = len(chain.lengths), error_bound.reach.linear, lemmas, error_bound
         self.segments = [ChainSegment.from_chain(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
 
-    def __call__(self, middle: Array, half: Array) -> tuple[Index, Array]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
         count, n = len(middle), self.n
         tokens, best_ratios, gain = np.full(count, OPEN_TOKEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
         targets, target_half = np.zeros((count, 3)), np.zeros((count, 3))
         targets[:, : self.m], target_half[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
 
         def record_test(
-            rows: Index, token: int, margins: Array, center_margins: Array, axis_costs: Array, joint_count: int
+            rows: Index, token: int, margins: FloatArray, center_margins: FloatArray, axis_costs: FloatArray, joint_count: int
         ) -> None:
             """Record one test: its margins, the margins at the centers, and the cost of each axis."""
             tokens[rows[margins > _DISTANCE_MARGIN_M]] = token
@@ -181,10 +184,10 @@ class _ExclusionTest:
 
 def _search_lemma(
     chain: CertificateChain,
-    joints: Array,
-    target_box: Array,
+    joints: FloatArray,
+    target_box: FloatArray,
     link: int,
-    point: Array,
+    point: FloatArray,
     deadline: float,
     rng: np.random.Generator,
 ) -> tuple[Lemma | None, int]:
@@ -228,13 +231,13 @@ def _search_lemma(
 
 def _test_distance_range(
     segment: ChainSegment,
-    point: Array,
+    point: FloatArray,
     ignored_joints: NDArray[np.bool_],
     lower: float,
     upper: float,
-    middle: Array,
-    half: Array,
-) -> tuple[Index, Array]:
+    middle: FloatArray,
+    half: FloatArray,
+) -> tuple[Index, FloatArray]:
     """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; ``ignored_joints`` do not count."""
     half = np.where(ignored_joints, 0.0, half)
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
@@ -251,7 +254,9 @@ def _test_distance_range(
     return tokens, gain
 
 
-def _search_distance_range(segment: ChainSegment, joints: Array, point: Array, rng: np.random.Generator) -> tuple[float, float]:
+def _search_distance_range(
+    segment: ChainSegment, joints: FloatArray, point: FloatArray, rng: np.random.Generator
+) -> tuple[float, float]:
     """Return the least and greatest distance found between the end and a point, by random local searches from samples and
     corners.
     """
@@ -273,7 +278,7 @@ def _search_distance_range(segment: ChainSegment, joints: Array, point: Array, r
     return extremes[0], extremes[1]
 
 
-def _search_witness(claim: OutOfReachClaim, rng: np.random.Generator) -> Array | None:
+def _search_witness(claim: OutOfReachClaim, rng: np.random.Generator) -> FloatArray | None:
     """Return a configuration within the claim whose tool is inside the box, or None if none is found."""
     joints = joint_ranges(claim)
     reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)

@@ -11,15 +11,16 @@ from numpy.typing import NDArray
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN
 from holdfast.certificates.verified.tree import MAX_LEAVES
 from holdfast.errors import InputError
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-BoxTest = Callable[[Array, Array], tuple[Index, Array]]
+BoxTest = Callable[[FloatArray, FloatArray], tuple[Index, FloatArray]]
 
 OPEN_TOKEN = -1  # what is not decided yet
 DEFERRED_TOKEN = 1  # token of what others look at
 _BATCH_BOXES = 4096
-_ESTIMATE_PATHS, _MAX_ESTIMATE_DEPTH = 101, 60  # for an estimate; halvings after which nobody asks
+_ESTIMATE_PATHS = 101  # for an estimate
+_MAX_ESTIMATE_DEPTH = 60  # halvings after which nobody asks
 
 
 class Halving:
@@ -35,7 +36,7 @@ class Halving:
         proved, undecided: Parts of the whole.
     """
 
-    def __init__(self, box: Array, halvings: int, boxes: tuple[Array, Index] | None = None) -> None:
+    def __init__(self, box: FloatArray, halvings: int, boxes: tuple[FloatArray, Index] | None = None) -> None:
         self.box, self.halvings = box, halvings
         self.width = box[:, 1] - box[:, 0]
         middle, depth = boxes or (box.mean(axis=1)[None], np.zeros((1, len(box)), dtype=np.int64))
@@ -85,8 +86,8 @@ class Halving:
         return True
 
     def _split_boxes(
-        self, node_ids: Index, middle: Array, depth: Index, half: Array, axis: Index
-    ) -> tuple[Index, Array, Index]:
+        self, node_ids: Index, middle: FloatArray, depth: Index, half: FloatArray, axis: Index
+    ) -> tuple[Index, FloatArray, Index]:
         """Return the node numbers, middles and depths of the halves."""
         count = len(node_ids)
         while self.nodes + 2 * count > len(self._token):
@@ -122,7 +123,7 @@ class Halving:
         return ordered.tobytes()
 
 
-def require_capacity(test: BoxTest, box: Array, halvings: int, seed: int, advice: str) -> None:
+def require_capacity(test: BoxTest, box: FloatArray, halvings: int, seed: int, advice: str) -> None:
     """Raise an error if the search would take more boxes than a certificate may have, estimated by paths from the root to
     decided points.
 

@@ -12,19 +12,18 @@ from fractions import Fraction
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.crew import SearchBudget, StopCheck
 from holdfast.certificates.joint_boxes.halving import DEFERRED_TOKEN, BoxTest, Halving
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState
 from holdfast.certificates.verified.tree import MAX_LEAVES
 from holdfast.engine.memory import Parts
+from holdfast.typing import FloatArray, IndexArray
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
-BoxBatch = tuple[Array, Index]
+BoxBatch = tuple[FloatArray, IndexArray]
 
-_BOXES_PER_JOB, _MAX_CHILD_JOBS = 1 << 14, 16  # boxes that a job makes; jobs that it leaves
+_BOXES_PER_JOB = 1 << 14  # boxes that a job makes
+_MAX_CHILD_JOBS = 16  # jobs that it leaves
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +74,7 @@ class JointBoxJob:
     """
 
     test: BoxTest
-    box: Array
+    box: FloatArray
     halvings: int
     max_boxes: int
     name: str = "boxes"
@@ -112,7 +111,7 @@ class JointBoxJob:
             for number, rows in enumerate(row_groups, 1)
         ]
 
-    def _deferred_boxes(self, trees: bytes) -> Iterator[tuple[Array, Index]]:
+    def _deferred_boxes(self, trees: bytes) -> Iterator[tuple[FloatArray, IndexArray]]:
         """Yield the middles of the deferred boxes and how often each axis was halved."""
         width = self.box[:, 1] - self.box[:, 0]
         roots = self.boxes or (self.box.mean(axis=1)[None], np.zeros((1, len(width)), dtype=np.int64))
@@ -195,7 +194,7 @@ class Bisection:
     finished: bool
 
 
-def bisect_box(test: BoxTest, box: Array, halvings: int, budget: SearchBudget) -> Bisection:
+def bisect_box(test: BoxTest, box: FloatArray, halvings: int, budget: SearchBudget) -> Bisection:
     """Decide as much of a box as possible with at most as many boxes as a certificate may have."""
     (result,) = budget.run_jobs([JointBoxJob(test, box, halvings, _BOXES_PER_JOB)], MAX_LEAVES)
     return summarize_tree(result.trees, len(box), result.tested, result.finished)

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Index
 from holdfast.certificates.joint_boxes.screws import ScrewModel
 from holdfast.certificates.taylor import CertificateChain
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-_BOUND_MARGIN, _SECTION_ROUNDS = 1e-9, 12
+_BOUND_MARGIN = 1e-9
+_SECTION_ROUNDS = 12
 
 
 class FloorTest:
@@ -33,7 +33,7 @@ class FloorTest:
     def __init__(self, chain: CertificateChain, screw_rows: list[int], locks: tuple[int, ...], threshold: float) -> None:
         self.screws, self.screw_rows, self.locks, self.threshold = ScrewModel(chain), screw_rows, locks, threshold
 
-    def __call__(self, middle: Array, half: Array) -> tuple[Index, Array]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
         """Return the tokens of boxes, 0 where the bound holds after all locks, and the gain of halving each joint."""
         count, n = half.shape
         screws, brackets, links, distances = self.screws(middle)
@@ -68,15 +68,15 @@ class FloorTest:
 
     def _enclose_null_motion(
         self,
-        nu: Array,
-        screws: Array,
-        jacobian: Array,
-        inverse: Array,
-        brackets: Array,
-        links: Array,
-        distances: Array,
-        half: Array,
-    ) -> tuple[Array, Array, Array, Array, NDArray[np.bool_]]:
+        nu: FloatArray,
+        screws: FloatArray,
+        jacobian: FloatArray,
+        inverse: FloatArray,
+        brackets: FloatArray,
+        links: FloatArray,
+        distances: FloatArray,
+        half: FloatArray,
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
         """Return how far x goes with the joints and by P s (N, n) each, its response (N, n, n), the costs, and whether s
         exists.
         """

@@ -8,13 +8,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.segments import curvature_costs
 from holdfast.certificates.taylor import ReachSolver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class TaskErrorBound:
@@ -25,7 +23,7 @@ class TaskErrorBound:
         joints: (n, 2) rad and m, where they may be.
     """
 
-    def __init__(self, claim: OutOfReachClaim, joints: Array) -> None:
+    def __init__(self, claim: OutOfReachClaim, joints: FloatArray) -> None:
         self._arguments = claim, joints
         self.reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
         self._linear = self.reach.linear
@@ -33,7 +31,9 @@ class TaskErrorBound:
     def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
         return TaskErrorBound, self._arguments
 
-    def bound_error_below(self, q: Array, half: Array, targets: Array, target_half: Array) -> tuple[Array, Array, Array]:
+    def bound_error_below(
+        self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound a combination of rows away from 0 over q +- half (N, n) and targets +- target_half (N, a).
 
         Returns:
@@ -76,7 +76,7 @@ class TaskErrorBound:
             )
         return best
 
-    def _third_order_remainder(self, q: Array, half: Array, target_half: Array) -> tuple[Array, Array]:
+    def _third_order_remainder(self, q: FloatArray, half: FloatArray, target_half: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the third-order remainder of the point, m, and the angle by which it rotates, rad."""
         slides, lengths = self.reach.slides, self.reach.expansion.lengths
         c, slide_range = np.cumsum(half * ~slides, axis=1), half * slides

@@ -8,12 +8,10 @@ move no axis.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.joint_boxes.segments import ChainSegment
 from holdfast.certificates.taylor import CertificateChain
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class ScrewModel:
@@ -37,7 +35,7 @@ class ScrewModel:
         self.nearer = (order[:, None] <= order[None]).astype(float)
         self.side = np.where(np.arange(self.n) >= self.middle, 1.0, -1.0)
 
-    def __call__(self, q: Array) -> tuple[Array, Array, Array, Array]:
+    def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Evaluate the screws at q (N, n).
 
         Returns:
@@ -57,7 +55,9 @@ class ScrewModel:
         brackets = np.concatenate([np.cross(z[:, :, None], z[:, None]), moment_brackets], axis=3)
         return np.concatenate([z, moments], axis=2), brackets, links, np.linalg.norm(offsets, axis=2)
 
-    def bound_remainders(self, links: Array, distances: Array, half: Array) -> tuple[Array, Array, Array, Array]:
+    def bound_remainders(
+        self, links: FloatArray, distances: FloatArray, half: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Bound the remainders of axes and moments after first order, and after second order: (N, n) each."""
         c = half @ np.abs(self.sign).T
         v1, v2, v3 = (np.zeros_like(c) for _ in range(3))

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.taylor import CertificateChain
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 _ON_AXIS_TOLERANCE_M = 1e-9  # m, of a point from an axis that it lies on
 
 
@@ -33,14 +33,14 @@ class ChainSegment:
 
     first: int
     last: int
-    rotations: Array
-    origins: Array
-    end: Array
-    lengths: Array
+    rotations: FloatArray
+    origins: FloatArray
+    end: FloatArray
+    lengths: FloatArray
     slides: NDArray[np.bool_]
 
     @classmethod
-    def from_chain(cls, chain: CertificateChain, first: int, last: int, end: Array) -> ChainSegment:
+    def from_chain(cls, chain: CertificateChain, first: int, last: int, end: FloatArray) -> ChainSegment:
         """Cut the joints first to last - 1 out of a chain."""
         rotations, links = chain.rotations[first:last], [*chain.origins[first + 1 : last], end]
         lengths, slides = [], chain.slides[first:last]
@@ -51,7 +51,7 @@ class ChainSegment:
             lengths.append(float(np.linalg.norm(extent)))
         return cls(first, last, rotations, chain.origins[first:last], np.asarray(end), np.array(lengths), slides)
 
-    def differentiate_point(self, q: Array) -> tuple[Array, Array, Array]:
+    def differentiate_point(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the point (N, 3), the rotation axes (N, k, 3), 0 for slides, and the derivatives of the point (N, k, 3) at q
         (N, k).
         """
@@ -59,7 +59,7 @@ class ChainSegment:
         rotary_columns = np.cross(axes, tip[:, None] - origins)
         return tip, axes * ~self.slides[:, None], np.where(self.slides[:, None], axes, rotary_columns)
 
-    def place_joints(self, q: Array) -> tuple[Array, Array, Array]:
+    def place_joints(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the point (N, 3), the joint axes (N, k, 3) and points on these axes (N, k, 3) at q (N, k)."""
         count, joint_count = q.shape
         rotation, tip = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
@@ -78,7 +78,7 @@ class ChainSegment:
         tip = tip + rotation @ self.end
         return tip, axes, origins
 
-    def count_axes_through(self, point: Array) -> int:
+    def count_axes_through(self, point: FloatArray) -> int:
         """Count the first joints whose axes go through a point (3,), so that they do not change its distance."""
         rotation, origin = np.eye(3), np.zeros(3)
         for index in range(len(self.lengths)):
@@ -88,7 +88,7 @@ class ChainSegment:
                 return index
         return len(self.lengths)
 
-    def _derivative_bounds(self, q: Array, half: Array) -> tuple[Array, Array]:
+    def _derivative_bounds(self, q: FloatArray, half: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return bounds of three derivatives of the point by the joint ranges (3, N), and each joint's contribution to the
         third (N, k).
         """
@@ -99,7 +99,9 @@ class ChainSegment:
             self.slides, c**3 + 3 * c**2, _reverse_cumsum(3 * c**2 * max_lengths + 6 * c * slide_range)
         ) * half
 
-    def bound_distance_below(self, q: Array, half: Array, x: Array, target_half: Array) -> tuple[Array, Array, Array]:
+    def bound_distance_below(
+        self, q: FloatArray, half: FloatArray, x: FloatArray, target_half: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the distance of the point from targets x +- target_half (N, 3) from below, over q +- half (N, k).
 
         Returns:
@@ -115,7 +117,7 @@ class ChainSegment:
         spread = np.einsum("nka,nkb->nab", spans, spans)
         spread[:, range(3), range(3)] += target_half**2 + 1e-6 * d[:, None] ** 2
         fisher = np.linalg.solve(spread, v[:, :, None])[:, :, 0]
-        best: tuple[Array, Array, Array] | None = None
+        best: tuple[FloatArray, FloatArray, FloatArray] | None = None
         for direction in (v / d[:, None], fisher / np.maximum(np.linalg.norm(fisher, axis=1), 1e-300)[:, None]):
             gradient = np.abs(np.einsum("na,nka->nk", direction, columns))
             second = np.einsum("nja,nka->njk", np.cross(direction[:, None], axes), columns)
@@ -136,7 +138,9 @@ class ChainSegment:
         assert best is not None
         return best
 
-    def bound_distance_above(self, q: Array, half: Array, x: Array, target_half: Array) -> tuple[Array, Array, Array]:
+    def bound_distance_above(
+        self, q: FloatArray, half: FloatArray, x: FloatArray, target_half: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the distance from above, as :meth:`bound_distance_below`: the bound, the distance of the middles, and the cost
         of each axis.
         """
@@ -158,13 +162,13 @@ class ChainSegment:
         return np.sqrt(2 * bound), d, axis_costs
 
 
-def find_axis_points(chain: CertificateChain, joints: Array, rng: np.random.Generator) -> list[tuple[int, Array]]:
+def find_axis_points(chain: CertificateChain, joints: FloatArray, rng: np.random.Generator) -> list[tuple[int, FloatArray]]:
     """Return links and points on their axes, each the point of the next axis that is closest to the axis behind it: (link,
     (3,)).
 
     Where the next joint slides there is none: it takes every point of its axis elsewhere.
     """
-    n, axis_points = len(chain.lengths), list[tuple[int, Array]]()
+    n, axis_points = len(chain.lengths), list[tuple[int, FloatArray]]()
     q, previous = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
     for joint in np.flatnonzero(~chain.slides).tolist():
         heights = (
@@ -178,7 +182,7 @@ def find_axis_points(chain: CertificateChain, joints: Array, rng: np.random.Gene
     return axis_points
 
 
-def curvature_costs(gradient: Array, second: Array, half: Array) -> tuple[Array, Array]:
+def curvature_costs(gradient: FloatArray, second: FloatArray, half: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the cost of gradient and own curvature of each variable (N, k), and its part in all pairs (N, k), half of which is
     their sum.
 
@@ -196,6 +200,6 @@ def curvature_costs(gradient: Array, second: Array, half: Array) -> tuple[Array,
     return own_costs, pair_costs.sum(axis=1) + pair_costs.sum(axis=2)
 
 
-def _reverse_cumsum(x: Array) -> Array:
+def _reverse_cumsum(x: FloatArray) -> FloatArray:
     """Return for each column the sum of itself and the later columns."""
     return np.asarray(np.cumsum(x[:, ::-1], axis=1)[:, ::-1])

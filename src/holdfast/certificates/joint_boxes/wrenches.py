@@ -11,13 +11,11 @@ Everything here may be wrong: the verifier decides.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Index
 from holdfast.certificates.joint_boxes.screws import ScrewModel
 from holdfast.certificates.taylor import CertificateChain
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 FIRST_LOCK_TOKEN = 128  # token of a box in which joint 0 costs enough
 _BOUND_MARGIN = 1e-9
@@ -37,7 +35,7 @@ class CeilingTest:
         self.screws, self.locks = ScrewModel(chain), locks
         self.max_ratio = threshold / np.sqrt(1 - threshold**2)
 
-    def __call__(self, middle: Array, half: Array) -> tuple[Index, Array]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
         """Return the tokens of boxes and the gain of halving each joint."""
         screws, brackets, links, distances = self.screws(middle)
         gram, count = np.einsum("nla,nlb->nab", screws, screws), len(middle)
@@ -59,8 +57,16 @@ class CeilingTest:
         return tokens, gain
 
     def _bound_moment_ratio(
-        self, k: Index, screws: Array, gram: Array, brackets: Array, links: Array, distances: Array, half: Array, damping: Array
-    ) -> tuple[Array, Array]:
+        self,
+        k: Index,
+        screws: FloatArray,
+        gram: FloatArray,
+        brackets: FloatArray,
+        links: FloatArray,
+        distances: FloatArray,
+        half: FloatArray,
+        damping: FloatArray,
+    ) -> tuple[FloatArray, FloatArray]:
         """Return an upper bound of sqrt(A) / |a_k| (N,), and its cost by each joint's half width (N, n)."""
         sign, nearer = self.screws.sign, self.screws.nearer
         moving_brackets = brackets.transpose(0, 2, 1, 3) * sign[:, :, None]  # (N, l, j, 6)

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ReachClaim
@@ -21,13 +20,13 @@ from holdfast.certificates.taylor import ReachSolver
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState, compute_undecided
 from holdfast.engine.memory import Parts
 from holdfast.errors import InputError
+from holdfast.typing import FloatArray, IndexArray
 from holdfast.words import format_duration
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
-
 _WARN_UNREACHED_FRACTION = 0.1  # of the targets drawn first: where no configuration is found of so many, it is said
-_SPLIT_ABOVE_CELLS, _CELLS_PER_JOB = 1 << 16, 1 << 14  # cells: of a part that is cut, and of each job of it
+# _SPLIT_ABOVE_CELLS and _CELLS_PER_JOB: cells: of a part that is cut, and of each job of it
+_SPLIT_ABOVE_CELLS = 1 << 16
+_CELLS_PER_JOB = 1 << 14
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +46,7 @@ class TargetBoxResult:
     """
 
     tree: bytes
-    centers: Index
+    centers: IndexArray
     nodes: int
     finished: bool
     seconds: float
@@ -158,7 +157,7 @@ class TargetBoxJob:
             sum(part.seconds for part in child_results),
         )
 
-    def _locate_box(self) -> tuple[Array, Index]:
+    def _locate_box(self) -> tuple[FloatArray, IndexArray]:
         """Return the box (A, 2) of the job, and how often each axis was halved (A,)."""
         root = self.claim.box if self.claim.angle is None else np.vstack([self.claim.box, self.claim.angle])
         position, depth = np.zeros(len(root), dtype=np.int64), np.zeros(len(root), dtype=np.int64)
@@ -182,7 +181,7 @@ class RunningTargetBoxJob:
         finished: The smallest cells were reached, or it is cut, or to be refused.
     """
 
-    def __init__(self, job: TargetBoxJob, box: Array, depth: Index, deadline: float) -> None:
+    def __init__(self, job: TargetBoxJob, box: FloatArray, depth: IndexArray, deadline: float) -> None:
         started, claim = perf_counter(), job.claim
         self.job, self.finished, self._seconds = job, False, 0.0
         reach = ReachSolver(claim.arm, claim.task, claim.locked, claim.limits, claim.rotation, claim.angle)

@@ -9,28 +9,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.taylor import ReachSolver, TaylorForm
+from holdfast.typing import FloatArray, IndexArray
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
-
-_INITIAL_TARGETS, _MAX_TARGETS, _RANDOM_STARTS = 250, 1000, 10  # targets at first and at most, and random starts of each
+# _INITIAL_TARGETS, _MAX_TARGETS and _RANDOM_STARTS: targets at first and at most, and random starts of each
+_INITIAL_TARGETS = 250
+_MAX_TARGETS = 1000
+_RANDOM_STARTS = 10
 _CELLS_PER_TARGET = 64  # cells for each target: where there are more, there are more targets
 _MAX_SELF_MOTION_STEP_RAD = 0.5  # along self-motions, rad
-_LOCAL_SEARCH_STEPS, _FINAL_SEARCH_STEPS, _TEST_CELL_SCALE = (
-    10,
-    30,
-    2.0,
-)  # such steps, of the best more, to prove more of cells so many times wider than without,
-_WIDEN_ABOVE_FRACTION, _CELL_SCALE_RANGE = (
-    0.75,
-    (2.0**-10, 2.0**10),
-)  # or twice as wide after so much of them is, in such a range
-_ESTIMATE_SAMPLES, _MAX_ESTIMATE_HALVINGS = 200, 60  # for the estimate: so many, until so many halvings
+# _LOCAL_SEARCH_STEPS, _FINAL_SEARCH_STEPS and _TEST_CELL_SCALE: such steps, of the best more, to prove more of cells so many
+# times wider than without,
+_LOCAL_SEARCH_STEPS = 10
+_FINAL_SEARCH_STEPS = 30
+_TEST_CELL_SCALE = 2.0
+# _WIDEN_ABOVE_FRACTION and _CELL_SCALE_RANGE: or twice as wide after so much of them is, in such a range
+_WIDEN_ABOVE_FRACTION = 0.75
+_CELL_SCALE_RANGE = (2.0**-10, 2.0**10)
+# _ESTIMATE_SAMPLES and _MAX_ESTIMATE_HALVINGS: for the estimate: so many, until so many halvings
+_ESTIMATE_SAMPLES = 200
+_MAX_ESTIMATE_HALVINGS = 60
 _TRIALS_PER_CELL = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
 _TARGET_TOLERANCE = 1e-9  # m and rad
 
 
-def step_self_motion(reach: ReachSolver, q: Array, rng: np.random.Generator) -> Array:
+def step_self_motion(reach: ReachSolver, q: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Take a random step along the self-motion from each q (N, n)."""
     move = np.nan_to_num(reach.project_self_motion(q, rng.normal(size=q.shape)))
     scale = rng.uniform(0, _MAX_SELF_MOTION_STEP_RAD, len(q)) / np.maximum(np.abs(move).max(axis=1), 1e-9)
@@ -56,13 +58,13 @@ class ConfigurationPool:
             found.
     """
 
-    def __init__(self, reach: ReachSolver, root: Array, rng: np.random.Generator, deadline: float) -> None:
+    def __init__(self, reach: ReachSolver, root: FloatArray, rng: np.random.Generator, deadline: float) -> None:
         self._reach, self._root, self._rng = reach, root, rng
         self._width = root[:, 1] - root[:, 0]
         self._unit = np.where(self._width > 0, self._width, 1.0)
         self._configurations, self._indexed_count, self._deadline = np.empty((0, reach.n)), 0, deadline
-        self._added: list[tuple[Array, Array]] = []
-        self._best_batches, self._best_index = list[tuple[Array, Array]](), cast(Any, None)
+        self._added: list[tuple[FloatArray, FloatArray]] = []
+        self._best_batches, self._best_index = list[tuple[FloatArray, FloatArray]](), cast(Any, None)
         self._test_half = np.zeros(len(root))
         self.sampled_targets = self.unreached_targets = 0
         self.q, self._coordinates = self._add_samples()
@@ -78,14 +80,14 @@ class ConfigurationPool:
             self._add_samples()
             self.pending_rounds -= monotonic() < self._deadline
 
-    def sample_in_cells(self, lower: Array, width: Array, deadline: float) -> None:
+    def sample_in_cells(self, lower: FloatArray, width: FloatArray, deadline: float) -> None:
         """Add configurations for targets and locked angles in some of these cells (N, A), if there is time until ``deadline``
         (monotonic).
         """
         self._deadline, chosen = max(self._deadline, deadline), np.resize(self._rng.permutation(len(lower)), _INITIAL_TARGETS)
         self._add_samples(lower[chosen] + self._rng.random(lower[chosen].shape) * width[chosen])
 
-    def _add_samples(self, targets: Array | None = None) -> tuple[Array, Array]:
+    def _add_samples(self, targets: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Add configurations for more targets, where one is found, and return them with their targets."""
         reach = self._reach
         if targets is None:
@@ -112,7 +114,9 @@ class ConfigurationPool:
         self._best_batches.append((coordinates[best_rows] / self._unit, improved))
         return q, coordinates
 
-    def _search_self_motions(self, q: Array, coordinates: Array, widths: Array, steps: int) -> tuple[Array, Array, Array]:
+    def _search_self_motions(
+        self, q: FloatArray, coordinates: FloatArray, widths: FloatArray, steps: int
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Move configurations along self-motions to where they prove more; return them, the proved scale, and the scale of the
         tested cells.
         """
@@ -133,11 +137,11 @@ class ConfigurationPool:
             )
         return q, best_scale, widths
 
-    def add_configurations(self, center: Array, q: Array) -> None:
+    def add_configurations(self, center: FloatArray, q: FloatArray) -> None:
         """Add configurations q (N, n) that proved cells around centers (N, A), because cells near them may need the same."""
         self._added.append((center / self._unit, q))
 
-    def _find_nearest(self, center: Array, count: int) -> tuple[Array, Index]:
+    def _find_nearest(self, center: FloatArray, count: int) -> tuple[FloatArray, IndexArray]:
         """Return the distances (N, count), in parts of the root, and the indices of the nearest configurations, fewer if there
         are fewer.
         """
@@ -156,14 +160,14 @@ class ConfigurationPool:
         distances, nearest = self._nearest_index.query(center / self._unit, k=np.arange(1, count + 1), p=np.inf)
         return np.asarray(distances), np.asarray(nearest)
 
-    def find_nearest_configurations(self, center: Array, count: int) -> Array:
+    def find_nearest_configurations(self, center: FloatArray, count: int) -> FloatArray:
         """Return the (N, count, n) nearest configurations by target and locked angle for centers (N, A), fewer if there are
         fewer.
         """
         _, nearest = self._find_nearest(center, count)
         return np.asarray(self._configurations[nearest])
 
-    def find_best_configurations(self, center: Array) -> Array:
+    def find_best_configurations(self, center: FloatArray) -> FloatArray:
         """Return for each center (N, A) the configuration (N, n) that proves most for the nearest sampled target; (0, n) if
         there is none.
         """
@@ -176,7 +180,7 @@ class ConfigurationPool:
             self._best_index = KDTree(coordinates)
         return np.asarray(q[self._best_index.query(center / self._unit, p=np.inf)[1]])
 
-    def has_configuration(self, center: Array, half: Array) -> NDArray[np.bool_]:
+    def has_configuration(self, center: FloatArray, half: FloatArray) -> NDArray[np.bool_]:
         """Return a mask (N,) of the cells (N, A) that contain a configuration, or have one next to them if they are
         elongated.
         """
@@ -195,7 +199,7 @@ class ConfigurationPool:
             remaining[axis] -= 1
         return tuple(axes)
 
-    def _estimate_cost(self, q: Array, coordinates: Array) -> tuple[float, Array, float]:
+    def _estimate_cost(self, q: FloatArray, coordinates: FloatArray) -> tuple[float, FloatArray, float]:
         """Estimate the cells, the halvings of each axis, and the seconds, from some configurations (N, n) of targets (N, A).
 
         Of the cells the median of 2 to the halvings until a configuration proves its cell.

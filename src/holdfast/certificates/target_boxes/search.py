@@ -14,10 +14,8 @@ from numpy.typing import NDArray
 from holdfast.certificates.target_boxes.pool import ConfigurationPool, step_self_motion
 from holdfast.certificates.taylor import CENTER_UNIT, ReachSolver, TaylorForm
 from holdfast.certificates.tree import BisectionTree, CellBatch
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Index = NDArray[np.int64]
 FractionCallback = Callable[[float], None]
 
 _POOL_TRIALS = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
@@ -53,14 +51,14 @@ class TargetBoxSearch:
     """
 
     def __init__(
-        self, reach: ReachSolver, root: Array, halvings: int | Index, seed: int | list[int], deadline: float = np.inf
+        self, reach: ReachSolver, root: FloatArray, halvings: int | IndexArray, seed: int | list[int], deadline: float = np.inf
     ) -> None:
         self.reach, self.root, self.halvings = reach, root, np.broadcast_to(halvings, len(root))
         self.rng, self.tree, self.nodes = np.random.default_rng(seed), BisectionTree(), 0
         self.width = root[:, 1] - root[:, 0]
         self.pool = ConfigurationPool(reach, root, self.rng, deadline)
         self.open_fraction = self.proved_fraction = 0.0
-        self._open_cells: list[tuple[float, int, Index, Index, Array, int]] = []
+        self._open_cells: list[tuple[float, int, IndexArray, IndexArray, FloatArray, int]] = []
         self._abandoned_cells: list[CellBatch] = []
         self._retry_goal: float | None = None  # what must be proved of the root by the end of such a second look
         start = self.pool.q[:1] if len(self.pool.q) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
@@ -120,7 +118,7 @@ class TargetBoxSearch:
         self._enqueue_cells(cells, np.ones(len(cells.name)))
         return True
 
-    def _enqueue_cells(self, cells: CellBatch, fractions: Array) -> None:
+    def _enqueue_cells(self, cells: CellBatch, fractions: FloatArray) -> None:
         """Queue cells; ``fractions`` (N,), by width, of the cells around them were proved by one configuration.
 
         A cell takes as many configurations as such parts fill it: what each of them proves is the same for cells of all
@@ -175,7 +173,15 @@ class TargetBoxSearch:
         axis = form.choose_split_axis(half[split_rows], (remaining.depth < self.halvings) & (self.width > 0))
         self._enqueue_cells(self.tree.halve_cells(remaining, axis), np.repeat(fractions[split_rows], 2))
 
-    def _try_pool(self, q: Array, is_proved: Flags, fractions: Array, smallest: Flags, center: Array, half: Array) -> None:
+    def _try_pool(
+        self,
+        q: FloatArray,
+        is_proved: BoolArray,
+        fractions: FloatArray,
+        smallest: BoolArray,
+        center: FloatArray,
+        half: FloatArray,
+    ) -> None:
         """Try in place the configurations that prove most near each cell, and for weak cells also the nearest of the pool."""
         open_rows = np.flatnonzero(~is_proved)
         best = self.pool.find_best_configurations(center[open_rows])
@@ -191,7 +197,13 @@ class TargetBoxSearch:
                 self._improve_cells(q, is_proved, fractions, weak_rows[remaining], candidates[remaining, rank], center, half)
 
     def _try_self_motions(
-        self, q: Array, is_proved: Flags, fractions: Array, smallest: Flags, center: Array, half: Array
+        self,
+        q: FloatArray,
+        is_proved: BoolArray,
+        fractions: FloatArray,
+        smallest: BoolArray,
+        center: FloatArray,
+        half: FloatArray,
     ) -> None:
         """Try in place configurations on the self-motions of cells that are nearly proved, not proved at all, or smallest."""
         for _ in range(_SELF_MOTION_TRIALS * self.reach.is_redundant):
@@ -203,7 +215,14 @@ class TargetBoxSearch:
             )
 
     def _improve_cells(
-        self, q: Array, is_proved: Flags, fractions: Array, rows: NDArray[np.intp], initial: Array, center: Array, half: Array
+        self,
+        q: FloatArray,
+        is_proved: BoolArray,
+        fractions: FloatArray,
+        rows: NDArray[np.intp],
+        initial: FloatArray,
+        center: FloatArray,
+        half: FloatArray,
     ) -> None:
         """Replace in place the configurations of cells where other starting points prove more."""
         candidates, now_proved, new_fractions = self._test_configurations(
@@ -217,8 +236,8 @@ class TargetBoxSearch:
         )
 
     def _test_configurations(
-        self, q: Array, center: Array, half: Array, minimum: Array | None = None
-    ) -> tuple[Array, Flags, Array]:
+        self, q: FloatArray, center: FloatArray, half: FloatArray, minimum: FloatArray | None = None
+    ) -> tuple[FloatArray, BoolArray, FloatArray]:
         """Return rounded configurations near q (N, n), a mask of the cells that they prove, and the proved fractions of the
         others, by width.
 
@@ -251,5 +270,5 @@ class TargetBoxSearch:
             )
         return q, is_proved, fractions
 
-    def _round_configurations(self, q: Array, center: Array) -> Array:
+    def _round_configurations(self, q: FloatArray, center: FloatArray) -> FloatArray:
         return self.reach.set_fixed_joints(np.round(q / CENTER_UNIT) * CENTER_UNIT, center)

@@ -8,9 +8,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import BoolArray, FloatArray
+
 Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 SEGMENT_INSTANTS = 1 << 20  # instants to a segment
 PATH_CENTER_UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
@@ -33,7 +33,7 @@ class PathCellBatch:
     width: Ints
 
     @property
-    def half(self) -> Array:
+    def half(self) -> FloatArray:
         """(N, 2) half widths of both intervals, in segments."""
         half = np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT_INSTANTS)
         half[:, 1] += self.width * PATH_CENTER_UNIT
@@ -54,13 +54,13 @@ class PathFormBatch:
         good: (N,) whether that is shown, and within the limits.
     """
 
-    q: Array
-    place: Array
-    turned: Flags
-    own: Array
-    half: Array
-    only: Array
-    good: Flags
+    q: FloatArray
+    place: FloatArray
+    turned: BoolArray
+    own: FloatArray
+    half: FloatArray
+    only: FloatArray
+    good: BoolArray
 
     def select(self, rows: Ints) -> PathFormBatch:
         """Return the forms of some rows."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
@@ -14,8 +14,7 @@ from holdfast.certificates.claims import TASK_ROWS, require_planar
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MAX_SEGMENTS = 256
 _MAX_TUBE = 0.1  # m and rad, of a tube
@@ -39,10 +38,10 @@ class PathClaim:
 
     arm: Arm
     task: str
-    knots: Array
+    knots: FloatArray
     locks: tuple[int, ...]
     during: tuple[int, int]
-    tube: Array
+    tube: FloatArray
     deviation: float
 
     @property
@@ -135,14 +134,14 @@ def _to_instants(during: Sequence[float], count: int) -> tuple[int, int]:
     return int(np.floor(during[0] * step_count)) * _INSTANT_STEP, int(np.ceil(during[1] * step_count)) * _INSTANT_STEP
 
 
-def _parse_tube(tube: ArrayLike) -> Array:
+def _parse_tube(tube: ArrayLike) -> FloatArray:
     widths = np.asarray(tube, dtype=np.float64).reshape(-1)
     if widths.size not in (1, 2) or not ((widths >= 0) & (widths <= _MAX_TUBE)).all():
         raise InputError(f"the tube must be one number, m and rad, or one for each, from 0 to {_MAX_TUBE}")
     return np.broadcast_to(widths, 2).astype(np.float64)
 
 
-def _measure_deviation(arm: Arm, configurations: Array, knots: Array) -> float:
+def _measure_deviation(arm: Arm, configurations: FloatArray, knots: FloatArray) -> float:
     """Return the largest distance, m, between the tool at the given configurations and on the straight segments."""
     parameters = np.linspace(0, 1, len(configurations))
     knot_parameters = parameters[np.round(np.linspace(0, len(configurations) - 1, len(knots))).astype(int)]

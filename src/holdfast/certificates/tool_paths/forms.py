@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.taylor import CertificateChain
@@ -24,28 +23,30 @@ from holdfast.certificates.tool_paths.tools import (
     solve_regularized,
     transverse_axes,
 )
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
-Array = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
-
-_SECTION_ROUNDS, _TIGHTENING_ROUNDS = 30, 6  # of the section box: wider until it does, then narrower
-_VERIFIER_MARGIN, _MIN_SLACK = 1.003, 1e-9  # of what the verifier must be able to show
-_MIN_ROTATION_TRACE, _MAX_ROTATION_CHANGE_RAD = (
-    2.91,
-    1.19,
-)  # of rotations: the trace in the middle, and what is turned from there
+# _SECTION_ROUNDS and _TIGHTENING_ROUNDS: of the section box: wider until it does, then narrower
+_SECTION_ROUNDS = 30
+_TIGHTENING_ROUNDS = 6
+# _VERIFIER_MARGIN and _MIN_SLACK: of what the verifier must be able to show
+_VERIFIER_MARGIN = 1.003
+_MIN_SLACK = 1e-9
+# _MIN_ROTATION_TRACE and _MAX_ROTATION_CHANGE_RAD: of rotations: the trace in the middle, and what is turned from there
+_MIN_ROTATION_TRACE = 2.91
+_MAX_ROTATION_CHANGE_RAD = 1.19
 _UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
-_NEWTON_STEPS, _NEWTON_TOLERANCE = 6, 1e-10
+_ENCLOSURE_NEWTON_STEPS = 6
+_NEWTON_TOLERANCE = 1e-10
 _SECTION_FRACTION = (
     0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
 )
-_FIRST_STEP_INSTANTS, _MAX_STEP_INSTANTS, _MIN_STEP_INSTANTS = (
-    SEGMENT_INSTANTS >> 8,
-    SEGMENT_INSTANTS >> 1,
-    SEGMENT_INSTANTS >> 14,
-)  # instants, of the look ahead
-_TRACKING_TOLERANCE, _MAX_JOINT_JUMP = 1e-6, 0.3  # m and rad
+# _FIRST_STEP_INSTANTS, _MAX_STEP_INSTANTS and _MIN_STEP_INSTANTS: instants, of the look ahead
+_FIRST_STEP_INSTANTS = SEGMENT_INSTANTS >> 8
+_MAX_STEP_INSTANTS = SEGMENT_INSTANTS >> 1
+_MIN_STEP_INSTANTS = SEGMENT_INSTANTS >> 14
+# _TRACKING_TOLERANCE and _MAX_JOINT_JUMP: m and rad
+_TRACKING_TOLERANCE = 1e-6
+_MAX_JOINT_JUMP = 0.3
 _MAX_SECTION_SIZE = 10.0  # m and rad: no section box is so wide
 
 
@@ -63,7 +64,15 @@ class LockedTrackingEnclosure:
     """
 
     def __init__(
-        self, chain: CertificateChain, knots: Array, task: str, *, driven: list[int], tube: Array, limits: Array, slides: Flags
+        self,
+        chain: CertificateChain,
+        knots: FloatArray,
+        task: str,
+        *,
+        driven: list[int],
+        tube: FloatArray,
+        limits: FloatArray,
+        slides: BoolArray,
     ) -> None:
         self.chain, self.knots, self.driven, self.tube, self.limits = chain, knots, driven, tube, limits
         self.n, self.slides, self._rows = knots.shape[1], slides, TASK_ROWS[task]
@@ -73,7 +82,7 @@ class LockedTrackingEnclosure:
         self._linear = sum(row < 3 for row in self._rows)
         self._revolute = np.tile(~slides, 2).astype(float)
 
-    def interpolate_healthy(self, doubled_instants: Ints, ends: Ints) -> tuple[Array, Array]:
+    def interpolate_healthy(self, doubled_instants: IndexArray, ends: IndexArray) -> tuple[FloatArray, FloatArray]:
         """Return the joints of the healthy motion at half of ``doubled_instants``, and the rates over the segments that contain
         ``ends``.
         """
@@ -81,18 +90,18 @@ class LockedTrackingEnclosure:
         rates = self.knots[segment + 1] - self.knots[segment]
         return self.knots[segment] + rates * (doubled_instants / (2 * SEGMENT_INSTANTS) - segment)[:, None], rates
 
-    def set_driven_joints(self, q: Array, cells: PathCellBatch) -> Array:
+    def set_driven_joints(self, q: FloatArray, cells: PathCellBatch) -> FloatArray:
         """Return configurations (N, n) with the driven joints at their values in the middles of cells."""
         q = q.copy()
         q[:, self.driven[0]] = self.interpolate_healthy(cells.begin + cells.stop, cells.stop)[0][:, self.driven[0]]
         q[:, self.driven[1:]] = self.interpolate_healthy(cells.start + cells.end, cells.end)[0][:, self.driven[1:]]
         return q
 
-    def solve_centers(self, q: Array, cells: PathCellBatch) -> Array:
+    def solve_centers(self, q: FloatArray, cells: PathCellBatch) -> FloatArray:
         """Run Newton's method from q (N, n) to the middles of cells, and round the result to units of the file."""
         q, (goal, _) = self.set_driven_joints(q, cells), self.interpolate_healthy(cells.start + cells.end, cells.end)
         target = self.compute_tool_state(goal)
-        for _ in range(_NEWTON_STEPS):
+        for _ in range(_ENCLOSURE_NEWTON_STEPS):
             tool_state = self.compute_tool_state(q)
             error, jacobian = self.compute_tracking_error(tool_state, target)
             if np.abs(error).max(initial=0.0) < _NEWTON_TOLERANCE:
@@ -101,7 +110,7 @@ class LockedTrackingEnclosure:
         q[:, self.free] = np.round(q[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT
         return q
 
-    def expand_cells(self, q: Array, cells: PathCellBatch) -> PathFormBatch:
+    def expand_cells(self, q: FloatArray, cells: PathCellBatch) -> PathFormBatch:
         """Enclose the motion around the centers q (N, n) of cells."""
         m, n, tube = self.m, self.n, len(self.tube)
         goal, path_rate = self.interpolate_healthy(cells.start + cells.end, cells.end)
@@ -158,7 +167,9 @@ class LockedTrackingEnclosure:
             )
         return PathFormBatch(q, path_position, is_tangent, response, half, unique_box, is_valid)
 
-    def _section_response(self, gradients: Array, lock_rate: Array, path_rate: Array, is_tangent: Flags) -> Array:
+    def _section_response(
+        self, gradients: FloatArray, lock_rate: FloatArray, path_rate: FloatArray, is_tangent: BoolArray
+    ) -> FloatArray:
         """Return how the free joints, then the path position, follow the coordinates (N, m + 1, columns), from gradients (N, m,
         2n).
         """
@@ -183,7 +194,7 @@ class LockedTrackingEnclosure:
             response[is_tangent, :, 1], response[is_tangent, :, 2:] = tangent, pseudo_inverse
         return response
 
-    def starts_at_lock(self, forms: PathFormBatch, cells: PathCellBatch) -> Flags:
+    def starts_at_lock(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
         """Return a mask of cells whose solutions contain the configurations at all lock instants of their slabs."""
         q, rate = (values[:, self.free] for values in self.interpolate_healthy(cells.begin + cells.stop, cells.stop))
         start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT_INSTANTS)])
@@ -191,7 +202,7 @@ class LockedTrackingEnclosure:
         offsets = (departure - forms.own[:, :, 0]) * forms.half[:, :1]
         return self._is_in_unique_box(start, offsets[:, :, None], forms, np.zeros(len(q), dtype=bool))
 
-    def continues_from(self, previous: PathFormBatch, forms: PathFormBatch) -> Flags:
+    def continues_from(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
         """Return a mask of cells whose solution is that of the previous cell, on the face where the previous cell ends."""
         end_q, end_position = self.compute_cell_end(previous)
         columns = [column for column in range(previous.half.shape[1] - self.m) if column != 1]
@@ -200,13 +211,15 @@ class LockedTrackingEnclosure:
         point = np.column_stack([end_q[:, self.free], end_position])
         return self._is_in_unique_box(point, np.concatenate([response_change, section_spread], axis=2), forms, previous.turned)
 
-    def compute_cell_end(self, forms: PathFormBatch) -> tuple[Array, Array]:
+    def compute_cell_end(self, forms: PathFormBatch) -> tuple[FloatArray, FloatArray]:
         """Return the configurations (N, n) and path positions (N,) where cells end, for the middles of their slabs."""
         q = forms.q.copy()
         q[:, self.free] += forms.own[:, :-1, 1] * forms.half[:, 1:2]
         return q, forms.place + forms.own[:, -1, 1] * forms.half[:, 1]
 
-    def _is_in_unique_box(self, point: Array, offsets: Array, forms: PathFormBatch, was_tangent: Flags) -> Flags:
+    def _is_in_unique_box(
+        self, point: FloatArray, offsets: FloatArray, forms: PathFormBatch, was_tangent: BoolArray
+    ) -> BoolArray:
         """Return a mask of cells whose unique box contains points (N, m + 1) with all offsets; ``was_tangent`` marks previous
         tangent cells.
         """
@@ -217,18 +230,20 @@ class LockedTrackingEnclosure:
         inside = (max_coordinates[:, 0] < forms.half[:, 1]) | ~(was_tangent | forms.turned)
         return np.asarray((max_coordinates[:, 1:] < forms.only).all(axis=1) & inside)
 
-    def predict_start(self, previous: PathFormBatch, cells: PathCellBatch, distances: Array) -> Array:
+    def predict_start(self, previous: PathFormBatch, cells: PathCellBatch, distances: FloatArray) -> FloatArray:
         """Return predicted centers (N, n) of cells, ``distances`` (N,) segments behind the middles of the previous cells."""
         q = previous.q.copy()
         q[:, self.free] += previous.own[:, :-1, 1] * distances[:, None]
         return self.set_driven_joints(q, cells)
 
-    def step_along_tangent(self, q: Array, path_position: Array, segment_starts: Ints, distances: Array) -> tuple[Array, Ints]:
+    def step_along_tangent(
+        self, q: FloatArray, path_position: FloatArray, segment_starts: IndexArray, distances: FloatArray
+    ) -> tuple[FloatArray, IndexArray]:
         """Step from configurations (N, n) at path positions by ``distances`` (N,) along the tangents of their motions, and
         correct back onto the motions.
         """
         z, end, locked_values = np.column_stack([q, path_position]), segment_starts + SEGMENT_INSTANTS, q[:, self.driven[0]]
-        for iteration in range(_NEWTON_STEPS):
+        for iteration in range(_ENCLOSURE_NEWTON_STEPS):
             goal, path_rate = self.interpolate_healthy(np.rint(2 * SEGMENT_INSTANTS * z[:, -1]), end)
             z[:, self.driven[1:]] = goal[:, self.driven[1:]]
             tool_state, target = self.compute_tool_state(z[:, :-1]), self.compute_tool_state(goal)
@@ -249,7 +264,7 @@ class LockedTrackingEnclosure:
         z[:, self.driven[0]] = locked_values
         return z[:, :-1], np.rint(z[:, -1] * SEGMENT_INSTANTS).astype(np.int64)
 
-    def can_finish(self, locks: Ints) -> Flags:
+    def can_finish(self, locks: IndexArray) -> BoolArray:
         """Return a mask of lock instants (N,) from which Newton's method follows the path to its end within the limits; a
         heuristic look-ahead.
         """
@@ -261,7 +276,7 @@ class LockedTrackingEnclosure:
             goal, next_q = self.interpolate_healthy(2 * next_instants, next_instants)[0], q[active]
             target = self.compute_tool_state(goal)
             next_q[:, self.driven[1:]] = goal[:, self.driven[1:]]
-            for _ in range(_NEWTON_STEPS):
+            for _ in range(_ENCLOSURE_NEWTON_STEPS):
                 error, jacobian = self.compute_tracking_error(self.compute_tool_state(next_q), target)
                 if np.abs(error).max(initial=0.0) < _TRACKING_TOLERANCE:
                     break
@@ -277,7 +292,7 @@ class LockedTrackingEnclosure:
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
-    def compute_tool_state(self, q: Array) -> tuple[Array, Array, Array, Array]:
+    def compute_tool_state(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return position and rotation of the tool, the axes that rotate it (N, n, 3), and the derivatives of its position by
         the joints (N, n, 3).
         """
@@ -298,7 +313,9 @@ class LockedTrackingEnclosure:
         spin, sliding = axes * ~self.slides[:, None], axes * self.slides[:, None]
         return position, rotation @ self.chain.rotations[self.n], spin, np.cross(spin, position[:, None] - points) + sliding
 
-    def compute_tracking_error(self, tool_state: tuple[Array, ...], target: tuple[Array, ...]) -> tuple[Array, Array]:
+    def compute_tracking_error(
+        self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]
+    ) -> tuple[FloatArray, FloatArray]:
         """Return the tracking error (N, m) and its Jacobian by the arm's joints (N, m, n)."""
         error, jacobian = tool_state[0] - target[0], tool_state[3].transpose(0, 2, 1)
         if self.uses_rotation:
@@ -315,7 +332,7 @@ class LockedTrackingEnclosure:
             jacobian = np.concatenate([jacobian, angular_jacobian], axis=1)
         return error[:, self._rows], jacobian[:, self._rows]
 
-    def compute_rotation_trace(self, tool_state: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
+    def compute_rotation_trace(self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]) -> FloatArray:
         """Return (N,) 1 + 2 cos of the angle between the tools and their targets."""
         if self._pointing:
             return np.asarray(
@@ -323,7 +340,7 @@ class LockedTrackingEnclosure:
             )
         return np.asarray(np.einsum("nij,nij->n", tool_state[1], np.broadcast_to(target[1], tool_state[1].shape)))
 
-    def _healthy_jacobian(self, tool_state: tuple[Array, ...], target: tuple[Array, ...]) -> Array:
+    def _healthy_jacobian(self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]) -> FloatArray:
         """Return the Jacobian (N, m, n) of the error by the healthy arm's joints."""
         jacobian = -target[3].transpose(0, 2, 1)
         if self.uses_rotation:
@@ -336,7 +353,9 @@ class LockedTrackingEnclosure:
             jacobian = np.concatenate([jacobian, -angular_jacobian], axis=1)
         return np.asarray(jacobian[:, self._rows])
 
-    def _error_hessian(self, tool_state: tuple[Array, ...], target: tuple[Array, ...], directions: Array) -> Array:
+    def _error_hessian(
+        self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...], directions: FloatArray
+    ) -> FloatArray:
         """Return the second derivatives (N, m, c, c) of the error along the columns of ``directions``."""
         n, locked_moves, healthy_moves = self.n, directions[:, : self.n], directions[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
@@ -366,7 +385,7 @@ class LockedTrackingEnclosure:
 
     # ---- bounds ------------------------------------------------------------------------------------------------
 
-    def _third_order_remainder(self, joint_travel: Array, slide_extent: Array) -> Array:
+    def _third_order_remainder(self, joint_travel: FloatArray, slide_extent: FloatArray) -> FloatArray:
         """Return the (N, m) remainder after second order; ``slide_extent`` (N, 2n) is the extent of the slides."""
         position_remainder, slide_range = np.zeros(len(joint_travel)), joint_travel * (1 - self._revolute)
         for joints in (slice(0, self.n), slice(self.n, None)):
@@ -378,7 +397,7 @@ class LockedTrackingEnclosure:
         rotation_remainder = (joint_travel @ self._revolute) ** 3 / 6
         return np.stack([position_remainder] * self._linear + [rotation_remainder] * (self.m - self._linear), axis=1)
 
-    def _close_section(self, bounds: _CellBounds, half: Array) -> tuple[Flags, Array, Array]:
+    def _close_section(self, bounds: _CellBounds, half: FloatArray) -> tuple[BoolArray, FloatArray, FloatArray]:
         """Find section boxes, stored in place in ``half``, that are mapped into themselves; return a mask, the joint travel,
         and the rotation of the tool.
         """
@@ -406,7 +425,7 @@ class LockedTrackingEnclosure:
                 s[rows] = _VERIFIER_MARGIN * excess + 1.01 * _MIN_SLACK
         return closed, joint_travel[:, : self.n], angle
 
-    def _bound_excess(self, bounds: _CellBounds, half: Array) -> tuple[Array, Array, Array]:
+    def _bound_excess(self, bounds: _CellBounds, half: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the distance of the error from the section, the joint travel, and the rotation of the tool."""
         joint_travel, square = (bounds.reach @ half[:, :, None])[:, :, 0], half**2
         remainder = self._third_order_remainder(joint_travel, bounds.out) + (bounds.left @ half[:, :, None])[:, :, 0]
@@ -417,7 +436,7 @@ class LockedTrackingEnclosure:
         )
         return np.maximum(bounds.error + upper, lower - bounds.error), joint_travel, joint_travel @ self._revolute
 
-    def _bound_gradients(self, bounds: _CellBounds, half: Array) -> Array:
+    def _bound_gradients(self, bounds: _CellBounds, half: FloatArray) -> FloatArray:
         """Bound the gradients (N, m, 1 + m) of the error less the section by the path and by the section."""
         columns = [1, *range(half.shape[1] - self.m, half.shape[1])]
         joint_travel = (bounds.reach @ half[:, :, None])[:, :, 0]
@@ -438,12 +457,12 @@ class LockedTrackingEnclosure:
         gradients[:, self._linear :] += (angle_gradient * (joint_travel @ self._revolute)[:, None] ** 2 / 2)[:, None]
         return np.asarray(gradients)
 
-    def _is_contraction(self, bounds: _CellBounds, half: Array, section_box: Array) -> Flags:
+    def _is_contraction(self, bounds: _CellBounds, half: FloatArray, section_box: FloatArray) -> BoolArray:
         """Return a mask of the section boxes (N, m) with at most one solution."""
         gradients = self._bound_gradients(bounds, np.concatenate([half[:, : -self.m], section_box], axis=1))[:, :, 1:]
         return np.asarray((_VERIFIER_MARGIN * (gradients @ section_box[:, :, None])[:, :, 0] < 0.998 * section_box).all(axis=1))
 
-    def _moves_forward(self, bounds: _CellBounds, half: Array, response: Array, overshoot: Array) -> Flags:
+    def _moves_forward(self, bounds: _CellBounds, half: FloatArray, response: FloatArray, overshoot: FloatArray) -> BoolArray:
         """Return a mask of tangent cells that only go forward on the path and end within their segment, from ``overshoot`` (N,)
         of its end.
         """
@@ -459,13 +478,13 @@ class LockedTrackingEnclosure:
 class _CellBounds:
     """Bounds of cells: errors, response, gradient residual and second derivatives (magnitudes), curvature, slide extents."""
 
-    error: Array
-    reach: Array
-    left: Array
-    second: Array
-    own: Array
-    out: Array
+    error: FloatArray
+    reach: FloatArray
+    left: FloatArray
+    second: FloatArray
+    own: FloatArray
+    out: FloatArray
 
-    def select(self, rows: Ints) -> _CellBounds:
+    def select(self, rows: IndexArray) -> _CellBounds:
         """Return the bounds of some rows."""
         return _CellBounds(*(getattr(self, field.name)[rows] for field in fields(self)))

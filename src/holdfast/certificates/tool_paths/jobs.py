@@ -26,7 +26,8 @@ from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.tree import SearchState
 from holdfast.engine.memory import Parts
 
-_CELLS_PER_JOB, _MAX_CHILD_JOBS = 1 << 12, 8  # cells that a job looks at; jobs that it leaves
+_CELLS_PER_JOB = 1 << 12  # cells that a job looks at
+_MAX_CHILD_JOBS = 8  # jobs that it leaves
 
 
 @dataclass(frozen=True, eq=False)

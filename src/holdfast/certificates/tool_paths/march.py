@@ -9,16 +9,12 @@ from fractions import Fraction
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.tool_paths.rings import ClosureExclusion, RefutedInterval
 from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.tool_paths.turned import MIN_SINGULAR_HALVINGS, march_through_singularity
-
-Array = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _MAX_ACTIVE_SLABS = 64  # slabs that march side by side
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import TASK_ROWS
@@ -20,7 +19,6 @@ from holdfast.certificates.tool_paths.jobs import ToolPathJob
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.verified import paths
 
-Array = NDArray[np.float64]
 Span = tuple[int, int]
 
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, Index
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
@@ -20,16 +19,21 @@ from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, Ints
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Point = tuple[int, Array]  # link, and where in its frame, m
+Point = tuple[int, FloatArray]  # link, and where in its frame, m
 
 _DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
-_MAX_PAIRS, _MAX_SIMILAR_PAIRS = 12, 2  # pairs of points; of those whose distances depend on the same joints
-_MAX_TREE_NODES, _MAX_HALVINGS = 4000, 16  # boxes of a tree, and how often each joint is halved
+_MAX_PAIRS = 12  # pairs of points
+_MAX_SIMILAR_PAIRS = 2  # of those whose distances depend on the same joints
+# _MAX_TREE_NODES and _MAX_HALVINGS: boxes of a tree, and how often each joint is halved
+_MAX_TREE_NODES = 4000
+_MAX_HALVINGS = 16
 _PATH_SAMPLES = 8  # on the path, where the tool is looked for
-_RANDOM_STARTS, _NEWTON_STEPS, _TARGET_TOLERANCE = 40, 25, 1e-8  # of Newton's method; m and rad
+# _RANDOM_STARTS, _NEWTON_STEPS and _TARGET_TOLERANCE: of Newton's method; m and rad
+_RANDOM_STARTS = 40
+_NEWTON_STEPS = 25
+_TARGET_TOLERANCE = 1e-8
 _RANDOM_SEED = 15
 
 
@@ -62,11 +66,11 @@ class _LoopBranch:
 
     segment: ChainSegment
     joints: Ints
-    start: Array
-    moves: Flags
+    start: FloatArray
+    moves: BoolArray
 
     @classmethod
-    def from_loop(cls, loop: CertificateChain, first: int, last: int, start: Array, end: Array) -> _LoopBranch:
+    def from_loop(cls, loop: CertificateChain, first: int, last: int, start: FloatArray, end: FloatArray) -> _LoopBranch:
         """Cut successive joints out of a loop."""
         segment = ChainSegment.from_chain(loop, first, last, end)
         return cls(
@@ -76,7 +80,7 @@ class _LoopBranch:
             np.arange(last - first) >= segment.count_axes_through(start),
         )
 
-    def bound_distance(self, middle: Array, half: Array, farthest: bool) -> tuple[Array, Array, Array]:
+    def bound_distance(self, middle: FloatArray, half: FloatArray, farthest: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the least or greatest distance over boxes of all joints; return the bound, the distance of the middles, and
         each joint's cost (N, n).
         """
@@ -190,7 +194,7 @@ class ClosureExclusion:
                 )
         return None, may_split, 0
 
-    def _find_solvable(self, locks: Ints, path_instant: int) -> Flags:
+    def _find_solvable(self, locks: Ints, path_instant: int) -> BoolArray:
         """Return a mask of locks for which Newton's method finds configurations within the limits with the tool at a path
         instant.
         """
@@ -260,7 +264,7 @@ class _LoopExclusionTest:
     def __init__(self, pairs: list[tuple[_LoopBranch, _LoopBranch]]) -> None:
         self._pairs = pairs
 
-    def __call__(self, middle: Array, half: Array) -> tuple[Index, Array]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
         """Return the tokens of boxes and the gain of halving each joint."""
         tokens, best_ratios, gain = (
             np.full(len(middle), OPEN_TOKEN, dtype=np.int64),

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, PathFormBatch
-
-Ints = NDArray[np.int64]
+from holdfast.typing import IndexArray
 
 _MIN_CELL_INSTANTS = SEGMENT_INSTANTS >> 7  # of cells, or a quarter of their slab
 
@@ -32,7 +28,7 @@ class Slab:
     stop: int
     halvings: int = 0
     ends: list[int] = field(default_factory=list)
-    centers: list[Ints] = field(default_factory=list)
+    centers: list[IndexArray] = field(default_factory=list)
     step: int = 0
     last_form: PathFormBatch | None = None
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
-def compute_tangents(wide: Array) -> tuple[Array, Array]:
+def compute_tangents(wide: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return unit vectors (N, m + 1) in the null space of matrices (N, m, m + 1), with positive last number, and
     pseudo-inverses.
     """
@@ -17,7 +16,7 @@ def compute_tangents(wide: Array) -> tuple[Array, Array]:
     return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(pseudo_inverse)
 
 
-def second_derivatives(axes: Array, columns: Array, moves: Array) -> Array:
+def second_derivatives(axes: FloatArray, columns: FloatArray, moves: FloatArray) -> FloatArray:
     """Return the (N, 3, c, c) second derivatives of a position along the columns of moves (N, n, c)."""
     steps = axes[:, :, None] * moves[..., None]
     midpoints = np.cumsum(steps, axis=1) - steps / 2
@@ -25,17 +24,17 @@ def second_derivatives(axes: Array, columns: Array, moves: Array) -> Array:
     return np.asarray((half_terms + half_terms.transpose(0, 2, 1, 3)).transpose(0, 3, 1, 2))
 
 
-def transverse_axes(target: tuple[Array, ...]) -> Array:
+def transverse_axes(target: tuple[FloatArray, ...]) -> FloatArray:
     """Return (N, 2, 3) unit vectors perpendicular to the target axis."""
     return np.asarray(target[1][:, :, :2].transpose(0, 2, 1))
 
 
-def axis_jacobian(tool_state: tuple[Array, ...]) -> Array:
+def axis_jacobian(tool_state: tuple[FloatArray, ...]) -> FloatArray:
     """Return the (N, 3, n) Jacobian of the tool's axis by the joints."""
     return np.asarray(np.cross(tool_state[2], tool_state[1][:, None, :, 2]).transpose(0, 2, 1))
 
 
-def axial_vector(rotation: Array) -> Array:
+def axial_vector(rotation: FloatArray) -> FloatArray:
     """Return the (N, 3) axial vectors of rotations."""
     doubled = np.stack(
         [rotation[:, 2, 1] - rotation[:, 1, 2], rotation[:, 0, 2] - rotation[:, 2, 0], rotation[:, 1, 0] - rotation[:, 0, 1]],
@@ -44,11 +43,11 @@ def axial_vector(rotation: Array) -> Array:
     return np.asarray(doubled / 2)
 
 
-def axial_map(rotation: Array) -> Array:
+def axial_map(rotation: FloatArray) -> FloatArray:
     """Return the (N, 3, 3) maps from a to the axial vector of [a] R."""
     return np.asarray((np.trace(rotation, axis1=1, axis2=2)[:, None, None] * np.eye(3) - rotation) / 2)
 
 
-def solve_regularized(matrix: Array, right: Array) -> Array:
+def solve_regularized(matrix: FloatArray, right: FloatArray) -> FloatArray:
     """Solve linear systems with a small regularization; a nearly singular matrix gives a large result."""
     return np.asarray(np.linalg.solve(matrix + 1e-14 * np.eye(matrix.shape[-1]), right))

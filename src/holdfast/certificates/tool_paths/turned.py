@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.tool_paths.slabs import Slab
+from holdfast.typing import IndexArray
 
-Ints = NDArray[np.int64]
-TangentPassage = tuple[list[int], list[Ints], PathFormBatch]  # ends, centres, and what is found in the last cell
+TangentPassage = tuple[list[int], list[IndexArray], PathFormBatch]  # ends, centres, and what is found in the last cell
 
 MIN_SINGULAR_HALVINGS = 2  # halvings of a slab before its cells are turned
-_MAX_TANGENT_CELLS, _CENTER_STEP = 24, 0.8  # cells in a row; the middle of one, in half widths ahead
+_MAX_TANGENT_CELLS = 24  # cells in a row
+_CENTER_STEP = 0.8  # the middle of one, in half widths ahead
 _HALF_WIDTHS = 0.5 * 0.5 ** np.arange(16)  # half widths
 
 
@@ -35,7 +36,7 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
         enclosure.interpolate_healthy(begin + stop, stop)[0][is_first],
         ((begin + stop) / (2 * SEGMENT_INSTANTS))[is_first],
     )
-    cell_lists = [(list[int](), list[Ints]()) for _ in slabs]
+    cell_lists = [(list[int](), list[IndexArray]()) for _ in slabs]
     active = np.arange(len(slabs))
     for _ in range(_MAX_TANGENT_CELLS):
         owners, step_widths = np.repeat(active, len(_HALF_WIDTHS)), np.tile(_HALF_WIDTHS, len(active))
@@ -85,7 +86,7 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
 
 
 def _find_plain_cells(
-    enclosure: LockedTrackingEnclosure, lock: tuple[Ints, Ints], segment_starts: Ints, previous: PathFormBatch
+    enclosure: LockedTrackingEnclosure, lock: tuple[IndexArray, IndexArray], segment_starts: IndexArray, previous: PathFormBatch
 ) -> list[tuple[PathFormBatch, int, int] | None]:
     """Return the longest plain cells behind tangent cells, with their starts and ends; None where there is none."""
     q, path_position = enclosure.compute_cell_end(previous)
@@ -111,7 +112,7 @@ def _find_plain_cells(
     return plain_cells
 
 
-def _encode_center(enclosure: LockedTrackingEnclosure, q: NDArray[np.float64], instant: int) -> Ints:
+def _encode_center(enclosure: LockedTrackingEnclosure, q: NDArray[np.float64], instant: int) -> IndexArray:
     """Return a center in units of the file."""
     row = np.round(q / PATH_CENTER_UNIT).astype(np.int64)
     row[enclosure.driven] = 0

@@ -16,10 +16,9 @@ except ImportError:  # told when a file is to be checked: the sentence of a clai
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-ROUND_UP, MIN_ROUNDING = (
-    1 + 1e-12,
-    1e-300,
-)  # a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
+# ROUND_UP and MIN_ROUNDING: a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
+ROUND_UP = 1 + 1e-12
+MIN_ROUNDING = 1e-300
 
 
 class BallArray:

@@ -17,9 +17,14 @@ from .targets import CENTER_UNIT
 from .tree import SPLIT_TOKEN
 from .words import claim_sentence
 
-NUMBER_PATTERN, TEXT_PATTERN, HASH_PATTERN = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}", "[^\0]*", "[0-9a-f]{64}"
-INTEGER_PATTERN, RATIONAL_PATTERN, FRACTION_PATTERN = r"-?\d{1,40}", r"-?\d{1,60}/[1-9]\d{0,60}", r"\d{1,60}/[1-9]\d{0,60}"
-LIMITS_FORM, FRAME_FORM = [f"{NUMBER_PATTERN}|-?inf", 2], {"rotation": [NUMBER_PATTERN, 9], "origin": [NUMBER_PATTERN, 3]}
+NUMBER_PATTERN = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}"
+TEXT_PATTERN = "[^\0]*"
+HASH_PATTERN = "[0-9a-f]{64}"
+INTEGER_PATTERN = r"-?\d{1,40}"
+RATIONAL_PATTERN = r"-?\d{1,60}/[1-9]\d{0,60}"
+FRACTION_PATTERN = r"\d{1,60}/[1-9]\d{0,60}"
+LIMITS_FORM = [f"{NUMBER_PATTERN}|-?inf", 2]
+FRAME_FORM = {"rotation": [NUMBER_PATTERN, 9], "origin": [NUMBER_PATTERN, 3]}
 ARM_FORM = {
     "joints": [{"name": TEXT_PATTERN, "type": "revolute|prismatic", "limits": LIMITS_FORM, **FRAME_FORM}, ...],
     "tool": FRAME_FORM,
@@ -36,7 +41,10 @@ COMMON_FORM |= {
     "digest": HASH_PATTERN,
     **FOR_PEOPLE,
 }
-MAX_BYTES, MAX_JOINTS, MAX_PATH_JOINTS, MAX_SEGMENTS = 256 << 20, 64, 32, 1 << 14
+MAX_BYTES = 256 << 20
+MAX_JOINTS = 64
+MAX_PATH_JOINTS = 32
+MAX_SEGMENTS = 1 << 14
 
 
 def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:

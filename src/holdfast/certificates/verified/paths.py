@@ -20,7 +20,8 @@ StoredSlab = tuple[
 ]  # the lock; its ends; of its cells start, end and half width; their centres
 StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
 
-SEGMENT_INSTANTS, PATH_CENTER_UNIT = 1 << 20, 2.0**-28  # instants; rad
+SEGMENT_INSTANTS = 1 << 20  # instants
+PATH_CENTER_UNIT = 2.0**-28  # rad
 MAX_CELLS = 1 << 24
 
 

@@ -9,9 +9,11 @@ from .forms import require
 
 Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
 
-MAX_LEAVES, MAX_DEPTH = 1 << 24, 200
+MAX_LEAVES = 1 << 24
+MAX_DEPTH = 200
 MAX_COVER_STEPS = 1_000_000  # to find what overlapping cells cover
-PROVED_TOKEN, SPLIT_TOKEN = 0, 16  # token 2 is undecided; so is 1, refuted, as a reach of version 1 holds no refutations
+PROVED_TOKEN = 0  # token 2 is undecided
+SPLIT_TOKEN = 16  # so is 1, refuted, as a reach of version 1 holds no refutations
 
 
 def iterate_cells(tree: bytes, axes: int, last_leaf_token: int = 2, first_lock_token: int = 256) -> Iterator[tuple[int, Cell]]:

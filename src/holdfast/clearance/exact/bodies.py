@@ -13,12 +13,12 @@ from scipy.spatial import ConvexHull
 from holdfast.caching import cached_property
 from holdfast.cell import solids
 from holdfast.cell.meshes import Mesh, Points
-from holdfast.clearance.capsules import Capsule
+from holdfast.clearance.capsules import LinkCapsule
 from holdfast.clearance.shape import corner_points, make_hull
 from holdfast.kernels.recall import cached_json
 from holdfast.shapes.pieces import Piece
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "convex", "mesh"]
 
@@ -29,7 +29,7 @@ _MAX_OBJECT_SPHERES = 2  # of those, of an object
 _MIN_EDGE_M = 1e-9  # m: a box has edges
 
 
-def _empty_points() -> Array:
+def _empty_points() -> FloatArray:
     return np.zeros((0, 3))
 
 
@@ -49,12 +49,12 @@ class CollisionBody:
 
     kind: Kind
     size: tuple[float, ...] = ()
-    pose: Array = field(default_factory=lambda: np.eye(4))
-    vertices: Array = field(default_factory=_empty_points)
+    pose: FloatArray = field(default_factory=lambda: np.eye(4))
+    vertices: FloatArray = field(default_factory=_empty_points)
     faces: Triangles = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
     filled: CollisionBody | None = None
 
-    def support_distance(self, direction: Array) -> float:
+    def support_distance(self, direction: FloatArray) -> float:
         """Return the extent of the body along a direction (3,), m; both in the body's own frame, as in all other methods."""
         if self.kind in ("convex", "mesh"):
             return float((self.vertices @ direction).max())
@@ -77,7 +77,7 @@ class CollisionBody:
         return kinds[self.kind]("", *self.size) if self.kind in kinds else None
 
     @cached_property
-    def face_planes(self) -> tuple[Array, Array]:
+    def face_planes(self) -> tuple[FloatArray, FloatArray]:
         """Outward unit normals (F, 3) and offsets (F,), m, of the faces of a box or hull."""
         if self.kind == "box":
             half_size = np.array(self.size) / 2
@@ -88,7 +88,7 @@ class CollisionBody:
         return normal, np.asarray((normal @ self.vertices.T).max(axis=1))
 
     @cached_property
-    def inner_spheres(self) -> tuple[Array, Array]:
+    def inner_spheres(self) -> tuple[FloatArray, FloatArray]:
         """Centers (S, 3) and radii (S,), m, of spheres inside the body; none of a mesh."""
         if self.kind == "mesh":
             return _empty_points(), np.zeros(0)
@@ -104,20 +104,20 @@ class CollisionBody:
         heights = np.linspace(-length / 2, length / 2, min(int(np.ceil(length / radius)) + 1, _MAX_INNER_SPHERES))
         return np.column_stack([np.zeros((len(heights), 2)), heights]), np.full(len(heights), radius)
 
-    def shrink_spheres(self, spheres: Array) -> tuple[Array, Array]:
+    def shrink_spheres(self, spheres: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return centers (S, 3) and radii (S,), m, of balls (N, 4) centered in a mesh, each shrunk until it lies inside."""
         enclosed = spheres[[self.contains_point(sphere[:3]) for sphere in spheres]]
         first, second, third = (self.vertices[self.faces[:, corner]] for corner in range(3))
         distances = np.array([_distance_to_triangles(sphere[:3], first, second, third) for sphere in enclosed])
         return enclosed[:, :3], np.minimum(enclosed[:, 3], distances)
 
-    def _corner_points(self) -> Array:
+    def _corner_points(self) -> FloatArray:
         if self.kind == "box":
             return np.array(list(product((-0.5, 0.5), repeat=3))) * self.size
         return self.vertices
 
     @cached_property
-    def bounding_sphere(self) -> tuple[Array, float]:
+    def bounding_sphere(self) -> tuple[FloatArray, float]:
         """Center (3,) and radius, m, of a ball that contains the body."""
         if self.kind in ("convex", "mesh"):
             center = (self.vertices.max(axis=0) + self.vertices.min(axis=0)) / 2
@@ -125,11 +125,11 @@ class CollisionBody:
         return np.zeros(3), float(np.linalg.norm([self.support_distance(axis) for axis in np.eye(3)]))
 
     @property
-    def any_point(self) -> Array:
+    def any_point(self) -> FloatArray:
         """Any point (3,) of the body."""
         return np.asarray(self.vertices[0]) if self.kind in ("convex", "mesh") else np.zeros(3)
 
-    def contains_point(self, point: Array) -> bool:
+    def contains_point(self, point: FloatArray) -> bool:
         """Return True if a point (3,) lies inside a mesh.
 
         The solid angle of all its triangles is 4 pi from within and 0 from outside (van Oosterom & Strackee 1983).
@@ -151,7 +151,7 @@ class CollisionBody:
         return bool(2 * np.arctan2(numerator, denominator).sum() > 2 * np.pi)
 
 
-def body_from_capsule(part: Capsule) -> CollisionBody:
+def body_from_capsule(part: LinkCapsule) -> CollisionBody:
     """Make the body of a capsule of a link; a sphere where it has no length."""
     start, span = np.array(part.start), np.subtract(part.end, part.start)
     pose = np.eye(4)
@@ -226,7 +226,7 @@ def body_from_piece(piece: Piece) -> CollisionBody:
     return CollisionBody(kind="mesh", pose=piece.pose, vertices=piece.vertices, faces=piece.faces)
 
 
-def _distance_to_triangles(point: Array, a: Array, b: Array, c: Array) -> float:
+def _distance_to_triangles(point: FloatArray, a: FloatArray, b: FloatArray, c: FloatArray) -> float:
     """Return the distance, m, of a point (3,) from the nearest of triangles with corners (F, 3)."""
     nearest = np.inf
     normal = np.cross(b - a, c - a)
@@ -244,7 +244,7 @@ def _distance_to_triangles(point: Array, a: Array, b: Array, c: Array) -> float:
 
 
 @cached_json
-def _fit_inner_spheres(normals: Array, offsets: Array, corners: Array) -> list[list[float]]:
+def _fit_inner_spheres(normals: FloatArray, offsets: FloatArray, corners: FloatArray) -> list[list[float]]:
     """Fit spheres inside a hull, centers and radii in m; each one covers most of the volume that the others leave.
 
     They take 0.1 s a hull, and are remembered.

@@ -7,18 +7,16 @@ were given as its shape. Capsules that cover a shape, or whose radius is assumed
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.clearance.capsules import link_name
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.engines import is_library_installed
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _ROUNDING_M = 1e-9  # m
 
 
-def find_certain_contacts(clearance: Clearance, q: Array, margin: float = 0.0) -> list[str]:
+def find_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0.0) -> list[str]:
     """Name for each configuration (N, n) two bodies that are certainly closer than allowed; empty where none is known.
 
     Args:
@@ -51,8 +49,8 @@ def describe_unknown_shape(clearance: Clearance | None) -> str:
     if clearance is None or not clearance.pair_names:
         return ""
     capsules, arm = clearance.capsules, clearance.arm
-    shape, source_phrase = capsules.shape, capsules.own.describe(arm)
-    if shape is None and capsules.assumed(arm):
+    shape, source_phrase = capsules.shape, capsules.without_held.describe(arm)
+    if shape is None and capsules.is_assumed(arm):
         return f"the shape of the arm was not read: {source_phrase}"
     if shape is None and capsules.covers:
         return f"the shapes that the capsules contain were not read: {source_phrase}"

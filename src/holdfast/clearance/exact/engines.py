@@ -14,14 +14,13 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.exact.bodies import CollisionBody
 
-Array = NDArray[np.float64]
 
 CONTACT_DISTANCE_M = 1e-6  # m: bodies nearer than this touch
 
@@ -40,7 +39,7 @@ class CollisionLibrary(Protocol):
     def make_body(self, body: CollisionBody) -> Any:
         """Make the library's own body, not placed yet."""
 
-    def place_body(self, library_body: Any, rotation: Array, position: Array) -> None:
+    def place_body(self, library_body: Any, rotation: FloatArray, position: FloatArray) -> None:
         """Place the frame of a body at a rotation (3, 3) and position (3,), m."""
 
     def bodies_touch(self, a: Any, b: Any) -> bool:
@@ -109,7 +108,7 @@ class Fcl:
         kinds = {"box": "Box", "cylinder": "Cylinder", "capsule": "Capsule", "sphere": "Sphere", "ellipsoid": "Ellipsoid"}
         return getattr(self._fcl, kinds[body.kind])(*body.size)
 
-    def place_body(self, library_body: Any, rotation: Array, position: Array) -> None:
+    def place_body(self, library_body: Any, rotation: FloatArray, position: FloatArray) -> None:
         """See :class:`CollisionLibrary`."""
         library_body.setRotation(rotation)
         library_body.setTranslation(position)
@@ -158,7 +157,7 @@ class Coal:
         kinds = {"box": "Box", "cylinder": "Cylinder", "capsule": "Capsule", "sphere": "Sphere", "ellipsoid": "Ellipsoid"}
         return getattr(self._coal, kinds[body.kind])(*body.size)
 
-    def place_body(self, library_body: Any, rotation: Array, position: Array) -> None:
+    def place_body(self, library_body: Any, rotation: FloatArray, position: FloatArray) -> None:
         """See :class:`CollisionLibrary`."""
         library_body[1].setRotation(rotation)
         library_body[1].setTranslation(position)

@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
@@ -20,9 +19,8 @@ from holdfast.clearance.exact.engines import CONTACT_DISTANCE_M, CollisionLibrar
 from holdfast.clearance.exact.meetings import SEARCH_DISTANCE_M, ArmBody, NarrowPhase, arm_bodies, make_inner_spheres
 from holdfast.clearance.object_kernels import FAR_AWAY_M, FormulaObjects
 from holdfast.clearance.obstacles import Obstacles
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Truths = NDArray[np.bool_]
 Pair = tuple[int, int]
 Group = tuple[int, bool]  # a link, and whether what it holds or itself
 
@@ -46,7 +44,7 @@ class ExactQueries:
         self,
         arm: Arm,
         capsules: Capsules,
-        self_bounds: tuple[Callable[[Array], Array], Callable[[Array], Array]],
+        self_bounds: tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray], FloatArray]],
         pairs: Sequence[Pair],
         ignored: Sequence[Pair],
         obstacles: Obstacles | None,
@@ -58,7 +56,7 @@ class ExactQueries:
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
-    def check_collision_free(self, q: Array) -> Truths:
+    def check_collision_free(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where nothing touches; False for rows that are not finite.
 
         Raises:
@@ -74,7 +72,7 @@ class ExactQueries:
             is_free[undecided] = ~queries.check_contacts(q[undecided], self._distance_bounds(q[undecided], near=False))
         return is_free
 
-    def check_pair_contact(self, q: Array, pair: int) -> Truths:
+    def check_pair_contact(self, q: FloatArray, pair: int) -> BoolArray:
         """Return (N,) True where the bodies of one pair of the clearance touch.
 
         Args:
@@ -96,7 +94,7 @@ class ExactQueries:
         bounds[:, column] = -np.inf
         return queries.check_contacts(q, bounds)
 
-    def find_known_contacts(self, q: Array, margin: float) -> list[str]:
+    def find_known_contacts(self, q: FloatArray, margin: float) -> list[str]:
         """Name for each row two bodies of known shape that are closer than allowed; empty where there are none.
 
         Meshes count as they are, not as the hulls that stand for them where they are nearly convex.
@@ -123,7 +121,7 @@ class ExactQueries:
         """True if each body is a part of the arm, none a cover or an assumption."""
         return all(part.known for part in self.parts)
 
-    def smallest_distances(self, q: Array) -> Array:
+    def smallest_distances(self, q: FloatArray) -> FloatArray:
         """Return the smallest distance (N,), m; 0 where anything touches, NaN for rows that are not finite.
 
         Raises:
@@ -222,7 +220,7 @@ class ExactQueries:
 
     # ---- bounds --------------------------------------------------------------------------------------------------
 
-    def _distance_bounds(self, q: Array, *, near: bool) -> Array:
+    def _distance_bounds(self, q: FloatArray, *, near: bool) -> FloatArray:
         """Return bounds (N, P) as :class:`NarrowPhase` takes them; sharper for hulls that may touch, or with ``near`` be
         nearest.
         """
@@ -253,7 +251,7 @@ class ExactQueries:
         return np.concatenate([np.array(own_bounds).reshape(-1, len(q)).T, object_bounds.reshape(len(q), -1)], axis=1)
 
     @cached_property
-    def _hull_planes(self) -> dict[int, tuple[Array, Array]]:
+    def _hull_planes(self) -> dict[int, tuple[FloatArray, FloatArray]]:
         """Normals (F, 3) and offsets (F,), m, in the world, of objects that are hulls of few faces."""
         planes, obstacles = {}, self.obstacles
         for index, solid in enumerate(() if obstacles is None else obstacles.cell):

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.cell.solids import PrimitiveSolid, Solid
@@ -22,10 +21,7 @@ from holdfast.clearance.exact.bodies import (
 from holdfast.clearance.exact.engines import CONTACT_DISTANCE_M, CollisionLibrary
 from holdfast.clearance.exact.opponents import BodyGeometry, CollisionGeometry, PlacedBody, geometry_of_object
 from holdfast.clearance.obstacles import Obstacles
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
-Truths = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 SEARCH_DISTANCE_M = 0.05  # m: beyond the least bound, what is nearest is hardly found
 
@@ -76,9 +72,9 @@ def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list
         capsules: Its capsules.
         held: What moves with the tool, with poses in its frame.
     """
-    shape, own_capsules = capsules.shape, capsules.own
+    shape, own_capsules = capsules.shape, capsules.without_held
     if shape is None:
-        is_given = not (own_capsules.covers or own_capsules.assumed(arm))
+        is_given = not (own_capsules.covers or own_capsules.is_assumed(arm))
         parts = [ArmBody(part.link, body_from_capsule(part), known=is_given) for part in own_capsules]
     else:
         lacking = {item.link for item in shape.missing}
@@ -127,7 +123,7 @@ class NarrowPhase:
                 ]
         self._pair_of = np.array([meeting.pair for meeting in self._candidates], dtype=np.int64)
 
-    def check_contacts(self, q: Array, bounds: Array) -> Truths:
+    def check_contacts(self, q: FloatArray, bounds: FloatArray) -> BoolArray:
         """Return (N,) True where anything touches.
 
         Args:
@@ -136,7 +132,7 @@ class NarrowPhase:
         """
         return np.asarray(self.find_closer_pair(q, bounds, np.zeros(bounds.shape[1])) >= 0)
 
-    def find_closer_pair(self, q: Array, bounds: Array, allowed: Array) -> Indices:
+    def find_closer_pair(self, q: FloatArray, bounds: FloatArray, allowed: FloatArray) -> IndexArray:
         """Find a pair (N,) that is closer than allowed, by position in the bounds; -1 where there is none.
 
         Args:
@@ -167,7 +163,7 @@ class NarrowPhase:
             pairs[row] = candidate.pair if is_closer else -1
         return pairs
 
-    def smallest_distances(self, q: Array, bounds: Array) -> Array:
+    def smallest_distances(self, q: FloatArray, bounds: FloatArray) -> FloatArray:
         """Return the smallest distance (N,), m; 0 where anything touches, infinite if there is nothing to touch.
 
         Args:
@@ -187,7 +183,7 @@ class NarrowPhase:
             distances[row] = smallest
         return distances
 
-    def _lower_bounds(self, frames: list[tuple[Array, Array]], bounds: Array, limit: Array) -> Array:
+    def _lower_bounds(self, frames: list[tuple[FloatArray, FloatArray]], bounds: FloatArray, limit: FloatArray) -> FloatArray:
         """Return lower bounds (N, M) of the distances of all candidates, m; below a limit (N,) also from balls around the
         bodies.
         """
@@ -205,14 +201,16 @@ class NarrowPhase:
             lower_bounds[rows, index] = np.maximum(lower_bounds[rows, index], distance)
         return lower_bounds
 
-    def _bounding_spheres(self, part: int, frames: list[tuple[Array, Array]], rows: Indices) -> tuple[Array, float]:
+    def _bounding_spheres(
+        self, part: int, frames: list[tuple[FloatArray, FloatArray]], rows: IndexArray
+    ) -> tuple[FloatArray, float]:
         """Return centers (R, 3) in the world and radius, m, of the ball around a body in some rows."""
         center, radius = self._parts[part].body.bounding_sphere
         rotation, position = frames[part]
         return position[rows] + rotation[rows] @ center, radius
 
     def _place_candidate(
-        self, candidate: CandidatePair, row: int, frames: list[tuple[Array, Array]], placed_parts: set[int]
+        self, candidate: CandidatePair, row: int, frames: list[tuple[FloatArray, FloatArray]], placed_parts: set[int]
     ) -> None:
         for part_index in (candidate.part, candidate.other):
             if part_index not in placed_parts:
@@ -221,7 +219,7 @@ class NarrowPhase:
                 placed.rotation, placed.position = rotations[row], positions[row]
                 self.engine.place_body(placed.library_body, placed.rotation, placed.position)
 
-    def _body_frames(self, q: Array) -> list[tuple[Array, Array]]:
+    def _body_frames(self, q: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
         """Return rotations (N, 3, 3) and positions (N, 3), m, of each part in the world."""
         link_frames = self.arm.frames(q)
         body_frames = []

@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from holdfast.cell.meshes import Points
 from holdfast.cell.solids import HalfSpace, Solid
 from holdfast.clearance.exact.bodies import CollisionBody, body_from_solid
 from holdfast.clearance.exact.engines import CONTACT_DISTANCE_M, CollisionLibrary
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(eq=False)
@@ -30,15 +28,15 @@ class PlacedBody:
 
     body: CollisionBody
     library_body: Any
-    rotation: Array
-    position: Array
+    rotation: FloatArray
+    position: FloatArray
 
-    def to_body_frame(self, points: Array) -> Array:
+    def to_body_frame(self, points: FloatArray) -> FloatArray:
         """Return points (..., 3) of the world in the frame of the body."""
         return np.asarray((points - self.position) @ self.rotation)
 
     @property
-    def any_point(self) -> Array:
+    def any_point(self) -> FloatArray:
         """Any point (3,) of the body, in the world."""
         return np.asarray(self.position + self.rotation @ self.body.any_point)
 
@@ -159,7 +157,7 @@ class PointCloudGeometry:
                     return 0.0
         return smallest
 
-    def _lower_bounds(self, part: PlacedBody, points: Array) -> Array:
+    def _lower_bounds(self, part: PlacedBody, points: FloatArray) -> FloatArray:
         """Return lower bounds (N,) of the distances of balls around points (N, 3), m; exact where there is a formula."""
         local_points = part.to_body_frame(points)
         if part.body.exact_primitive is not None:

@@ -12,11 +12,11 @@ from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.exact.engines import is_library_installed
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.exact.exactness import ExactQueries
 
-Array = NDArray[np.float64]
 
 _EXACT_BELOW_M = 0.02  # m of room: nearer than this the distance is asked for; about what the bound lacks
 
@@ -75,15 +75,15 @@ class ExactClearance(Clearance):
         other_bound = self._bound.with_cell(cell)
         return with_exact_distances(other_bound, self._near - _EXACT_BELOW_M) or other_bound
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """See :meth:`holdfast.Clearance.__call__`."""
         return self._raise_bound(q, np.zeros(len(self.margins)), self._bound(q))
 
-    def margin_left(self, q: ArrayLike) -> Array:
+    def margin_left(self, q: ArrayLike) -> FloatArray:
         """See :meth:`holdfast.Clearance.margin_left`."""
         return self._raise_bound(q, self.margins, self._bound.margin_left(q))
 
-    def _raise_bound(self, q: ArrayLike, margins: Array, bound: Array) -> Array:
+    def _raise_bound(self, q: ArrayLike, margins: FloatArray, bound: FloatArray) -> FloatArray:
         rows, single = as_configurations(self.arm, q)
         raised = np.atleast_1d(bound).copy()
         is_near = raised < self._near
@@ -91,7 +91,7 @@ class ExactClearance(Clearance):
             raised[is_near] = (self.by_pair(rows[is_near]) - margins).min(axis=1)
         return raised[0] if single else raised
 
-    def by_pair(self, q: ArrayLike) -> Array:
+    def by_pair(self, q: ArrayLike) -> FloatArray:
         """See :meth:`holdfast.Clearance.by_pair`."""
         rows, single = as_configurations(self.arm, q)
         values = self._bound.by_pair(rows)

@@ -16,12 +16,13 @@ from holdfast.cell.solids import PrimitiveSolid
 from holdfast.clearance.capsules import BASE_LINK
 from holdfast.clearance.chains import SphereCover
 from holdfast.clearance.object_kernels import FormulaObjects
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _STAGE_ANGLES = (1, 3, 20)  # angles of the last joint; what they leave open is looked at in the next
 _GOLDEN_FRACTION = (np.sqrt(5) - 1) / 2  # its multiples are all round the circle, however few they are
-_LAST_JOINT, _PREVIOUS_JOINT = 5, 6  # the joints that move the two links here
+# _LAST_JOINT and _PREVIOUS_JOINT: the joints that move the two links here
+_LAST_JOINT = 5
+_PREVIOUS_JOINT = 6
 _POSE_TOLERANCE_M = (
     1e-5  # m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it
 )
@@ -39,7 +40,7 @@ class EndLinks:
     """
 
     def __init__(
-        self, arm: ArmData, spheres: SphereCover, objects: list[PrimitiveSolid], offsets: Array, margins: Array
+        self, arm: ArmData, spheres: SphereCover, objects: list[PrimitiveSolid], offsets: FloatArray, margins: FloatArray
     ) -> None:
         last_joint, count = arm.joints[-1], sum(_STAGE_ANGLES)
         lower, upper = (float(limits[-1]) for limits in finite_limits(arm))
@@ -61,7 +62,7 @@ class EndLinks:
         offsets = offsets[np.unique(spheres.link[end_spheres])[::-1]]
         self._objects, self._margins = FormulaObjects(_end_machine(last_joint), end_cover, objects, offsets), margins
 
-    def are_too_close(self, poses: Array, margin: float) -> NDArray[np.bool_]:
+    def are_too_close(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
         """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved to be closer than the margin,
         m.
 
@@ -90,7 +91,7 @@ def _end_machine(last: Joint) -> ArmData:
     return ArmData("end links", (*slides, *turns, Joint("last", last.type, np.eye(4), axis=last.axis)))
 
 
-def _pose_coordinates(poses: Array) -> Array:
+def _pose_coordinates(poses: FloatArray) -> FloatArray:
     """Return positions, m, and angles about z, then y, then x, rad, of poses (N, 4, 4), together (N, 6)."""
     r = poses[:, :3, :3]
     yaw = np.arctan2(r[:, 1, 0], r[:, 0, 0])  # 0 at a quarter turn about y, where any yaw will do

@@ -10,7 +10,6 @@ from itertools import pairwise
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.machine import ArmData
@@ -22,10 +21,7 @@ from holdfast.clearance.chains import SphereCover
 from holdfast.clearance.object_kernels import directional_jacobian, sphere_centers
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import cached_kernel
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 _BATCH_CONFIGURATIONS = 1 << 9  # configurations
 _FULL_CHECK_BELOW = 8  # configurations: of fewer everything is looked at
@@ -60,12 +56,12 @@ class GriddedObjects:
         offsets: (L, G) added to the distance of each moving link from each, m.
     """
 
-    def __init__(self, arm: ArmData, spheres: SphereCover, objects: Sequence[GriddedSolid], offsets: Array) -> None:
+    def __init__(self, arm: ArmData, spheres: SphereCover, objects: Sequence[GriddedSolid], offsets: FloatArray) -> None:
         self.arm, self.spheres, self.objects = arm, spheres, list(objects)
         moving = spheres.link > BASE_LINK
         self._links, radius = spheres.link[moving], spheres.radius[moving]
         _, self._first_spheres, self._link_positions = np.unique(self._links, return_index=True, return_inverse=True)
-        self._own_offsets: Array = offsets[self._link_positions] - radius[:, None]
+        self._own_offsets: FloatArray = offsets[self._link_positions] - radius[:, None]
 
     @cached_property
     def _center_kernel(self) -> Kernel:
@@ -76,7 +72,7 @@ class GriddedObjects:
         return gradient_kernel(self.arm)
 
     @cached_property
-    def _distance_offsets(self) -> Array:
+    def _distance_offsets(self) -> FloatArray:
         """Offsets (S, G) from the grid value at the center of a sphere to the distance, m."""
         return self._own_offsets - [solid.field.offset for solid in self.objects]
 
@@ -85,18 +81,18 @@ class GriddedObjects:
         return [solid.field.tables for solid in self.objects]
 
     @cached_property
-    def _bounding_spheres(self) -> tuple[Array, Array]:
+    def _bounding_spheres(self) -> tuple[FloatArray, FloatArray]:
         """Centers (3, G) in the world and radii (G,), m, of balls that contain each object."""
         centers = [solid.pose[:3, :3] @ solid.field.center + solid.pose[:3, 3] for solid in self.objects]
         return np.stack(centers, axis=1), np.array([solid.field.enclosing_radius for solid in self.objects])
 
-    def _iterate_batches(self, q: Array) -> Iterator[tuple[slice, Array]]:
+    def _iterate_batches(self, q: FloatArray) -> Iterator[tuple[slice, FloatArray]]:
         """Yield batches of rows, and the centers (N, S, 3) of the spheres there."""
         for start in range(0, len(q), _BATCH_CONFIGURATIONS):
             batch = slice(start, start + _BATCH_CONFIGURATIONS)
             yield batch, self._center_kernel.rows(q[batch]).reshape(len(q[batch]), -1, 3)
 
-    def _sphere_distances(self, centers: Array, offsets: Array, starts: Sequence[int], together: bool) -> Array:
+    def _sphere_distances(self, centers: FloatArray, offsets: FloatArray, starts: Sequence[int], together: bool) -> FloatArray:
         """Return distances (N, S, G); infinite where the balls around objects show that another distance is not larger.
 
         Args:
@@ -127,7 +123,7 @@ class GriddedObjects:
         self._read_distances(centers, offsets, (lower_bounds < known_distances[:, group]) & ~evaluated, distances)
         return distances
 
-    def _read_distances(self, centers: Array, offsets: Array, selected: Flags, distances: Array) -> None:
+    def _read_distances(self, centers: FloatArray, offsets: FloatArray, selected: BoolArray, distances: FloatArray) -> None:
         places = [np.nonzero(selected[:, :, index]) for index in range(len(self.objects))]
         local_points = [
             solid.to_object_frame(centers[object_place]) for solid, object_place in zip(self.objects, places, strict=True)
@@ -138,7 +134,7 @@ class GriddedObjects:
         for index, (row, sphere) in enumerate(places):
             distances[row, sphere, index] = value[ends[index] - counts[index] : ends[index]] + offsets[sphere, index]
 
-    def link_distances(self, q: Array) -> Array:
+    def link_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L, G) of the distance of every link from every object, m.
 
         Args:
@@ -152,7 +148,7 @@ class GriddedObjects:
             distances[batch] = np.minimum.reduceat(sphere_values, self._first_spheres, axis=1)
         return distances
 
-    def smallest_margin(self, q: Array, margins: Array) -> Array:
+    def smallest_margin(self, q: FloatArray, margins: FloatArray) -> FloatArray:
         """Return the least distance above the margins (G,), (N,) m."""
         margins_left = np.empty(len(q))
         for batch, centers in self._iterate_batches(q):
@@ -161,7 +157,7 @@ class GriddedObjects:
             )
         return margins_left
 
-    def find_nearest(self, q: Array, margins: Array) -> tuple[Array, Indices, Indices, Array]:
+    def find_nearest(self, q: FloatArray, margins: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
         """Return the least distance above the margins (G,), m, the position of its link, its object, and the gradient (N, n).
 
         Args:

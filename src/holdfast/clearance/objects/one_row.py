@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.clearance.clearance import Clearance
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class SingleConfigurationClearance:
@@ -28,7 +26,7 @@ class SingleConfigurationClearance:
         self._needs_batch = obstacles is not None and not self._blocks  # with grids, which are NumPy's
         self._n = clearance.arm.n
 
-    def __call__(self, q: Array) -> tuple[float, Array]:
+    def __call__(self, q: FloatArray) -> tuple[float, FloatArray]:
         """Return the margin, m, and its gradient (n,) at a finite configuration (n,)."""
         if self._needs_batch:
             margins, gradients = self._clearance.nearest(q[None])

@@ -57,5 +57,5 @@ def _read_limit(arm: Arm, text: str) -> tuple[float, float]:
     numbers = read_numbers(f"--limit '{text}'", values, "JOINT=LOW,HIGH")
     if numbers.size != 2:
         raise InputError(f"--limit '{text}' has {numbers.size} numbers after =; give the lower and the upper limit")
-    factor = arm.joints[read_joint(arm, joint)].shown[0]
+    factor = arm.joints[read_joint(arm, joint)].display_unit[0]
     return float(numbers[0] / factor), float(numbers[1] / factor)

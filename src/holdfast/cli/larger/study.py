@@ -82,12 +82,12 @@ def run(
     from holdfast.engine.study import Study
     from holdfast.kernels.threads import set_threads
     from holdfast.studies.estimate import estimate_cells
-    from holdfast.studies.study_file import read
+    from holdfast.studies.study_file import read_study_file
 
     study_part = _read_part(part)
     if threads is not None:
         set_threads(threads)
-    study_file = read(file)
+    study_file = read_study_file(file)
     if dry_run:
         cell_estimates = []
         with ProgressBar(json_, "cells") as progress, report_work("trying rows of each cell", progress) as advance:

@@ -34,6 +34,6 @@ def draw(
 
     Example: holdfast faults draw faults.yaml --arm panda --episodes 5 --seed 7
     """
-    faults = hf.faults.load(file).seeded(seed)
+    faults = hf.faults.load(file).with_seed(seed)
     model = chain.resolve_arm(arm)
     print_result(faults.batch(model, episodes=episodes, horizon=horizon or float("inf")), json_)

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
 from holdfast.arm.model import Arm
@@ -30,13 +29,14 @@ from holdfast.files.yaml import Number, Strict, describe_error
 from holdfast.grammar import TASK_SIZES
 from holdfast.result import Result
 from holdfast.solvers.self_motions import self_motion
+from holdfast.typing import FloatArray
 from holdfast.words import format_percent
 
-Array = NDArray[np.float64]
-
 _ORTHONORMALITY_TOLERANCE = 1e-12
-_TRACE_SPACING_RAD, _TRACE_STARTS = 0.01, 32  # rad; of the trace of a self-motion
-_GRID_AREA_TOLERANCE, _LENGTH_TOLERANCE = 2e-3, 1e-9  # relative, of an area by a grid; m, and fraction of all links
+_TRACE_SPACING_RAD = 0.01  # rad
+_TRACE_STARTS = 32  # of the trace of a self-motion
+_GRID_AREA_TOLERANCE = 2e-3  # relative, of an area by a grid
+_LENGTH_TOLERANCE = 1e-9  # m, and fraction of all links
 _ONE_CONFIGURATION = "one configuration"
 TOTAL_LINK_LENGTH_M = 3.0  # m, of all links together: so that areas compare
 _DATA_FOLDER = Path(__file__).parent / "data"
@@ -154,7 +154,7 @@ class DesignRecord(Result):
         return urdf_text(self.arm)
 
     @property
-    def q(self) -> Array:
+    def q(self) -> FloatArray:
         """Configuration (n,), rad."""
         return np.zeros(self.data.kind.joints) if self.data.at == "home" else np.array(self.data.at)
 
@@ -254,7 +254,7 @@ class DesignRecord(Result):
         null_space = self._compute_null_space(claims)
         return None if null_space is None else compute_worst_manipulability(null_space, self.data.kind.failures)
 
-    def _compute_null_space(self, claims: list[tuple[str, bool]]) -> Array | None:
+    def _compute_null_space(self, claims: list[tuple[str, bool]]) -> FloatArray | None:
         record_class = self.data.kind
         if self.data.null_space is not None:
             if [len(row) for row in self.data.null_space] != [record_class.joints - record_class.rows] * record_class.joints:
@@ -287,7 +287,7 @@ class DesignRecord(Result):
         rows = [(joint_row.a, joint_row.alpha * unit, joint_row.d, joint_row.theta * unit) for joint_row in arm_file.rows]
         return compute_null_space(compute_jacobian(rows, arm_file.tool_point, self.q)[: record_class.rows])
 
-    def _compute_built_in_null_space(self, claims: list[tuple[str, bool]]) -> Array | None:
+    def _compute_built_in_null_space(self, claims: list[tuple[str, bool]]) -> FloatArray | None:
         """Return the null space of a built-in arm at its configuration, by differences of its forward kinematics."""
         record_class, arm = self.data.kind, self.arm
         assert arm is not None

@@ -6,14 +6,14 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _DIFFERENCE_STEP = 1e-5  # rad, m
 
 
-def compute_jacobian(rows: Sequence[Sequence[float]], tool: ArrayLike, q: Array) -> Array:
+def compute_jacobian(rows: Sequence[Sequence[float]], tool: ArrayLike, q: FloatArray) -> FloatArray:
     """Return the Jacobian (6, n) of the tool point in the base frame.
 
     Args:
@@ -31,7 +31,7 @@ def compute_jacobian(rows: Sequence[Sequence[float]], tool: ArrayLike, q: Array)
     return np.array([[*np.cross(axis, point - origin), *axis] for axis, origin in zip(axes, points, strict=True)]).T
 
 
-def approximate_jacobian(pose: Callable[[Array], Array], q: Array) -> Array:
+def approximate_jacobian(pose: Callable[[FloatArray], FloatArray], q: FloatArray) -> FloatArray:
     """Return the Jacobian (6, n) of the tool point in the world, to about 1e-9.
 
     Args:
@@ -46,12 +46,12 @@ def approximate_jacobian(pose: Callable[[Array], Array], q: Array) -> Array:
     return np.array(columns).T
 
 
-def compute_null_space(jacobian: Array) -> Array:
+def compute_null_space(jacobian: FloatArray) -> FloatArray:
     """Return an orthonormal basis (n, n - m) of the null space."""
     return np.linalg.svd(jacobian)[2][len(jacobian) :].T
 
 
-def compute_worst_manipulability(null_space: Array, failures: int) -> float:
+def compute_worst_manipulability(null_space: FloatArray, failures: int) -> float:
     """Return the least relative manipulability over all locks of ``failures`` joints."""
     locked_rows = null_space[list(combinations(range(len(null_space)), failures))]
     return float(np.sqrt(max(np.linalg.det(locked_rows @ np.swapaxes(locked_rows, 1, 2)).min(), 0.0)))

@@ -9,11 +9,14 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
-_GRID_RADII, _LOCK_ANGLES, _HEALTHY_ANGLES = 2000, 361, 41  # distances; angles of a lock; of each joint while all work
+# _GRID_RADII, _LOCK_ANGLES and _HEALTHY_ANGLES: distances; angles of a lock; of each joint while all work
+_GRID_RADII = 2000
+_LOCK_ANGLES = 361
+_HEALTHY_ANGLES = 41
 
 
 def compute_exact_area(lengths: ArrayLike, last_limits: tuple[float, float] | None) -> float:
@@ -49,7 +52,7 @@ def compute_exact_area(lengths: ArrayLike, last_limits: tuple[float, float] | No
     return float(sum(np.pi * (b * b - a * a) for a, b in annuli if b > a))
 
 
-def estimate_area_by_grid(lengths: ArrayLike, limits: Array) -> float:
+def estimate_area_by_grid(lengths: ArrayLike, limits: FloatArray) -> float:
     """Return the workspace area, m^2, from trial distances from the base, each with all locks of all joints.
 
     Args:

@@ -26,7 +26,9 @@ from holdfast.errors import InputError
 from holdfast.files import yaml
 from holdfast.grammar import TASK_SIZES
 
-_EXACT_TOLERANCE, _DIFFERENCE_TOLERANCE = "1.0e-9", "1.0e-7"  # tolerances of checks, relative
+# _EXACT_TOLERANCE and _DIFFERENCE_TOLERANCE: tolerances of checks, relative
+_EXACT_TOLERANCE = "1.0e-9"
+_DIFFERENCE_TOLERANCE = "1.0e-7"
 _SINGULAR_VALUE_TOLERANCE = 1e-9
 _RECORD_TASKS = ("planar", "position", "pose")
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
-def compute_ring_area(lengths: Array, limits: Array, samples: int = 25) -> Array:
+def compute_ring_area(lengths: FloatArray, limits: FloatArray, samples: int = 25) -> FloatArray:
     """Return the area (P,), m^2, of the failure-tolerant workspace of planar arms of n revolute joints, n = 3 or more.
 
     The first two joints turn all the way. Links that others follow after a lock of joint k are one of length
@@ -54,7 +54,7 @@ def compute_ring_area(lengths: Array, limits: Array, samples: int = 25) -> Array
     upper = np.minimum(upper, moving_lengths.sum(axis=1) - first_length)
     inner_radius = np.maximum(2 * moving_lengths.max(axis=1) - moving_lengths.sum(axis=1), 0.0)
 
-    def annulus_area(inner: Array, outer: Array) -> Array:
+    def annulus_area(inner: FloatArray, outer: FloatArray) -> FloatArray:
         inner, outer = np.maximum(inner, 0), np.maximum(outer, 0)
         return np.asarray(np.pi * np.maximum(outer**2 - inner**2, 0))
 
@@ -65,7 +65,7 @@ def compute_ring_area(lengths: Array, limits: Array, samples: int = 25) -> Array
     return np.asarray(np.where(inner_radius > 0, split_area, whole_area))
 
 
-def _find_cosine_range(limits: Array) -> tuple[Array, Array]:
+def _find_cosine_range(limits: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the least and the largest cosine within ranges (P, 2), rad."""
     lower, upper = limits[:, 0], limits[:, 1]
     end_cosines = np.cos(limits)

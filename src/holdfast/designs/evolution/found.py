@@ -11,8 +11,7 @@ from holdfast.arm.model import Arm
 from holdfast.arms.dh_file import format_dh_file
 from holdfast.designs.space import DesignSpace
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 EVOLUTION_OBJECTIVES = ("self-motion-size", "tolerant-workspace")
 
@@ -38,14 +37,14 @@ class EvolvedDesign(Result):
 
     space: DesignSpace
     objective: str
-    values: Array
+    values: FloatArray
     value: float
     given: float
     bound: float
-    q: Array | None = None
+    q: FloatArray | None = None
     winding: NDArray[np.int64] | None = None
-    limits: Array | None = None
-    history: Array
+    limits: FloatArray | None = None
+    history: FloatArray
     seed: int
     seconds: float
 

@@ -18,11 +18,11 @@ from holdfast.designs.family import Family
 from holdfast.designs.space import Vary, design_space
 from holdfast.errors import InputError, TaskError
 from holdfast.notice import ProgressCount, reports_progress
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _POPULATION_SIZE = 48
-_TRACE_SPACING_RAD, _FINAL_SPACING_RAD = 0.1, 0.02  # rad; long steps may pass from one curve to another
+_TRACE_SPACING_RAD = 0.1  # rad
+_FINAL_SPACING_RAD = 0.02  # long steps may pass from one curve to another
 _FULL_SIZE_TOLERANCE = 1e-6  # of a turn
 _WINDING_BONUS = 1e-3  # turns that a joint that winds is worth more than one that turns all the way and back
 
@@ -68,16 +68,16 @@ def design_for_self_motion(
     tracer, rng, history = SelfMotionTracer(family), np.random.default_rng(seed), list[float]()
     parameter_count = len(space.start)
 
-    def mirror_into_bounds(x: Array) -> Array:
+    def mirror_into_bounds(x: FloatArray) -> FloatArray:
         """Return designs (P, k) within their bounds; values beyond a bound are mirrored."""
         folded = np.mod(x[:, :parameter_count], 2)
         return np.asarray(space.lower + np.where(folded > 1, 2 - folded, folded) * (space.upper - space.lower))
 
-    def measure_revolutions(values: Array, q: Array, spacing: float) -> tuple[Array, NDArray[np.int64]]:
+    def measure_revolutions(values: FloatArray, q: FloatArray, spacing: float) -> tuple[FloatArray, NDArray[np.int64]]:
         curves = tracer(values, q, spacing)
         return curves.ranges.sum(axis=1) / (2 * np.pi), curves.winding
 
-    def compute_cost(x: Array) -> Array:
+    def compute_cost(x: FloatArray) -> FloatArray:
         revolutions, winding = measure_revolutions(mirror_into_bounds(x), x[:, parameter_count:], _TRACE_SPACING_RAD)
         return np.asarray(-revolutions - _WINDING_BONUS * (winding != 0).sum(axis=1))
 
@@ -85,7 +85,7 @@ def design_for_self_motion(
     baseline_value = float(
         measure_revolutions(np.tile(space.start, (_POPULATION_SIZE, 1)), initial_configurations, _FINAL_SPACING_RAD)[0].max()
     )
-    best: tuple[float, float, Array] | None = None
+    best: tuple[float, float, FloatArray] | None = None
     full_score = arm.n * (1 + _WINDING_BONUS) - _FULL_SIZE_TOLERANCE
     with ProgressCount("generations", restarts * generations, most=True) as advance:
 

@@ -5,23 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _SMALLEST_STEP = 1e-12  # of a step: then nothing moves any more
 
 
 def minimise_by_evolution(
-    cost: Callable[[Array], Array],
-    start: Array,
-    deviations: Array,
+    cost: Callable[[FloatArray], FloatArray],
+    start: FloatArray,
+    deviations: FloatArray,
     *,
     population: int,
     generations: int,
     rng: np.random.Generator,
     on_generation: Callable[[float], bool],
-) -> tuple[Array, float]:
+) -> tuple[FloatArray, float]:
     """Return the point of least cost that was evaluated.
 
     Args:

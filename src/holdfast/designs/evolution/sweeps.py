@@ -15,8 +15,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm, factor_householder
 from holdfast.solvers.inverse_kinematics import task_error
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MAX_CURVE_LENGTH_RAD = 120.0  # rad: longer curves are cut
 _NEWTON_ERROR_BOUND = 1e-3  # error after one Newton step with which the next one is enough
@@ -35,7 +34,7 @@ class SelfMotionRanges:
         winding: (P, n) whole turns on the way round a closed curve.
     """
 
-    ranges: Array
+    ranges: FloatArray
     is_closed: NDArray[np.bool_]
     winding: NDArray[np.int64]
 
@@ -67,7 +66,7 @@ class SelfMotionTracer:
         )
         return Kernel("self-motion of designs", [q, position, rotation, self.family.x], [outputs])
 
-    def __call__(self, values: Array, q: Array, spacing: float) -> SelfMotionRanges:
+    def __call__(self, values: FloatArray, q: FloatArray, spacing: float) -> SelfMotionRanges:
         """Trace the curves of designs (P, k) through configurations (P, n), rad, in steps of ``spacing``, rad."""
         pose_rows = self._pose_kernel.rows(q, values)
         position, rotation = np.ascontiguousarray(pose_rows[:, :3]), np.ascontiguousarray(pose_rows[:, 3:].reshape(-1, 3, 3))
@@ -113,7 +112,9 @@ class SelfMotionTracer:
         return SelfMotionRanges(ranges=np.where(winding != 0, 2 * np.pi, spans), is_closed=is_closed, winding=winding)
 
 
-def _passes_start(start_offset: Array, end_offset: Array, first_tangents: Array, step_sizes: Array) -> NDArray[np.bool_]:
+def _passes_start(
+    start_offset: FloatArray, end_offset: FloatArray, first_tangents: FloatArray, step_sizes: FloatArray
+) -> NDArray[np.bool_]:
     """Return True where a step passes the first point (modulo full revolutions, seen from both ends) in the direction of
     departure.
     """

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -17,12 +16,14 @@ from holdfast.designs.space import DesignSpace, Vary, design_space
 from holdfast.errors import InputError
 from holdfast.notice import ProgressCount, reports_progress
 from holdfast.reach.closed_form import ThreeLinks, workspace_area
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _POPULATION_SIZE = 24
-_RANGE_SAMPLES, _FINAL_RANGE_SAMPLES = 9, 81  # of each range of a joint
-_SEARCH_RADII, _FINAL_RADII = 20, 1600
+# _RANGE_SAMPLES and _FINAL_RANGE_SAMPLES: of each range of a joint
+_RANGE_SAMPLES = 9
+_FINAL_RANGE_SAMPLES = 81
+_SEARCH_RADII = 20
+_FINAL_RADII = 1600
 _FULL_TURN_RAD = 2 * np.pi
 
 
@@ -73,12 +74,12 @@ def design_for_workspace(
                 deviations = np.concatenate([(links.space.upper - links.space.lower) / 4, np.full(angles, 1.0)])
 
                 def compute_cost(
-                    x: Array,
+                    x: FloatArray,
                     compute_areas: _Areas = compute_areas,
                     keep_lengths: bool = keep_lengths,
                     parameter_count: int = parameter_count,
                     fine: bool = False,
-                ) -> Array:
+                ) -> FloatArray:
                     values, beyond = links.project_to_bounds(
                         np.tile(links.space.start, (len(x), 1)) if keep_lengths else x[:, :parameter_count]
                     )
@@ -118,10 +119,10 @@ def design_for_workspace(
     )
 
 
-_Areas = Callable[[Array, Array, bool], tuple[Array, Array]]
+_Areas = Callable[[FloatArray, FloatArray, bool], tuple[FloatArray, FloatArray]]
 
 
-def _compute_ring_areas(lengths: Array, angles: Array, fine: bool) -> tuple[Array, Array]:
+def _compute_ring_areas(lengths: FloatArray, angles: FloatArray, fine: bool) -> tuple[FloatArray, FloatArray]:
     """Return areas (P,) and limits (P, n, 2) of the link angles, from the middles and half widths of the ranges of joints 3 to
     n.
     """
@@ -132,7 +133,7 @@ def _compute_ring_areas(lengths: Array, angles: Array, fine: bool) -> tuple[Arra
     return compute_ring_area(lengths, limits[:, 2:], _FINAL_RANGE_SAMPLES if fine else _RANGE_SAMPLES), limits
 
 
-def _compute_three_link_areas(lengths: Array, angles: Array, fine: bool) -> tuple[Array, Array]:
+def _compute_three_link_areas(lengths: FloatArray, angles: FloatArray, fine: bool) -> tuple[FloatArray, FloatArray]:
     """Return areas and limits of arms of three joints, from the half widths of all ranges and the middles of those of joints 2
     and 3.
     """
@@ -186,7 +187,7 @@ class _LinkLengths:
         if arm.n == 3:
             self.bound = min(self.bound, np.pi * total**2 / 3)
 
-    def project_to_bounds(self, x: Array) -> tuple[Array, Array]:
+    def project_to_bounds(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return designs (P, k), with their sum if it is kept, and by how much (P,) they exceed their bounds, m."""
         lower, upper = self.space.lower, self.space.upper
         if self._kept_sum is None:
@@ -195,7 +196,7 @@ class _LinkLengths:
         values = values * (self._kept_sum / values.sum(axis=1, keepdims=True))
         return values, np.maximum(np.maximum(lower - values, values - upper) - 1e-13, 0.0).sum(axis=1)
 
-    def link_lengths(self, values: Array) -> Array:
+    def link_lengths(self, values: FloatArray) -> FloatArray:
         """Return the link lengths (P, n), m."""
         lengths = np.tile(self._baseline_lengths, (len(values), 1))
         lengths[:, self._varied_rows] = values

@@ -25,13 +25,14 @@ from holdfast.regions.region import Region, default_region
 from holdfast.result import Result
 from holdfast.solvers.optima import optimise
 from holdfast.solvers.self_motions import fibres
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 _Cell = tuple[str, str, int, Interval]  # name and unit of a column, of how many samples, and what one arm has
 
 COMPARISON_MEASURES = ("quantile", "fraction-above", "self-motion-size", "tolerant-workspace")
 INTERVAL_CONFIDENCE = 0.95  # of all intervals
-_CURVE_SPACING_RAD, _CURVE_STARTS = 0.05, 32  # rad; of self-motions
+_CURVE_SPACING_RAD = 0.05  # rad
+_CURVE_STARTS = 32  # of self-motions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,9 +75,9 @@ class ArmComparison(Result):
     failures: int
     region: Region
     columns: tuple[ArmMeasures, ...]
-    values: Array
-    low: Array
-    high: Array
+    values: FloatArray
+    low: FloatArray
+    high: FloatArray
     left_out: tuple[str, ...]
     level: float
     seed: int
@@ -239,8 +240,8 @@ class _ComparisonSample:
     """Poses and further sampled quantities, equal for all arms."""
 
     region: Region
-    poses: Array
-    weights: Array
+    poses: FloatArray
+    weights: FloatArray
     level: float
     thresholds: tuple[float, ...]
     samples: int
@@ -248,9 +249,11 @@ class _ComparisonSample:
     best_limits: bool
     seed: int
 
-    def _compute_quantile(self, values: Array, level: float) -> Interval:
+    def _compute_quantile(self, values: FloatArray, level: float) -> Interval:
         is_reached = np.ones(len(values), dtype=bool)
-        return HeldOutResult.of(values, is_reached, self.weights, level=level, heaviest=self.region.heaviest).guaranteed
+        return HeldOutResult.from_values(
+            values, is_reached, self.weights, level=level, heaviest=self.region.heaviest
+        ).guaranteed
 
     def measure_quantile(self, index: RelativeManipulability) -> list[_Cell]:
         best = optimise(index.arm, self.poses, index, seed=self.seed)
@@ -262,7 +265,12 @@ class _ComparisonSample:
         value = index(np.random.default_rng(self.seed).uniform(lower, upper, (self.samples, index.arm.n)))
         counts = [int((value >= threshold).sum()) for threshold in self.thresholds]
         return [
-            (f"joint space at {threshold:g} or more", "1", self.samples, Interval.of(count, self.samples, INTERVAL_CONFIDENCE))
+            (
+                f"joint space at {threshold:g} or more",
+                "1",
+                self.samples,
+                Interval.from_counts(count, self.samples, INTERVAL_CONFIDENCE),
+            )
             for threshold, count in zip(self.thresholds, counts, strict=True)
         ]
 

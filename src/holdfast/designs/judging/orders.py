@@ -18,9 +18,8 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.linalg import factor_householder, select_smallest, squared_volume
 from holdfast.probability.intervals import Interval
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 from holdfast.words import format_percent
-
-Array = NDArray[np.float64]
 
 _MAX_ORDERS = 2520  # orders: all of seven joints
 _CHECK_SAMPLE_FACTOR = 10  # times as many samples for the front
@@ -50,22 +49,22 @@ class JointOrders(Result):
     orders: NDArray[np.int64]
     thresholds: tuple[float, ...]
     counts: NDArray[np.int64]
-    mean: Array
-    lengths: Array
+    mean: FloatArray
+    lengths: FloatArray
     front: NDArray[np.int64]
-    fresh: Array
+    fresh: FloatArray
     at_home: float
     samples: int
     seed: int
 
     @property
-    def fractions(self) -> Array:
+    def fractions(self) -> FloatArray:
         """(D, T) fraction of the joint space at or above each threshold."""
         return np.asarray(self.counts / self.samples)
 
     def interval(self, order: int, threshold: int) -> Interval:
         """Return the fraction of one order above one threshold, with its 95 % Clopper-Pearson interval."""
-        return Interval.of(int(self.counts[order, threshold]), self.samples)
+        return Interval.from_counts(int(self.counts[order, threshold]), self.samples)
 
     def describe(self) -> list[str]:
         """Return the best and the worst order at each threshold, and the common value at one configuration."""
@@ -131,7 +130,7 @@ def compare_joint_orders(
         orders = np.array([rng.permutation(n) for _ in range(int(at_most or 0))])
     kernel, lines = _make_worst_case_kernel(n, failures), np.hstack([directions, origins])
 
-    def manipulabilities(order: NDArray[np.int64], q: Array) -> Array:
+    def manipulabilities(order: NDArray[np.int64], q: FloatArray) -> FloatArray:
         return np.sqrt(np.maximum(np.nan_to_num(kernel.rows(lines[order].ravel(), q)[:, 0]), 0.0))
 
     q = rng.uniform(-np.pi, np.pi, (samples, n))
@@ -159,7 +158,7 @@ def compare_joint_orders(
     )
 
 
-def find_distinct_orders(w: Array, o: Array) -> NDArray[np.int64]:
+def find_distinct_orders(w: FloatArray, o: FloatArray) -> NDArray[np.int64]:
     """Return the orders (D, n) of lines that make different arms: one of an order and its reverse, and one of those equal by
     symmetry.
 
@@ -179,7 +178,7 @@ def find_distinct_orders(w: Array, o: Array) -> NDArray[np.int64]:
     tables = [w @ w.T, w @ v.T + v @ w.T]
     pairs, triples = (np.array(list(combinations(range(n), size))).reshape(-1, size) for size in (2, 3))
 
-    def compute_invariants(subset: NDArray[np.int64]) -> Array:
+    def compute_invariants(subset: NDArray[np.int64]) -> FloatArray:
         a, b = subset[:, pairs].transpose(2, 0, 1)
         c, d, e = subset[:, triples].transpose(2, 0, 1)
         features = [abs(t[a, b]) for t in (*tables, distances)] + [t[c, d] * t[d, e] * t[e, c] for t in tables]
@@ -198,7 +197,7 @@ def find_distinct_orders(w: Array, o: Array) -> NDArray[np.int64]:
     return np.asarray(orders[np.sort(first_indices)], dtype=np.int64)
 
 
-def _compute_line_distances(directions: Array, origins: Array) -> Array:
+def _compute_line_distances(directions: FloatArray, origins: FloatArray) -> FloatArray:
     """Return the distances (n, n) between lines, m."""
     normal = np.cross(directions[:, None], directions[None])
     sines = np.linalg.norm(normal, axis=2)
@@ -208,7 +207,7 @@ def _compute_line_distances(directions: Array, origins: Array) -> Array:
     return np.asarray(np.where(sines < _PARALLEL_SINE, parallel_distances, skew_distances))
 
 
-def _find_front(lengths: Array, fractions: Array) -> NDArray[np.int64]:
+def _find_front(lengths: FloatArray, fractions: FloatArray) -> NDArray[np.int64]:
     """Return the numbers of the entries that no other beats in both length and fraction, by length."""
     order = np.lexsort((-fractions, lengths))
     best = np.maximum.accumulate(np.concatenate([[-np.inf], fractions[order][:-1]]))

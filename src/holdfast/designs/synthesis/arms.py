@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.machine import Joint
@@ -21,9 +21,8 @@ from holdfast.errors import InputError
 from holdfast.files.output import open_replacement
 from holdfast.grammar import TASK_SIZES
 from holdfast.result import Result
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first
-
-Array = NDArray[np.float64]
 
 _ORTHONORMALITY_TOLERANCE = 1e-9
 _TOTAL_LENGTH_M = 2.0  # m, sum of |a| and |d|
@@ -49,7 +48,7 @@ class Synthesis(Result):
     failures: int
     value: float
     arms: list[Arm]
-    jacobians: list[Array]
+    jacobians: list[FloatArray]
     losses: list[float]
     residual: float
     bound: float
@@ -117,7 +116,7 @@ def synthesise(
                 )
         else:
             candidates = [orthogonal_complement(basis).T]
-    arms, jacobians, losses = list[Arm](), list[Array](), list[float]()
+    arms, jacobians, losses = list[Arm](), list[FloatArray](), list[float]()
     value = worst_relative_manipulability(basis, failures)
     for candidate in candidates:
         angle_sets = (
@@ -157,18 +156,18 @@ def write_dh_table(arm: Arm, path: Path) -> Path:
     return path
 
 
-def compute_task_jacobian(arm: Arm, task: str) -> Array:
+def compute_task_jacobian(arm: Arm, task: str) -> FloatArray:
     """Return the task's rows of the Jacobian at the configuration of zeros, (m, n)."""
     return np.asarray(arm.jacobian(np.zeros(arm.n))[: TASK_SIZES[task]])
 
 
-def _compute_null_space(jacobian: Array) -> Array:
+def _compute_null_space(jacobian: FloatArray) -> FloatArray:
     return orthogonal_complement(np.linalg.qr(jacobian.T)[0])
 
 
 def _check_null_space(
     ceiling: UpperBound | None, null_space: ArrayLike | None, row_count: int, task: str, failures: int
-) -> tuple[Array, int]:
+) -> tuple[FloatArray, int]:
     """Check the requested null space, and return it with the number of failures."""
     if ceiling is not None:
         if ceiling.null_space is None:
@@ -187,7 +186,7 @@ def _check_null_space(
     return basis, failures
 
 
-def _make_table(directions: Array, origins: Array, scale: float | None, task: str) -> DHTable:
+def _make_table(directions: FloatArray, origins: FloatArray, scale: float | None, task: str) -> DHTable:
     """Return the table of the arm with these axes at zero and the tool at the origin; without ``scale`` the lengths
     sum to 2 m.
     """

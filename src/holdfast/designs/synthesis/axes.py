@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.ceilings.frames import orthogonal_complement
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _LINE_TOLERANCE = 1e-6  # v.w or |w| - 1 of a column beyond which it is the velocity of no revolute joint
 _SOLVED_RESIDUAL = 1e-12
@@ -17,7 +15,7 @@ _LENGTH_SCALES = np.logspace(-2, 2, 81)
 _MAX_CONDITION_NUMBER = 50.0  # a condition number beyond which a start is not worth keeping
 
 
-def find_joint_axes(jacobian: Array, angles: Array | None = None) -> tuple[Array, Array]:
+def find_joint_axes(jacobian: FloatArray, angles: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
     """Return directions and points of the joint axes of a Jacobian, in the frame of its rows; the tool point is the origin.
 
     A planar column v belongs to the joint at a quarter turn from it; a column v of a position to any axis across v at the
@@ -77,7 +75,7 @@ def find_joint_axes(jacobian: Array, angles: Array | None = None) -> tuple[Array
     return w, np.cross(w, v)
 
 
-def _find_perpendicular_axis(v: Array, angle: float) -> Array:
+def _find_perpendicular_axis(v: FloatArray, angle: float) -> FloatArray:
     other_axis = np.eye(3)[int(abs(v).argmin())]
     first = np.cross(v, other_axis)
     first /= np.linalg.norm(first)
@@ -85,7 +83,7 @@ def _find_perpendicular_axis(v: Array, angle: float) -> Array:
     return np.asarray(np.cos(angle) * first + np.sin(angle) * second)
 
 
-def find_pose_jacobians(null_space: Array, *, starts: int, seed: int) -> tuple[list[Array], float]:
+def find_pose_jacobians(null_space: FloatArray, *, starts: int, seed: int) -> tuple[list[FloatArray], float]:
     """Find pose Jacobians with a given null space all of whose columns are lines, by Newton's method from random starts.
 
     ``J = A B`` with B across the null space; A (6, 6) is sought so that ``v.w = 0`` and ``|w| = 1`` in every column, 2 n
@@ -129,7 +127,7 @@ def find_pose_jacobians(null_space: Array, *, starts: int, seed: int) -> tuple[l
     ], least_residual
 
 
-def _scale_lengths(jacobian: Array) -> Array:
+def _scale_lengths(jacobian: FloatArray) -> FloatArray:
     """Return the Jacobian with lengths in the unit that minimises the condition number."""
     candidates = jacobian[None] * np.where(np.arange(6) < 3, _LENGTH_SCALES[:, None], 1.0)[:, :, None]
     return np.asarray(candidates[np.linalg.cond(candidates).argmin()])

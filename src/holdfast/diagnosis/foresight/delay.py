@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.observer import FILTER_BANDWIDTH_RAD_S, OBSERVER_GAIN_PER_S, accumulate_excess, low_pass
 from holdfast.diagnosis.signals import EXCESS_LIMITS_S
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @check_arguments
 def expected_delays(
     bounds: Bounds, reference: ArrayLike, *, stiffness: ArrayLike, damping: ArrayLike, onset: float = 0.0
-) -> Array:
+) -> FloatArray:
     """Return the time (n,) in s from a lock of each joint to its alarm; infinite where the motion ends before.
 
     A joint that locks falls behind its reference by ``d``, and its servo asks ``K d + D d'`` more of it. That torque, filtered

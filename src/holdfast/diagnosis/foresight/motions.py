@@ -5,17 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.faults.log import Log
 from holdfast.paths.joint_table import joint_columns, read_joint_table
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 
-
-def read_motion(arm: Arm, file: str | Path) -> tuple[Array, float]:
+def read_motion(arm: Arm, file: str | Path) -> tuple[FloatArray, float]:
     """Return references (T, n), rad and m, and samples per second, of a recording or of a table of ``time_s`` and a column for
     each joint.
 
@@ -34,7 +32,7 @@ def read_motion(arm: Arm, file: str | Path) -> tuple[Array, float]:
     return numbers[:, 1:], float(1 / np.median(np.diff(numbers[:, 0])))
 
 
-def resample_motion(q: Array, rate: float, new_rate: float) -> Array:
+def resample_motion(q: FloatArray, rate: float, new_rate: float) -> FloatArray:
     """Return a motion at another sample rate, by linear interpolation between its samples."""
     t = np.arange(int(np.floor((len(q) - 1) / rate * new_rate + 1e-9)) + 1) / new_rate
     return np.stack([np.interp(t, np.arange(len(q)) / rate, column) for column in q.T], axis=1)

@@ -19,8 +19,7 @@ from holdfast.diagnosis.sensors import Sensors
 from holdfast.errors import InputError
 from holdfast.notice import reports_progress
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _ONSET_COUNT = 40  # times along the motion at which a joint may lock
 _SERVO_BANDWIDTH_RAD_S = 2 * np.pi * 10  # rad/s, of servos that nobody described
@@ -44,9 +43,9 @@ class Observability(Result):
 
     arm: Arm
     duration: float
-    separation: Array
-    delays: Array | None
-    strayed: Array | None
+    separation: FloatArray
+    delays: FloatArray | None
+    strayed: FloatArray | None
     alike: tuple[str, ...] | None
 
     @cached_property
@@ -55,7 +54,7 @@ class Observability(Result):
         return tuple(self.arm.joint_names[joint] for joint in undetectable_joints(self.separation, range(self.arm.n)))
 
     @cached_property
-    def together(self) -> tuple[tuple[str, str], ...]:
+    def inseparable(self) -> tuple[tuple[str, str], ...]:
         """Pairs of joints whose locks the tool's pose reveals but does not distinguish."""
         names = self.arm.joint_names
         return tuple((names[first], names[second]) for first, second in inseparable_pairs(self.separation, range(self.arm.n)))
@@ -66,7 +65,7 @@ class Observability(Result):
         detectable = f"{joint_count - len(self.unseen)} of {joint_count} joints"
         lines = [f"the tool's pose alone shows the lock of {detectable} on this motion of {self.duration:.3g} s"]
         lines += [f"not shown: {', '.join(self.unseen)}"] if self.unseen else []
-        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.together]
+        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.inseparable]
         if self.delays is not None and self.strayed is not None:
             is_detected = np.isfinite(self.delays)
             for index, name in enumerate(names):
@@ -166,7 +165,7 @@ def predict_detection(
     )
 
 
-def _tool_errors(arm: Arm, q: Array, onsets: NDArray[np.int64], delay_rows: Array) -> Array:
+def _tool_errors(arm: Arm, q: FloatArray, onsets: NDArray[np.int64], delay_rows: FloatArray) -> FloatArray:
     """Return the tool position errors (K, n), m, a given number of samples after each joint locked."""
     errors = np.zeros(delay_rows.shape)
     for index, onset in enumerate(onsets):

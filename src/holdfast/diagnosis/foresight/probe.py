@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -35,13 +35,16 @@ from holdfast.files.output import write_table
 from holdfast.notice import reports_progress
 from holdfast.paths.joint_table import joint_columns
 from holdfast.result import Result
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 PLAN_RATE_HZ = 100.0  # Hz, of the plan
-REST_BEFORE_S, REST_AFTER_S, RAMP_TIME_S = 0.2, 0.3, 0.3  # s at rest, s of acceleration
+# REST_BEFORE_S, REST_AFTER_S and RAMP_TIME_S: s at rest, s of acceleration
+REST_BEFORE_S = 0.2
+REST_AFTER_S = 0.3
+RAMP_TIME_S = 0.3
 _LIMIT_MARGIN = 0.05  # rad or m from a limit
-_DIRECTION_COUNT, _MAX_LEGS = 24, 3
+_DIRECTION_COUNT = 24
+_MAX_LEGS = 3
 _MIN_VISIBLE_RATE = 1e-6  # of a unit rate
 
 
@@ -64,10 +67,10 @@ class ProbingMotion(Result):
     arm: Arm
     task: Task
     suspects: tuple[int, ...]
-    t: Array
-    q: Array
-    separation: Array
-    visible: Array
+    t: FloatArray
+    q: FloatArray
+    separation: FloatArray
+    visible: FloatArray
     sensors: Sensors
     tool: float
 
@@ -77,15 +80,15 @@ class ProbingMotion(Result):
         return tuple(self.arm.joint_names[joint] for joint in undetectable_joints(self.separation, self.suspects))
 
     @cached_property
-    def together(self) -> tuple[tuple[str, str], ...]:
+    def inseparable(self) -> tuple[tuple[str, str], ...]:
         """Pairs of testable candidate joints that the motion does not distinguish."""
         names = self.arm.joint_names
         return tuple((names[first], names[second]) for first, second in inseparable_pairs(self.separation, self.suspects))
 
     @property
-    def told_apart(self) -> tuple[str, ...]:
+    def isolable(self) -> tuple[str, ...]:
         """Candidate joints that are distinguished from a healthy arm and from every other candidate joint."""
-        inseparable = {name for pair in self.together for name in pair}
+        inseparable = {name for pair in self.inseparable for name in pair}
         names = [self.arm.joint_names[joint] for joint in self.suspects]
         return tuple(name for name in names if name not in self.untestable and name not in inseparable)
 
@@ -93,14 +96,14 @@ class ProbingMotion(Result):
         """Describe which locks the motion can isolate, before anything moves."""
         names = self.arm.joint_names
         lines = [
-            f"a self-motion of {self.t[-1]:.3g} s tells {len(self.told_apart)} of {len(self.suspects)} suspects apart"
-            + (f": {', '.join(self.told_apart)}" if self.told_apart else "")
+            f"a self-motion of {self.t[-1]:.3g} s tells {len(self.isolable)} of {len(self.suspects)} suspects apart"
+            + (f": {', '.join(self.isolable)}" if self.isolable else "")
         ]
         for name in self.untestable:
             is_invisible = self.visible[names.index(name)] < _MIN_VISIBLE_RATE
             reason = ": no self-motion moves it here, and its lock is not tolerable here either" if is_invisible else ""
             lines.append(f"a lock of {name} cannot be tested{reason}")
-        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.together]
+        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.inseparable]
         return [*lines, f"the tool stays within {1e3 * self.tool:.2g} mm of where it is while nothing is locked"]
 
     def to_csv(self, file: str | Path) -> Path:
@@ -111,7 +114,7 @@ class ProbingMotion(Result):
         """
         return write_table(file, "probe", ["time_s", *joint_columns(self.arm)], np.column_stack([self.t, self.q]))
 
-    def at(self, rate: float) -> Array:
+    def resample(self, rate: float) -> FloatArray:
         """Return the references (K, n) at a sample rate in Hz, by linear interpolation of the plan."""
         return resample_motion(self.q, PLAN_RATE_HZ, rate)
 
@@ -303,7 +306,7 @@ def identify(
     )
 
 
-def _score_separation(separation: Array) -> tuple[int, float]:
+def _score_separation(separation: FloatArray) -> tuple[int, float]:
     """Return the number of separable pairs of hypotheses, and a measure of how well they are separated."""
     pair_separations = separation[np.triu_indices(len(separation), 1)]
     return int((pair_separations > LOG_LIKELIHOOD_THRESHOLD).sum()), float(
@@ -312,8 +315,8 @@ def _score_separation(separation: Array) -> tuple[int, float]:
 
 
 def _trace_self_motions(
-    arm: Arm, task: Task, start: Array, home: Array, length: float, speed: float, rng: np.random.Generator
-) -> list[Array]:
+    arm: Arm, task: Task, start: FloatArray, home: FloatArray, length: float, speed: float, rng: np.random.Generator
+) -> list[FloatArray]:
     """Trace curves (K, n) of the self-motion from ``start``, in steps of 1/100 s at ``speed``, until the joint limits stop
     them.
     """
@@ -352,7 +355,7 @@ def _trace_self_motions(
     return [all_curves[index, : count[index]] for index in range(len(tangents))]
 
 
-def _time_curve(curve: Array, speed: float) -> Array:
+def _time_curve(curve: FloatArray, speed: float) -> FloatArray:
     """Turn a curve in steps of 1/100 s at ``speed`` into a motion that accelerates and decelerates within 0.3 s each."""
     length = (len(curve) - 1) * speed / PLAN_RATE_HZ
     ramp = min(RAMP_TIME_S, length / speed)
@@ -366,8 +369,13 @@ def _time_curve(curve: Array, speed: float) -> Array:
 
 
 def _collision_free_part(
-    arm: Arm, earlier_motion: Array, leg: Array, candidates: tuple[int, ...], clearance: Clearance | None, margin: float
-) -> Array:
+    arm: Arm,
+    earlier_motion: FloatArray,
+    leg: FloatArray,
+    candidates: tuple[int, ...],
+    clearance: Clearance | None,
+    margin: float,
+) -> FloatArray:
     """Return the part of a leg that is collision-free with any single candidate joint locked."""
     if clearance is None or not len(leg):
         return leg

@@ -5,25 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
 from holdfast.arm.task import Task, as_task
 from holdfast.diagnosis.sensors import Sensors
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 LOG_LIKELIHOOD_THRESHOLD = float(
     np.log(1e4)
 )  # one explanation against another: a wrong one leads by so much once in 10,000 times
 # Samples that share one systematic error, and that, m and rad: measured poses are not independent for long.
-_CORRELATED_SAMPLES, _SYSTEMATIC_DEVIATIONS = 25, (0.5e-3, 1e-3)
+_CORRELATED_SAMPLES = 25
+_SYSTEMATIC_DEVIATIONS = (0.5e-3, 1e-3)
 
 
 @check_arguments
-def self_motion_rates(arm: Arm, q: ArrayLike, task: str | Task | Sequence[str] = "pose") -> Array:
+def self_motion_rates(arm: Arm, q: ArrayLike, task: str | Task | Sequence[str] = "pose") -> FloatArray:
     """Return the largest rate of each joint over self-motions of unit rate, which limits its visibility to them, (n,) or (N,
     n).
 
@@ -44,7 +44,7 @@ def self_motion_rates(arm: Arm, q: ArrayLike, task: str | Task | Sequence[str] =
     return np.asarray(np.linalg.norm(null, axis=2).reshape(checked_q.shape))
 
 
-def null_space(arm: Arm, task: Task, q: Array) -> tuple[Array, Array]:
+def null_space(arm: Arm, task: Task, q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return damped inverses (N, n, m) of the task's Jacobian, in m and rad, and orthonormal bases (N, n, n - m) of its null
     space.
     """
@@ -55,7 +55,7 @@ def null_space(arm: Arm, task: Task, q: Array) -> tuple[Array, Array]:
     return inverse, vh[:, row_count:].transpose(0, 2, 1)
 
 
-def project_to_task(arm: Arm, task: Task, q: Array, twists: Array) -> Array:
+def project_to_task(arm: Arm, task: Task, q: FloatArray, twists: FloatArray) -> FloatArray:
     """Return the rows of the task (N, m, k) of world twists (N, 6, k) of the tool."""
     if task.frame == "tool":
         world_to_tool = arm.forward_kinematics(q)[:, :3, :3].transpose(0, 2, 1)
@@ -63,7 +63,7 @@ def project_to_task(arm: Arm, task: Task, q: Array, twists: Array) -> Array:
     return np.asarray(task.rows @ twists)
 
 
-def tool_poses_by_hypothesis(arm: Arm, q: Array) -> Array:
+def tool_poses_by_hypothesis(arm: Arm, q: FloatArray) -> FloatArray:
     """Return the tool poses (n + 1, K, 4, 4) on a motion (K, n): healthy, then with each joint locked at its first position."""
     motions = np.repeat(q[None], arm.n + 1, axis=0)
     for joint in range(arm.n):
@@ -71,19 +71,19 @@ def tool_poses_by_hypothesis(arm: Arm, q: Array) -> Array:
     return arm.forward_kinematics(motions.reshape(-1, arm.n)).reshape(arm.n + 1, len(q), 4, 4)
 
 
-def pose_differences(poses: Array, reference_poses: Array) -> Array:
+def pose_differences(poses: FloatArray, reference_poses: FloatArray) -> FloatArray:
     """Return the differences (..., 6) from reference poses to poses: position, m, and rotation vector of ``R_a R_b'``, rad."""
     rotations = rotation_vectors(poses[..., :3, :3] @ np.swapaxes(reference_poses[..., :3, :3], -1, -2))
     return np.concatenate([poses[..., :3, 3] - reference_poses[..., :3, 3], rotations], axis=-1)
 
 
-def pose_weights(sensors: Sensors) -> Array:
+def pose_weights(sensors: Sensors) -> FloatArray:
     """Return one over the deviation of a sample (6,), its part of the systematic error included."""
     deviations = np.array([sensors.position, sensors.angle])
     return np.repeat(1 / np.hypot(deviations, np.sqrt(_CORRELATED_SAMPLES) * np.array(_SYSTEMATIC_DEVIATIONS)), 3)
 
 
-def hypothesis_separations(arm: Arm, q: Array, sensors: Sensors) -> Array:
+def hypothesis_separations(arm: Arm, q: FloatArray, sensors: Sensors) -> FloatArray:
     """Return ``D_ij = 1/2 sum_k |e(X^i_k, X^j_k)|^2``, (n + 1, n + 1), in deviations, of samples (K, n) of a motion.
 
     A test tells i from j with an error of epsilon if D is above ``ln(1/epsilon)`` (Wald).
@@ -96,12 +96,12 @@ def hypothesis_separations(arm: Arm, q: Array, sensors: Sensors) -> Array:
     return separation
 
 
-def undetectable_joints(separation: Array, joints: Sequence[int]) -> list[int]:
+def undetectable_joints(separation: FloatArray, joints: Sequence[int]) -> list[int]:
     """Return the joints whose lock is not distinguishable from a healthy arm."""
     return [joint for joint in joints if not separation[0, joint + 1] > LOG_LIKELIHOOD_THRESHOLD]
 
 
-def inseparable_pairs(separation: Array, joints: Sequence[int]) -> list[tuple[int, int]]:
+def inseparable_pairs(separation: FloatArray, joints: Sequence[int]) -> list[tuple[int, int]]:
     """Return the pairs of joints whose locks are distinguishable from a healthy arm but not from each other."""
     detectable = [first for first in joints if separation[0, first + 1] > LOG_LIKELIHOOD_THRESHOLD]
     return [

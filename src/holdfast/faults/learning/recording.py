@@ -9,15 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import InputError, StoreError
 from holdfast.faults.events import FaultEvent, FaultEvents
 from holdfast.faults.log import Log
 from holdfast.files.output import guard_writing, make_folder
 from holdfast.provenance import versions
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 INDEX_FILE_NAME = "episodes.jsonl"
 
@@ -99,7 +97,9 @@ class EpisodeRecorder:
             raise StoreError(f"{error}, or record into another folder") from error
         self._steps: list[tuple[Any, ...]] = []
 
-    def record_step(self, time: float, reference: Array, q: Array, torque: Array, action: Any, reward: float) -> None:
+    def record_step(
+        self, time: float, reference: FloatArray, q: FloatArray, torque: FloatArray, action: Any, reward: float
+    ) -> None:
         """Record a step."""
         self._steps.append((time, reference, q, torque, np.array(action, dtype=np.float64), float(reward)))
 
@@ -121,7 +121,7 @@ class EpisodeRecorder:
             "file": file.name,
             "seed": seed,
             "episode": episode,
-            "events": [event.stored() for event in events],
+            "events": [event.to_stored() for event in events],
             "id": events.id,
             "feasible": feasible,
             "outcome": outcome,

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.errors import InputError
@@ -17,8 +16,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import task_error
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 KERNEL_INFINITY = 1e300  # kernels turn infinity into NaN
 TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is there
@@ -63,7 +61,7 @@ def build_step_kernel(law: Law) -> Kernel:
         return _all_true(code == KINDS.index(kind), onset <= time + TIME_TOLERANCE_S, time < end - TIME_TOLERANCE_S)
 
     error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
-    rates = law.inverse(law.jacobian(q_measured), law.scaled(law.command(error)))
+    rates = law.inverse(law.jacobian(q_measured), law.scale_velocity(law.command(error)))
     rates = ca.if_else(ca.sumsqr(rates) < KERNEL_INFINITY, rates, ca.SX.zeros(n))  # where the law has no answer: none
     commanded_rates = _clip(rates + _clip(action, -1.0, 1.0) * max_speeds, -max_speeds, max_speeds)
     command = ca.if_else(ca.logic_or(is_active("command_dropout", time_before), is_new), last_command, commanded_rates)
@@ -113,7 +111,7 @@ def build_step_kernel(law: Law) -> Kernel:
     )
 
 
-def make_kernel_rows(batch: FaultBatch) -> Array:
+def make_kernel_rows(batch: FaultBatch) -> FloatArray:
     """Return the kernel's rows (N, 6 n) of episodes: code, onset, end, and parameters.
 
     Raises:

@@ -26,7 +26,7 @@ class SuccessRate:
     def rate(self, feasible: str = "yes") -> Interval | None:
         """Compute the rate among the episodes of one feasibility, with its Clopper-Pearson interval; None without episodes."""
         success_count, episode_count = self.counts[feasible]
-        return Interval.of(success_count, episode_count, self.confidence) if episode_count else None
+        return Interval.from_counts(success_count, episode_count, self.confidence) if episode_count else None
 
     def __str__(self) -> str:
         lines = []

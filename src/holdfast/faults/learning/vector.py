@@ -15,14 +15,14 @@ from holdfast.faults.entry import KINDS
 from holdfast.faults.events import FaultEvents
 from holdfast.faults.learning.stepping import GOAL_NUMBERS, KERNEL_INFINITY, STATE_PARTS, build_step_kernel, make_kernel_rows
 from holdfast.faults.scheme import FaultModel
+from holdfast.typing import FloatArray
 
 try:
     from gymnasium.vector import VectorEnv
 except ImportError:  # said when one is made, so that the rest can be imported
     VectorEnv = object
 
-Array = NDArray[np.float64]
-Goals = Callable[[np.random.Generator, int], Array]
+Goals = Callable[[np.random.Generator, int], FloatArray]
 UNLIMITED_SPEED_RAD_S = 2 * np.pi  # rad/s or m/s of a joint without a velocity limit
 LIMIT_MARGIN_FRACTION = 0.05  # of a joint's range, kept from its limits at the start and by the goals that are drawn
 
@@ -75,7 +75,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         period: float = 0.02,
         horizon: float = 10.0,
         goals: Goals | None = None,
-        start: Array | None = None,
+        start: FloatArray | None = None,
         tolerance: tuple[float, float] = (5e-3, np.deg2rad(1.0)),
         reveal: bool = True,
         stream: int = 1,
@@ -168,22 +168,22 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         return observation, reward, terminated, truncated, self._make_info()
 
     @property
-    def q(self) -> Array:
+    def q(self) -> FloatArray:
         """True joint positions (N, n), rad and m, independent of the sensors."""
         return np.asarray(self._state)[:, : self.law.arm.n]
 
     # ---- inside ------------------------------------------------------------------------------------------------------
 
-    def _upload(self, array: Array) -> Any:
+    def _upload(self, array: FloatArray) -> Any:
         return self._kernel.upload(array, self.stream) if self._on_gpu else array
 
-    def _draw_noise(self, rows: NDArray[np.int64]) -> Array:
+    def _draw_noise(self, rows: NDArray[np.int64]) -> FloatArray:
         """Draw the sensor noise (R, n) of some rows; zeros where no sensor is noisy."""
         shape = len(rows), self.law.arm.n
         is_noisy = (self._fault_codes[rows] == KINDS.index("sensor_noise")).any()
         return self.np_random.standard_normal(shape) if is_noisy else np.zeros(shape)
 
-    def _call_kernel(self, actions: Any, noise: Array) -> None:
+    def _call_kernel(self, actions: Any, noise: FloatArray) -> None:
         """Advance all rows by one call of the kernel."""
         device_noise = self._upload(noise) if noise.any() else self._no_noise
         inputs = self._state, self._is_over, self._episode_table, actions, device_noise, *self._setting
@@ -212,7 +212,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         self._event_ids[rows] = [episode_events.id for episode_events in events]
         self._episode_numbers[rows], self._has_begun = episodes, True
 
-    def _random_goals(self, generator: np.random.Generator, count: int) -> Array:
+    def _random_goals(self, generator: np.random.Generator, count: int) -> FloatArray:
         limit_margins = LIMIT_MARGIN_FRACTION * (self._upper - self._lower)
         q = generator.uniform(self._lower + limit_margins, self._upper - limit_margins, (count, self.law.arm.n))
         return self.law.arm.forward_kinematics(q)
@@ -224,7 +224,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         return {"fault": self.fault, "_fault": np.ones(self.num_envs, dtype=bool)} if self._reveal else {}
 
 
-def _describe_invalid_action(rows: Array) -> str:
+def _describe_invalid_action(rows: FloatArray) -> str:
     return f"the action of arm {int(np.flatnonzero(np.isnan(rows))[0])} is not a number"
 
 

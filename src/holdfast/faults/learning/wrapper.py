@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.arm.model import Arm
@@ -20,13 +19,13 @@ from holdfast.faults.injector import FaultInjector
 from holdfast.faults.learning.physics_calls import PhysicsInterceptor
 from holdfast.faults.learning.recording import EpisodeRecorder
 from holdfast.faults.scheme import FaultModel, HasJointNames
+from holdfast.typing import FloatArray
 
 try:
     from gymnasium import Wrapper
 except ImportError:  # said when one is made, so that the rest can be imported
     Wrapper = object
 
-Array = NDArray[np.float64]
 _PROBE_STEP = 0.5  # rad or m: what moves by exactly so much is the joint's value, and no sine of it
 _MODEL_ATTRIBUTES = (("model", "data"), ("robot_env.model", "robot_env.data"), ("sim.model._model", "sim.data._data"))
 
@@ -49,7 +48,7 @@ class FaultInfo(Mapping[str, Any]):
             case "id":
                 return self._injector.events.id
             case "events":
-                return [{**event.stored(), "applied": applied.get(event)} for event in self._injector.events]
+                return [{**event.to_stored(), "applied": applied.get(event)} for event in self._injector.events]
             case "active":
                 return [f"{event.joint}: {event.kind}" for event in self._injector.active]
         raise KeyError(key)
@@ -196,7 +195,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
                         data.ctrl[actuator] * model.actuator_gainprm[actuator, 0] / -model.actuator_biasprm[actuator, 1]
                     )
         injector.time = data.time
-        q, torque = injector.read(data.qpos[self._qpos_rows]), data.qfrc_actuator[injector.dofs]
+        q, torque = injector.read_sensors(data.qpos[self._qpos_rows]), data.qfrc_actuator[injector.dofs]
         self._recorder.record_step(data.time, reference, q, torque, action, reward)
 
     def _finish_episode(self, outcome: str) -> None:
@@ -219,7 +218,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         """Prepare the state of a new episode."""
         kinds = {event.kind for event in self.injector.events}
         self._has_sensor_faults, self._has_dropouts = bool(kinds & SENSOR_KINDS), "command_dropout" in kinds
-        self._last_action: Array | None = None
+        self._last_action: FloatArray | None = None
         self._success = None
         self._feasibility: Feasibility | None = None
         self.fault: FaultInfo = FaultInfo(self.injector, self._evaluate_feasibility)
@@ -259,7 +258,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         if not self._has_sensor_faults or not any(sensor_event.kind in SENSOR_KINDS for sensor_event in self.injector.active):
             return observation
         true_q = self.injector.data.qpos[self._qpos_rows]
-        reading_errors = self.injector.read(true_q) - true_q
+        reading_errors = self.injector.read_sensors(true_q) - true_q
         observations = observation if isinstance(observation, dict) else {"observation": observation}
         corrupted = np.array(observations["observation"])
         for event in self.injector.active:
@@ -296,7 +295,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self._mujoco.mj_forward(model, data)
 
 
-def _to_vector(observation: Any) -> Array:
+def _to_vector(observation: Any) -> FloatArray:
     return np.asarray(observation["observation"] if isinstance(observation, dict) else observation, dtype=np.float64)
 
 

@@ -31,8 +31,7 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import HouseholderQR
 from holdfast.registry import SUSCEPTIBILITY_REGISTRY, Labelled, Parameter, constructor
 from holdfast.status import Status, require_ok
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,8 +45,8 @@ class SusceptibilityEvaluation:
         joint_status: (N, n) :class:`holdfast.Status` of each joint.
     """
 
-    value: Array
-    by_joint: Array
+    value: FloatArray
+    by_joint: FloatArray
     status: NDArray[np.uint8]
     joint_status: NDArray[np.uint8]
 
@@ -193,19 +192,19 @@ class Susceptibility(Labelled, Objective):
             value=value[selection], by_joint=by_joint[selection], status=status[selection], joint_status=joint_status[selection]
         )
 
-    def __call__(self, q: ArrayLike) -> Array:
+    def __call__(self, q: ArrayLike) -> FloatArray:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
         rows, single = as_configurations(self.arm, q)
         value = self._values_kernel.rows(rows, first=1)[:, 0]
         return value[0] if single else value
 
-    def by_joint(self, q: ArrayLike) -> Array:
+    def by_joint(self, q: ArrayLike) -> FloatArray:
         """The measure f of each joint, signed, (N, n) or (n,), in :attr:`joint_unit`."""
         rows, single = as_configurations(self.arm, q)
         f = self._values_kernel.rows(rows)[:, 1 : self.arm.n + 1].copy()
         return f[0] if single else f
 
-    def gradient(self, q: ArrayLike) -> Array:
+    def gradient(self, q: ArrayLike) -> FloatArray:
         """Exact gradient of ``f' W f``, (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""
         rows, single = as_configurations(self.arm, q)
         gradient = self._gradient_kernel.rows(rows)
@@ -215,7 +214,7 @@ class Susceptibility(Labelled, Objective):
         """See :meth:`holdfast.frameworks.Differentiable.row_function`."""
         return replace(super().row_function(), kernels=(self._values_kernel, self._gradient_kernel))
 
-    def jacobian(self, q: ArrayLike) -> Array:
+    def jacobian(self, q: ArrayLike) -> FloatArray:
         """Exact derivatives of the joints' measures, ``out[..., i, j] = d f_i / d q_j``, (N, n, n) or (n, n); eq. (4).
 
         The row of a degenerate joint is 0.
@@ -248,7 +247,7 @@ class SusceptibilityBatch:
         values = [m.expression(q) for m in self.measures]
         return Kernel("susceptibilities", [q], [ca.vertcat(*values), *[ca.gradient(v, q) for v in values]])
 
-    def __call__(self, q: ArrayLike) -> tuple[Array, Array]:
+    def __call__(self, q: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Values and gradients.
 
         Args:
@@ -268,7 +267,7 @@ class SusceptibilityBatch:
         return (values[0], gradients[0]) if single else (values, gradients)
 
 
-def _one_to_n(arm: Arm, task: object) -> Array:
+def _one_to_n(arm: Arm, task: object) -> FloatArray:
     del task
     return np.arange(1.0, arm.n + 1)
 

@@ -12,8 +12,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.soundness import require_masses
 from holdfast.errors import InputError
 from holdfast.probability.sobol_sequence import sobol_points
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 WeightSpec = ArrayLike | Literal["effort", "worst-case"] | None
 
 EIGENVALUE_TOLERANCE = -1e-12
@@ -26,7 +26,7 @@ _CONVERGED_GAIN = 1e-13  # gain of a sweep that ends the search, against the wei
 _ZERO_TORQUE_RATIO = 1e-12  # a torque this small against the same is rounding noise
 
 
-def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tuple[Array, str]:
+def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tuple[FloatArray, str]:
     """Return W (n, n), symmetric, and a word for its kind.
 
     Args:
@@ -67,7 +67,7 @@ def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tup
     return w, kind
 
 
-def _named_weights(arm: Arm, weights: str) -> Array:
+def _named_weights(arm: Arm, weights: str) -> FloatArray:
     if weights == "effort":
         for joint in arm.joints:
             if not 0 < joint.effort < np.inf:
@@ -81,7 +81,7 @@ def _named_weights(arm: Arm, weights: str) -> Array:
     return np.diag([0.0 if t == 0 else 1 / t**2 for t in largest])
 
 
-def largest_static_torque(arm: Arm) -> Array:
+def largest_static_torque(arm: Arm) -> FloatArray:
     """Return the largest magnitude of each joint's holding torque or force over the joint limits, (n,), N m and N.
 
     As English and Maciejewski 1998, eq. (46), take for their planar arm, computed for any. Revolute joints without limits
@@ -118,12 +118,12 @@ def largest_static_torque(arm: Arm) -> Array:
 
 
 def _maximise_by_coordinates(
-    arm: Arm, q: Array, joint: NDArray[np.int64], sign: Array, low: Array, high: Array, still: Array
-) -> Array:
+    arm: Arm, q: FloatArray, joint: NDArray[np.int64], sign: FloatArray, low: FloatArray, high: FloatArray, still: FloatArray
+) -> FloatArray:
     """Return ``sign * tau[joint]`` (R,) at the end of a coordinate ascent from every row of q (R, n)."""
     rows = np.arange(len(q))
 
-    def signed_torque(x: Array) -> Array:
+    def signed_torque(x: FloatArray) -> FloatArray:
         return np.asarray(sign * arm.gravity_torque(x)[rows, joint])
 
     value = signed_torque(q)
@@ -148,7 +148,7 @@ def _maximise_by_coordinates(
     return value
 
 
-def _replace_joint(q: Array, k: int, x: Array) -> Array:
+def _replace_joint(q: FloatArray, k: int, x: FloatArray) -> FloatArray:
     changed = q.copy()
     changed[:, k] = x
     return changed

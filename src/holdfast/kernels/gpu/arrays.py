@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.kernels.gpu.driver import LEGACY_STREAM, Device, DeviceMemory
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _CUDA_DEVICE_TYPE = 2  # kDLCUDA
 _CAPSULE_NAME = b"dltensor"
@@ -48,7 +47,7 @@ class DeviceArray:
         self.pointer = memory.pointer + 8 * offset
 
     @classmethod
-    def upload(cls, array: Array, device: Device, stream: int = LEGACY_STREAM) -> DeviceArray:
+    def upload(cls, array: FloatArray, device: Device, stream: int = LEGACY_STREAM) -> DeviceArray:
         """Copy an array from the host to a device."""
         device_array = cls(
             DeviceMemory(device, array.size), 0, array.shape, strides=_contiguous_strides(array.shape), stream=stream
@@ -56,12 +55,12 @@ class DeviceArray:
         device_array._memory.copy_to_device(np.ascontiguousarray(array), stream)
         return device_array
 
-    def update(self, rows: NDArray[np.int64], array: Array) -> None:
+    def update(self, rows: NDArray[np.int64], array: FloatArray) -> None:
         """Copy rows again from the host array; consecutive rows are copied together."""
         for run in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
             self._memory.copy_to_device(array[run[0] : run[-1] + 1], self.stream, int(run[0]) * self.strides[0])
 
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
         """Copy the array to the host once it is computed."""
         flat = np.empty(math.prod(self.shape))
         self._memory.copy_to_host(flat, self.stream, self._offset)

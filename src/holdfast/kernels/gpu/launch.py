@@ -16,8 +16,7 @@ from holdfast.kernels.gpu.driver import LEGACY_STREAM, DeviceMemory, get_device
 from holdfast.kernels.gpu.ptx import make_ptx
 from holdfast.kernels.llvm.translation import NAME
 from holdfast.kernels.program import Program
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _MAX_BATCH_BYTES = 1 << 30  # of inputs and results on the device at once, for arrays that come from the host
 _STEPS_PER_LAUNCH = 1000  # steps of a launch: between two of them Ctrl-C is heard and progress told
@@ -53,7 +52,7 @@ class DeviceProgram:
 
     # ---- arrays of the host ------------------------------------------------------------------------------------
 
-    def evaluate_rows(self, arrays: list[Array], count: int, first: int) -> Array:
+    def evaluate_rows(self, arrays: list[FloatArray], count: int, first: int) -> FloatArray:
         """Return results (count, first) of inputs (count, size) or (1, size) each."""
         outputs, size = np.empty((count, first)), self.program.n_out
         for part in self._split_rows(count, self.program.n_in + size):
@@ -62,12 +61,12 @@ class DeviceProgram:
             ].T
         return outputs
 
-    def evaluate_columns(self, inputs: Array, outputs: Array) -> None:
+    def evaluate_columns(self, inputs: FloatArray, outputs: FloatArray) -> None:
         """Evaluate columns (n_in, W) into columns (n_out, W), as :meth:`holdfast.kernels.Kernel.bind_arrays` does."""
         ends = np.cumsum([rows * columns for rows, columns in self.program.input_shapes])
         outputs[:] = self._evaluate_copied(self._function, np.split(inputs.T, ends[:-1], axis=1), len(outputs))
 
-    def _evaluate_copied(self, function: Any, arrays: list[Array], size: int, *more_arguments: Any) -> Array:
+    def _evaluate_copied(self, function: Any, arrays: list[FloatArray], size: int, *more_arguments: Any) -> FloatArray:
         """Return results (size, N) of inputs (N, ...), or (1, ...) for all rows, copied to the device and back."""
         device_arrays, rows = [DeviceArray.upload(a, self.device) for a in arrays], max(map(len, arrays))
         addresses = [(x.pointer, a.shape[1] if len(a) > 1 else 0, 1) for x, a in zip(device_arrays, arrays, strict=True)]
@@ -107,14 +106,14 @@ class DeviceProgram:
 
     def run_loop(
         self,
-        state: Array,
-        parameters: Array,
+        state: FloatArray,
+        parameters: FloatArray,
         tolerance: float,
         *,
         max_steps: int,
         ahead: bool,
         ended: Callable[[int, int], None],
-    ) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.int64]]:
+    ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.int64]]:
         """Return state, residual, done, and steps of each row as :meth:`holdfast.kernels.Loop.run` does, one thread per row.
 
         ``ended`` is told how many rows more have ended, and how many of them within the tolerance.

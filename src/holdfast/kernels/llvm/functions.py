@@ -27,7 +27,9 @@ def _read_coefficients(text: str) -> tuple[float, ...]:
 
 
 # Coefficients, highest degree first.
-_LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # the first ends in zeros: times 2000 it is exact
+# _LN2_HIGH and _LN2_LOW: the first ends in zeros: times 2000 it is exact
+_LN2_HIGH = 6.93147180369123816490e-01
+_LN2_LOW = 1.90821492927058770002e-10
 _QUARTER_TURN = 1.57079632679489655800e00, 6.12323399573676603587e-17  # of a turn, in two parts, as of all pairs here
 _ATAN_OF_HALF = 4.63647609000806093515e-01, 2.26987774529616870924e-17
 _ERF_AT_1 = 8.45062911510467529297e-01  # rounded to 24 bits
@@ -75,8 +77,12 @@ _RANGE_CENTERS = (  # of the thirds of a range; their logarithms in two parts
     (0.4054651081081644, -0.2876820724517809, 0.0),
     (-2.8811380259626426e-18, -2.607160616442564e-17, 0.0),
 )
-_INFINITY, _NOT_A_NUMBER = float("inf"), float("nan")
-_MANTISSA_BITS, _BITS_OF_ONE, _BITS_OF_ROOT_HALF = (1 << 52) - 1, 0x3FF << 52, 0x3FE6A09E << 32  # bits
+_INFINITY = float("inf")
+_NOT_A_NUMBER = float("nan")
+# _MANTISSA_BITS, _BITS_OF_ONE and _BITS_OF_ROOT_HALF: bits
+_MANTISSA_BITS = (1 << 52) - 1
+_BITS_OF_ONE = 0x3FF << 52
+_BITS_OF_ROOT_HALF = 0x3FE6A09E << 32
 
 
 # ---- exponential ---------------------------------------------------------------------------------------------------

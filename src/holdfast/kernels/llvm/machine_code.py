@@ -93,7 +93,7 @@ def object_code(text: str, level: int) -> bytes:
     return bytes(_target_machine(level).emit_object(_llvm().parse_assembly(text)))
 
 
-class Code:
+class MachineCode:
     """Object code in memory, ready to be called."""
 
     def __init__(self, data: bytes) -> None:

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Color = tuple[int, int, int]
 
-LINK_COLOR_RGB, JOINT_COLOR_RGB = (201, 208, 214), (72, 84, 96)
+LINK_COLOR_RGB = (201, 208, 214)
+JOINT_COLOR_RGB = (72, 84, 96)
 CYLINDER_SIDES = 20
 LINK_RADIUS_FRACTION = 0.017  # radius of a link, as a share of the stretched arm
 
@@ -31,11 +32,11 @@ class MeshPart:
     """
 
     frame: int
-    vertices: Array
+    vertices: FloatArray
     faces: NDArray[np.int64]
     color: Color
     joint: int | None = None
-    tube: tuple[Array, Array, float] | None = None
+    tube: tuple[FloatArray, FloatArray, float] | None = None
 
 
 def stretched_length(arm: Arm) -> float:
@@ -74,12 +75,12 @@ def build_stick_parts(arm: Arm, size: float) -> list[MeshPart]:
 
 
 def _make_cylinder_part(
-    frame: int, start: Array, end: Array, radius: float, color: Color, joint: int | None = None
+    frame: int, start: FloatArray, end: FloatArray, radius: float, color: Color, joint: int | None = None
 ) -> MeshPart:
     return MeshPart(frame, *mesh_cylinder(start, end, radius), color, joint, (start, end, radius))
 
 
-def mesh_cylinder(start: Array, end: Array, radius: float) -> tuple[Array, NDArray[np.int64]]:
+def mesh_cylinder(start: FloatArray, end: FloatArray, radius: float) -> tuple[FloatArray, NDArray[np.int64]]:
     """Return a closed cylinder from start to end (3,), as vertices (V, 3) and faces (F, 3) with normals outwards."""
     axis = (end - start) / np.linalg.norm(end - start)
     radial = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
@@ -103,7 +104,7 @@ def mesh_cylinder(start: Array, end: Array, radius: float) -> tuple[Array, NDArr
     return vertices, np.concatenate([*side_faces, start_faces, end_faces]).astype(np.int64)
 
 
-def mesh_block(axis: Array, width: float) -> tuple[Array, NDArray[np.int64]]:
+def mesh_block(axis: FloatArray, width: float) -> tuple[FloatArray, NDArray[np.int64]]:
     """Return a cube about the origin with one side along an axis."""
     from scipy.spatial.transform import Rotation
 
@@ -112,9 +113,9 @@ def mesh_block(axis: Array, width: float) -> tuple[Array, NDArray[np.int64]]:
     return vertices @ rotation.as_matrix().T, faces
 
 
-def mesh_box(size: Array) -> tuple[Array, NDArray[np.int64]]:
+def mesh_box(size: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
     """Return a box about the origin with sides (3,); its faces share no corners."""
-    vertices: list[Array] = []
+    vertices: list[FloatArray] = []
     faces: list[NDArray[np.int64]] = []
     for axis in range(3):
         for sign in (-1.0, 1.0):
@@ -129,7 +130,7 @@ def mesh_box(size: Array) -> tuple[Array, NDArray[np.int64]]:
     return np.concatenate(vertices), np.concatenate(faces).astype(np.int64)
 
 
-def mesh_sphere(rings: int = 12) -> tuple[Array, NDArray[np.int64]]:
+def mesh_sphere(rings: int = 12) -> tuple[FloatArray, NDArray[np.int64]]:
     """Return a sphere of radius 1 about the origin."""
     polar_angles = np.linspace(0, np.pi, rings + 1)
     azimuths = np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False)

@@ -66,7 +66,7 @@ def key_table(arm: Arm) -> TextTable:
     """Tabulate the joints with their types, limits, and link masses."""
     table_rows = []
     for joint, link in zip(arm.joints, arm.links, strict=True):
-        factor, unit = joint.shown
+        factor, unit = joint.display_unit
         limits = [f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)]
         table_rows.append(
             [joint.name, joint.type, *limits, "not given" if link is None else f"{format_significant(link.mass)} kg"]
@@ -106,7 +106,7 @@ def show(arm: Arm, out: Console) -> None:
     out.print(f"[bold]{escape(arm.title)}[/]: {arm.n} joints{source}")
     table = BandedTable("", "joint", "type", "lower", "upper", "speed", "effort", "link mass")
     for index, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
-        factor, unit = joint.shown
+        factor, unit = joint.display_unit
         table.add_row(
             str(index + 1),
             escape(joint.name),

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
@@ -25,10 +25,10 @@ from holdfast.present.cell import bodies
 from holdfast.regions.region import Region
 from holdfast.report import viewer
 from holdfast.report.viewer import ViewerScene, round_to_seven_digits
+from holdfast.typing import FloatArray
 
 __all__ = ["page", "picture", "save", "scene"]
 
-Array = NDArray[np.float64]
 
 MAX_VIEW_TRIANGLES = 16_000  # of a view, about 250 kB of its page
 MAX_MOTION_FRAMES = 240  # of a motion: the view draws what lies between
@@ -199,7 +199,7 @@ def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
     return Html(viewer.build_view_page(view, arm.title))
 
 
-def _read_motions(arm: Arm, q: ArrayLike, moving: bool) -> Array:
+def _read_motions(arm: Arm, q: ArrayLike, moving: bool) -> FloatArray:
     """Return the configurations as motions (A, F, n)."""
     values = require_real_numbers(q, f"q for '{arm.name}'")
     expected_shape = "(F, n) or (A, F, n)" if moving else "(n,) or (A, n)"
@@ -229,7 +229,7 @@ def _read_lock_times(arm: Arm, locked: Sequence[str | int] | Mapping[Any, float]
     return lock_times
 
 
-def _read_pose(target: ArrayLike) -> Array:
+def _read_pose(target: ArrayLike) -> FloatArray:
     values = require_real_numbers(target, "a target")
     if values.shape == (4, 4):
         return values
@@ -240,7 +240,7 @@ def _read_pose(target: ArrayLike) -> Array:
     return pose
 
 
-def _read_boxes(region: Region | ArrayLike | None) -> list[Array]:
+def _read_boxes(region: Region | ArrayLike | None) -> list[FloatArray]:
     """Return the lowest and the highest corner (2, 3) of the region, if it is a box."""
     if region is None:
         return []
@@ -252,16 +252,16 @@ def _read_boxes(region: Region | ArrayLike | None) -> list[Array]:
     return [np.array([center - half_size, center + half_size])]
 
 
-def _flatten_pose(pose: Array) -> list[float]:
+def _flatten_pose(pose: FloatArray) -> list[float]:
     return round_to_seven_digits(pose[:3].reshape(-1))
 
 
-def _up_direction(arm: Arm) -> Array:
+def _up_direction(arm: Arm) -> FloatArray:
     gravity_norm = float(np.linalg.norm(arm.gravity))
     return np.array([0.0, 0.0, 1.0]) if gravity_norm == 0 else -arm.gravity / gravity_norm + 0.0
 
 
-def _swept_corners(part: MeshPart, poses: Array) -> Array:
+def _swept_corners(part: MeshPart, poses: FloatArray) -> FloatArray:
     """Return the corners (N, 3) of the boxes about a part at the poses (..., 4, 4) of its frame."""
     extremes = np.array([part.vertices.min(axis=0), part.vertices.max(axis=0)])
     corners = np.array(
@@ -305,7 +305,7 @@ def _encode_part(part: MeshPart, max_triangles: int) -> dict[str, Any]:
     return encoded | {"mesh": viewer.pack_mesh(*viewer.simplify_mesh(part.vertices, part.faces, max_triangles))}
 
 
-def _find_lost_directions(arm: Arm, q: Array, failed: Sequence[int], task: str | Task | None) -> list[dict[str, Any]]:
+def _find_lost_directions(arm: Arm, q: FloatArray, failed: Sequence[int], task: str | Task | None) -> list[dict[str, Any]]:
     """Return the directions in which locked joints reduce the speed, as twists in the world, each with the remaining speed in
     words.
     """
@@ -323,7 +323,9 @@ def _find_lost_directions(arm: Arm, q: Array, failed: Sequence[int], task: str |
     return directions
 
 
-def _place_camera(arm: Arm, up: Array, visible_points: Array, frames: Array, min_radius: float) -> dict[str, Any]:
+def _place_camera(
+    arm: Arm, up: FloatArray, visible_points: FloatArray, frames: FloatArray, min_radius: float
+) -> dict[str, Any]:
     """Return a camera that sees everything: an arm that moves in a plane is seen face on, any other obliquely."""
     lower, upper = visible_points.min(axis=0), visible_points.max(axis=0)
     center = (lower + upper) / 2

@@ -11,8 +11,8 @@ from holdfast.present.arm.body import LINK_COLOR_RGB, MeshPart, build_stick_part
 from holdfast.report.viewer import simplify_mesh
 from holdfast.shapes.pieces import Missing, Piece
 from holdfast.shapes.reading import read_pieces
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 MAX_MESH_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
 
 
@@ -67,7 +67,7 @@ def make_part(piece: Piece) -> MeshPart:
     return MeshPart(piece.link + 1, vertices @ piece.pose[:3, :3].T + piece.pose[:3, 3], faces, color)
 
 
-def _triangulate_piece(piece: Piece) -> tuple[Array, NDArray[np.int64]]:
+def _triangulate_piece(piece: Piece) -> tuple[FloatArray, NDArray[np.int64]]:
     """Triangulate a piece in its own frame."""
     if piece.kind == "mesh":
         return simplify_mesh(piece.vertices, piece.faces, MAX_MESH_TRIANGLES)

@@ -320,14 +320,16 @@ def _build_upgrade_blocks(comparison: Comparison, facts: AssessmentFacts) -> lis
     """Build the table of the joints of each candidate whose protection from failure gains most."""
     table_rows: list[list[Cell]] = []
     candidates_without_rows = [
-        candidate for candidate, assessment in zip(comparison.names, comparison.assessments, strict=True) if not assessment.kept
+        candidate
+        for candidate, assessment in zip(comparison.names, comparison.assessments, strict=True)
+        if not assessment.has_rows
     ]
     optimised = any(assessment.optimised is not None for assessment in comparison.assessments)
     for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
-        ranked = comparison.upgrades(name) if assessment.kept else []
+        ranked = comparison.upgrades(name) if assessment.has_rows else []
         upgrades_by_joint = (
             {upgrade.joint: upgrade for upgrade in rank_optimised_upgrades(assessment, comparison.threshold)}
-            if assessment.kept
+            if assessment.has_rows
             else {}
         )
         for rank, upgrade in enumerate(ranked[:_MAX_UPGRADES]):

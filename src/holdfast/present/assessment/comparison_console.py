@@ -59,7 +59,7 @@ def key_table(comparison: Comparison) -> TextTable:
 def next_steps(comparison: Comparison, name: str) -> list[str]:
     """Suggest the upgrades of the best candidate and the full report."""
     best_name = comparison.best()
-    steps = [f"{name}.upgrades({best_name!r})[0]  # what to protect first"] if comparison.assessment(best_name).kept else []
+    steps = [f"{name}.upgrades({best_name!r})[0]  # what to protect first"] if comparison.assessment(best_name).has_rows else []
     return [*steps, f'{name}.report("comparison.html")']
 
 

@@ -52,7 +52,7 @@ def key_table(result: Assessment) -> TextTable:
 
 def next_steps(result: Assessment, name: str) -> list[str]:
     """Suggest the most useful upgrade, choosing configurations, a certificate where one is possible, and the full report."""
-    steps = [f"{name}.upgrades()[0]  # the joint that deserves a redundant motor or brake"] if result.kept else []
+    steps = [f"{name}.upgrades()[0]  # the joint that deserves a redundant motor or brake"] if result.has_rows else []
     if result.optimised is None and result.region.kind != "joints":
         command = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
         steps.append(f"{command}  # what choosing configurations gains")
@@ -99,7 +99,7 @@ def collect_numbers(
             "reached": distribution.reached,
             "not_found": distribution.unreached,
             "singular": distribution.singular,
-            "effective_sample_size": distribution.effective() if distribution.weighted and distribution.samples else None,
+            "effective_sample_size": distribution.effective() if distribution.has_weights and distribution.samples else None,
             "mean": distribution.mean if reached else None,
             "quantiles": _collect_quantiles(distribution) if reached else None,
             "band_95": distribution.band() if distribution.samples else None,
@@ -173,7 +173,7 @@ def _collect_collision_numbers(result: Assessment) -> dict[str, Any] | None:
 
 def _collect_upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = False) -> dict[str, Any] | None:
     """Collect the gains of joints that never fail, at the first threshold; None if the poses were not kept."""
-    if not result.kept or not result.distribution.samples:
+    if not result.has_rows or not result.distribution.samples:
         return None
     threshold = thresholds[0] if thresholds else result.default_threshold()
     upgrades = rank_optimised_upgrades(result, threshold) if optimised else result.upgrades(threshold)
@@ -260,9 +260,8 @@ def show(
             f"command resumes[/]",
             soft_wrap=True,
         )
-    unreached_text = (
-        f"{distribution.unreached_share if distribution.samples else 0:.1%}{' of the weight' if distribution.weighted else ''}"
-    )
+    unreached_fraction = distribution.unreached_share if distribution.samples else 0
+    unreached_text = f"{unreached_fraction:.1%}{' of the weight' if distribution.has_weights else ''}"
     out.print(
         f"{distribution.samples} poses, seed {result.seed}: {distribution.reached} reached, {distribution.unreached} not "
         f"found within the limits "
@@ -271,7 +270,7 @@ def show(
     )
     if not distribution.samples:
         return
-    if distribution.weighted:
+    if distribution.has_weights:
         weight_text = (
             f"poses count by weight: effective sample size {distribution.effective():.4g} (total over largest), "
             f"which intervals go by"
@@ -310,14 +309,14 @@ def show(
     out.print(table)
     columns = [result.worst_counts, *([] if result.optimised_worst_counts is None else [result.optimised_worst_counts])]
     if any(counts.sum() for counts in columns):
-        header = "is the worst in" + (" weight" if distribution.weighted else "")
+        header = "is the worst in" + (" weight" if distribution.has_weights else "")
         table = BandedTable("failure", header, *["optimised"][: len(columns) - 1])
         for failure, name in enumerate(result.index.failure_names):
             if any(counts[failure] for counts in columns):
                 table.add_row(
                     escape(name),
                     *[
-                        f"{counts[failure]:{'.4g' if distribution.weighted else 'd'}} "
+                        f"{counts[failure]:{'.4g' if distribution.has_weights else 'd'}} "
                         f"({counts[failure] / (counts.sum() or 1):.1%})"
                         for counts in columns
                     ],
@@ -375,7 +374,7 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
 
     from holdfast.present.terminal import BandedTable
 
-    if not result.kept:
+    if not result.has_rows:
         out.print("the poses were not kept, so it is not known which joint deserves a redundant motor or brake", soft_wrap=True)
         return
     threshold = thresholds[0] if thresholds else result.default_threshold()

@@ -19,9 +19,8 @@ from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene
 from holdfast.report.views import SIDE_VIEW, View, choose_side_and_top_views
 from holdfast.solvers.inverse_kinematics import solver
+from holdfast.typing import FloatArray
 from holdfast.words import format_as_given, format_half_width, format_number
-
-Array = NDArray[np.float64]
 
 _MAX_DOTS = 20_000
 _MAX_AXIS_RATIO = 4.0  # times the largest value: beyond it a bound would flatten the curve
@@ -32,14 +31,14 @@ class EvaluatedPoses:
     """Evaluated poses of a run, with tool poses also for a region of joints."""
 
     number: NDArray[np.int64]
-    position: Array
-    rotation: Array
-    q: Array
+    position: FloatArray
+    rotation: FloatArray
+    q: FloatArray
     reached: NDArray[np.bool_]
-    value: Array
-    by_failure: Array
+    value: FloatArray
+    by_failure: FloatArray
     worst: NDArray[np.int64]
-    weight: Array | None
+    weight: FloatArray | None
 
 
 class AssessmentFacts(ThresholdAnswer):
@@ -83,7 +82,7 @@ class AssessmentFacts(ThresholdAnswer):
     @cached_property
     def poses(self) -> EvaluatedPoses | None:
         """Every evaluated pose; None if the poses were not kept."""
-        if not self.distribution.samples or not self.assessment.kept:
+        if not self.distribution.samples or not self.assessment.has_rows:
             return None
         evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=False)
         if self.assessment.region.kind == "joints":
@@ -139,7 +138,7 @@ class AssessmentFacts(ThresholdAnswer):
     # ---- figures ---------------------------------------------------------------------------------------------------
 
     @cached_property
-    def drawn_configuration(self) -> tuple[Array, str]:
+    def drawn_configuration(self) -> tuple[FloatArray, str]:
         """Configuration to draw, and its description."""
         assessment, poses = self.assessment, self.poses
         if poses is not None and poses.reached.any():
@@ -221,10 +220,10 @@ class AssessmentFacts(ThresholdAnswer):
         values = self.scene[0].values
         if self.is_worst_everywhere and self.larger_is_better:
             return Scale(0.0, self.index.bound or 1.0)
-        return Scale.of(values, self.is_logarithmic, not self.larger_is_better)
+        return Scale.from_values(values, self.is_logarithmic, not self.larger_is_better)
 
     @cached_property
-    def axis_values(self) -> Array:
+    def axis_values(self) -> FloatArray:
         """Index values at which the CDF is drawn."""
         distribution, mark_values = self.distribution, [mark.x for mark in self.marks]
         if self.is_logarithmic:

@@ -107,7 +107,7 @@ def _format_joint_ranges(assessment: Assessment) -> str:
         return ""
     parts = []
     for joint, middle, width in zip(assessment.arm.joints, assessment.region.center, assessment.region.size, strict=True):
-        scale, unit = joint.shown
+        scale, unit = joint.display_unit
         parts.append(
             f"{joint.name} {format_as_given(scale * (middle - width / 2))} to "
             f"{format_as_given(scale * (middle + width / 2))} {unit}"

@@ -190,4 +190,4 @@ def draw_overview(facts: AssessmentFacts) -> Figure:
             message = "the index is infinite everywhere" if facts.distribution.reached else "no configuration found"
             cdf_axes.text(0.5, 0.5, message, ha="center", va="center", color=drawing.SOFT)
             cdf_axes.set_axis_off()
-        return drawing.finished(figure)
+        return drawing.settle_layout(figure)

@@ -59,7 +59,7 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
         "view": VIEW_ID,
         "noun": facts.noun.capitalize(),
         "rows": base64.b64encode(table.tobytes()).decode(),
-        "joints": [dict(zip(("scale", "unit"), joint.shown, strict=True)) for joint in arm.joints],
+        "joints": [dict(zip(("scale", "unit"), joint.display_unit, strict=True)) for joint in arm.joints],
         "failures": [_describe_failure(facts, index, label) for index, label in enumerate(facts.failure_labels)],
         "command": " ".join(["holdfast studio", shlex.quote(arm_spec), *words]),
         "views": [

@@ -7,14 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report.figures import locate_axes
 from holdfast.report.page import Block, Extra
+from holdfast.typing import FloatArray
 from holdfast.words import format_as_given, format_half_width, format_interval, join_units
-
-Array = NDArray[np.float64]
 
 _STEP_COUNT = 100  # about so many, at round numbers
 _MAX_FAILURES = 10
@@ -31,7 +29,7 @@ _BAR_TEMPLATE = Markup("""\
 <li><span class="name"></span><span class="track"><span class="bar"></span></span><span class="part"></span></li>""")
 
 
-def choose_thresholds(axis: Array, is_logarithmic: bool, threshold: float) -> Array:
+def choose_thresholds(axis: FloatArray, is_logarithmic: bool, threshold: float) -> FloatArray:
     """Choose thresholds (K,) at round numbers along an axis, including the threshold of the report."""
     lower, upper = float(axis[0]), float(axis[-1])
     if is_logarithmic:
@@ -85,12 +83,12 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
 
 def build_slider(
     facts: AssessmentFacts,
-    threshold_values: Array,
+    threshold_values: FloatArray,
     answers: Mapping[str, Sequence[str]],
     figure: Figure,
     curve_name: str,
     half_band: float,
-    bars: tuple[list[str], Array, str | Markup] = ([], np.zeros((0, 0)), ""),
+    bars: tuple[list[str], FloatArray, str | Markup] = ([], np.zeros((0, 0)), ""),
 ) -> Extra:
     """Build a threshold that moves over a figure, with a text for each of its steps.
 
@@ -132,7 +130,7 @@ def build_slider(
     return Extra("threshold", data, html, label="Probability of a threshold of one's own")
 
 
-def _compute_miss_fractions(facts: AssessmentFacts, threshold_values: Array) -> tuple[list[str], Array]:
+def _compute_miss_fractions(facts: AssessmentFacts, threshold_values: FloatArray) -> tuple[list[str], FloatArray]:
     """Compute the fraction (F, K) of reached poses that miss each threshold after each failure (F,); empty without poses."""
     poses = facts.poses
     if poses is None or not poses.reached.any():

@@ -36,7 +36,7 @@ def score_rows(suite: FailActive) -> list[dict[str, Any]]:
             **_interval_entries("success", score.success),
             "feasible": score.feasible,
             **_interval_entries("success_of_feasible", score.success_of_feasible),
-            **_interval_entries("decided", score.decided),
+            **_interval_entries("decided", score.decided_fraction),
             "seconds_median": float(np.median(score.seconds)),
             "seconds_95": float(np.quantile(score.seconds, 0.95)),
             "processor_median": float(np.median(score.processor)),
@@ -90,7 +90,7 @@ def tables(suite: FailActive) -> list[TextTable]:
             score.method,
             *map(str, (score.cases, score.solved, score.proved, score.within, score.argued, score.undecided, score.refused)),
             _format_feasible_success(score),
-            format_interval(score.decided),
+            format_interval(score.decided_fraction),
             format_significant(float(np.median(score.processor)), 2),
             format_significant(float(np.quantile(score.processor, 0.95)), 2),
         ]

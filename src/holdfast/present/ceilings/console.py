@@ -42,15 +42,15 @@ def _bound_values(bound: UpperBound) -> dict[str, Any]:
         "bound": bound.bound,
         "bound_by": bound.bound_by,
         "best_known": bound.best_known,
-        "attained": bound.attained,
+        "attained": bound.is_attained,
         "closed_form": bound.closed_form or None,
         "gap": bound.gap,
     }
 
 
 def _format_row(bound: UpperBound) -> list[str]:
-    best_text = "not known" if bound.best_known is None else "the same" if bound.attained else f"{bound.best_known:.6f}"
-    gap_text = "" if bound.gap is None else "0" if bound.attained else format_percent(bound.gap)
+    best_text = "not known" if bound.best_known is None else "the same" if bound.is_attained else f"{bound.best_known:.6f}"
+    gap_text = "" if bound.gap is None else "0" if bound.is_attained else format_percent(bound.gap)
     return [
         f"{bound.n}",
         f"{bound.m}",
@@ -99,4 +99,4 @@ def next_steps(bounds: Found, name: str) -> list[str]:
     if isinstance(bounds, SingularValueBound):
         return [f"{name}.bound  # no Jacobian has more" if bounds.jacobian is None else f"{name}.jacobian  # attains it"]
     search = f"hf.ceilings.search(n={bounds.n}, m={bounds.m}, k={bounds.k}, seconds=60)  # is there a better one?"
-    return [f"{name}.verify()  # measures the null space anew", *([] if bounds.attained else [search])]
+    return [f"{name}.verify()  # measures the null space anew", *([] if bounds.is_attained else [search])]

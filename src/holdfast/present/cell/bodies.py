@@ -10,8 +10,8 @@ from holdfast.cell.meshes import Mesh, Points
 from holdfast.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 from holdfast.errors import InputError
 from holdfast.present.arm.body import Color, MeshPart, mesh_box, mesh_cylinder, mesh_sphere
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
 
 OBJECT_COLOR_RGB: Color = (205, 178, 126)
@@ -20,7 +20,7 @@ _MAX_DRAWN_POINTS = 3000  # points of a cloud that are drawn
 _PLATE_THICKNESS_FRACTION = 0.02  # thickness of what is drawn of a half space, as a share of its width
 
 
-def mesh_solid(solid: Solid, size: float) -> tuple[Array, Faces]:
+def mesh_solid(solid: Solid, size: float) -> tuple[FloatArray, Faces]:
     """Return vertices (V, 3) m in the object's own frame, and triangles (F, 3), of the mesh that stands for an object.
 
     Args:
@@ -47,7 +47,7 @@ def mesh_solid(solid: Solid, size: float) -> tuple[Array, Faces]:
     raise InputError(f"object '{solid.name}' cannot be drawn")
 
 
-def _mesh_point_cloud(cloud: Points) -> tuple[Array, Faces]:
+def _mesh_point_cloud(cloud: Points) -> tuple[FloatArray, Faces]:
     """Return a small tetrahedron for each of some thousand evenly chosen points."""
     points = np.asarray(cloud.points)
     chosen = points[:: max(len(points) // _MAX_DRAWN_POINTS, 1)]

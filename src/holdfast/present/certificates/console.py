@@ -34,7 +34,7 @@ def to_dict(result: Found | StructuralZero) -> dict[str, Any]:
         claim, parts = result.claim, dict(zip(map(_lock_name, result.parts), result.parts, strict=True))
         counts |= {"accepted": result.accepted, "rejected": result.rejected}
     elif isinstance(result, TolerantProof):
-        claim, parts = result.document()["claim"], {result.named(part_result): part_result for part_result in result.parts}
+        claim, parts = result.document()["claim"], {result.part_label(part_result): part_result for part_result in result.parts}
     else:
         claim, parts = result.document["claim"], {}
     if not isinstance(result, CertificateCheck):
@@ -140,7 +140,8 @@ def _tabulate_locks(result: Found) -> list[TextTable]:
         header = ["lock of", "proved, not yet verified", "undecided", "cells", "s"]
         cells = [[f"{part.leaves:,}", f"{part.seconds:.1f}"] for part in result.parts]
         shares = [
-            [result.named(part), format_percent(part.proved), format_percent(part.undecided, up=True)] for part in result.parts
+            [result.part_label(part), format_percent(part.proved), format_percent(part.undecided, up=True)]
+            for part in result.parts
         ]
         return [TextTable(header, [[*share, *count] for share, count in zip(shares, cells, strict=True)])]
     return []

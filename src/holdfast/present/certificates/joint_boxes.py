@@ -21,13 +21,12 @@ from holdfast.present.certificates.pages import UNVERIFIED_NOTE, bind_percent_si
 from holdfast.present.certificates.pages import write as write
 from holdfast.present.printing import TextTable
 from holdfast.present.story import PageContent
+from holdfast.typing import FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Found = Refutation | ManipulabilityBound
 
 _MAX_DRAWN_HALVINGS = 7  # halvings of an axis that a picture shows
@@ -46,11 +45,11 @@ class LeafBoxes:
         undecided: (N,).
     """
 
-    axis_ranges: Array
+    axis_ranges: FloatArray
     axis_names: list[str]
     is_angle: NDArray[np.bool_]
-    cell_indices: Index
-    depth: Index
+    cell_indices: IndexArray
+    depth: IndexArray
     undecided: NDArray[np.bool_]
 
     @classmethod
@@ -82,7 +81,7 @@ class LeafBoxes:
         return cls(box_ends, names, turns, *_unpack_leaves(packed_tree, len(box_ends), last_token, lock_token))
 
     @property
-    def halvings(self) -> Index:
+    def halvings(self) -> IndexArray:
         """Number of halvings of each box (N,)."""
         return np.asarray(self.depth.sum(axis=1))
 
@@ -108,7 +107,7 @@ class LeafBoxes:
         header = ["halvings", f"middle, {units}", f"half widths, {units}", ""]
         return TextTable(header, [self.describe_box(box_index) for box_index in order], title="The hardest boxes")
 
-    def project_onto(self, axes: tuple[int, int]) -> tuple[Array, NDArray[np.bool_]]:
+    def project_onto(self, axes: tuple[int, int]) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Project the boxes onto two axes (2^7, 2^7): the largest number of halvings over the other axes, and the undecided
         area.
         """
@@ -131,7 +130,9 @@ class LeafBoxes:
 
 
 @lru_cache(maxsize=1)  # a page has a table of them, and a picture
-def _unpack_leaves(packed_tree: str, axes: int, last_token: int, lock_token: int) -> tuple[Index, Index, NDArray[np.bool_]]:
+def _unpack_leaves(
+    packed_tree: str, axes: int, last_token: int, lock_token: int
+) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
     """Unpack the leaves of a tree: the cell index and the halvings of each axis (N, A), and the undecided ones."""
     tree, tokens = verifier.decompress_payload(packed_tree, 2 * verifier.MAX_LEAVES, "tree"), list[int]()
 
@@ -144,7 +145,7 @@ def _unpack_leaves(packed_tree: str, axes: int, last_token: int, lock_token: int
     return cell_numbers[:, :, 0], cell_numbers[:, :, 1], np.isin(tokens, (1, UNDECIDED_TOKEN))
 
 
-def _display_factors(is_angle: NDArray[np.bool_]) -> Array:
+def _display_factors(is_angle: NDArray[np.bool_]) -> FloatArray:
     """Return the factors for display: angles are shown in degrees, prismatic joints in metres."""
     return np.where(is_angle, 180 / np.pi, 1.0)
 
@@ -165,7 +166,7 @@ def figures(proof: Found) -> dict[str, Figure]:
     )
 
 
-def _marked_configuration(proof: Found) -> Array | None:
+def _marked_configuration(proof: Found) -> FloatArray | None:
     """Return the configuration that refutes a claim, or comes nearest to a bound."""
     return proof.witness if isinstance(proof, Refutation) else proof.extreme
 
@@ -174,7 +175,7 @@ def _draw_witness(proof: Found) -> Figure:
     """Draw the position of each joint within its range."""
     from matplotlib.figure import Figure
 
-    from holdfast.report.figures import FAINT, ORANGE, WIDTH, finished, format_label, style
+    from holdfast.report.figures import FAINT, ORANGE, WIDTH, format_label, settle_layout, style
 
     arm, q = proof.claim.arm, _marked_configuration(proof)
     spans = joint_ranges(proof.claim) if isinstance(proof, Refutation) else proof.claim.joint_box
@@ -188,14 +189,14 @@ def _draw_witness(proof: Found) -> Figure:
         axes.plot(q * scale, rows, "o", color=ORANGE, markersize=7)
         axes.set(yticks=rows, yticklabels=[format_label(name) for name in arm.joint_names], ylim=(arm.n - 0.5, -0.5))
         axes.set_xlabel("deg" if not arm.prismatic.any() else "deg and m")
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_value_scale(proof: ManipulabilityBound) -> Figure:
     """Draw a line of values: those that occur, the extreme, and those that are proved not to occur."""
     from matplotlib.figure import Figure
 
-    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, finished, style
+    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, settle_layout, style
 
     claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
     bound, value = claim.threshold, proof.value
@@ -224,14 +225,14 @@ def _draw_value_scale(proof: ManipulabilityBound) -> Figure:
             )
         axes.set(xlim=(0, axis_end), ylim=(0, 1), yticks=[], xlabel="least relative manipulability after one lock")
         axes.grid(visible=False)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_boxes(proof: Found, leaves: LeafBoxes) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, finished, style
+    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, settle_layout, style
 
     with style():
         figure = Figure(figsize=(WIDTH, 4.2), layout="constrained")
@@ -255,10 +256,10 @@ def _draw_boxes(proof: Found, leaves: LeafBoxes) -> Figure:
             Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
         ]
         figure.legend(handles=patches, loc="outside lower center", ncols=2)
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: Array | None) -> None:
+def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: FloatArray | None) -> None:
     """Draw the boxes over two axes, to scale; the worst box over all other axes counts."""
     from matplotlib.collections import PatchCollection
     from matplotlib.colors import LinearSegmentedColormap
@@ -308,7 +309,7 @@ def _list_facts(proof: Found, object_text: str) -> Sequence[tuple[str, str]]:
     ]
 
 
-def _format_configuration(q: Array, proof: Found) -> str:
+def _format_configuration(q: FloatArray, proof: Found) -> str:
     return ", ".join(f"{position:.4g}" for position in _display_factors(~proof.claim.arm.prismatic) * q)
 
 

@@ -145,7 +145,7 @@ def figures(proof: PathProof) -> dict[str, Figure]:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, finished, style
+    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, settle_layout, style
 
     column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
     row_count = -(-len(proof.parts) // column_count)
@@ -175,7 +175,7 @@ def figures(proof: PathProof) -> dict[str, Figure]:
             Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
         ]
         figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
-        return {"slices": finished(figure)}
+        return {"slices": settle_layout(figure)}
 
 
 def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:

@@ -60,7 +60,7 @@ def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[in
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, finished, style
+    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, settle_layout, style
 
     with style():
         figure = Figure(figsize=(WIDTH if len(slices) > 1 else WIDTH / 2, 3.9), layout="constrained")
@@ -71,7 +71,7 @@ def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[in
             Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
         ]
         figure.legend(handles=patches, loc="outside lower center", ncols=2)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], fixed_axis: tuple[int, float] | None) -> None:

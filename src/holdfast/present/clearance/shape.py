@@ -16,7 +16,7 @@ def summarize_shape(clearance: Clearance, margin: float) -> dict[str, Any]:
     """Return the collision model of the arm and its cell as JSON data."""
     arm, capsules = clearance.arm, clearance.capsules
     radius = capsules.radius_along(arm)
-    capsule_origin = "given" if radius is None else "assumed radius" if capsules.assumed(arm) else "given radius"
+    capsule_origin = "given" if radius is None else "assumed radius" if capsules.is_assumed(arm) else "given radius"
     source = "cover" if capsules.covers else capsule_origin
     return {
         "capsules": source,

@@ -14,7 +14,8 @@ from holdfast.words import format_percent
 if TYPE_CHECKING:
     from rich.console import Console
 
-_NEGLIGIBLE_GAIN, _PLATEAU_TOLERANCE = 0.005, 1e-3  # less than this gain is none; differences that nobody would pay for
+_NEGLIGIBLE_GAIN = 0.005  # less than this gain is none
+_PLATEAU_TOLERANCE = 1e-3  # differences that nobody would pay for
 
 
 def to_dict(curve: TradeOff) -> dict[str, Any]:

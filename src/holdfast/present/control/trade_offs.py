@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from holdfast.control.trade_offs import TradeOff
-from holdfast.report.figures import BLUE, ORANGE, SKY, WIDTH, finished, format_label, legend_below, style
+from holdfast.report.figures import BLUE, ORANGE, SKY, WIDTH, format_label, legend_below, settle_layout, style
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -25,7 +25,7 @@ def figures(curve: TradeOff, into: Iterable[Axes] | None = None) -> dict[str, Fi
         gain, cost = figure.subplots(1, 2)
         _draw_panels(curve, gain, cost)
         legend_below(figure, cost, 4)
-        return {"trade-off": finished(figure)}
+        return {"trade-off": settle_layout(figure)}
 
 
 def _draw_panels(curve: TradeOff, gain: Axes, cost: Axes) -> None:

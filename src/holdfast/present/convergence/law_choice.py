@@ -44,7 +44,7 @@ def story(choice: LawChoice) -> PageContent:
     first_map = choice.maps[0]
     arm, best_law, shares = first_map.law.arm, choice.best, {name: choice.share(name) for name in choice.ranking}
     title, probability = f"The law with which {arm.name} reaches its targets most often", shares[best_law]
-    failures = int(first_map.known.sum()) * arm.n
+    failures = int(first_map.has_configuration.sum()) * arm.n
     if not probability.value:
         answer = (
             f"Under none of the {len(shares)} laws a target is reached after a lock; at most "

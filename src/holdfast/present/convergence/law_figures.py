@@ -25,7 +25,7 @@ def draw_law_outcomes(comparison: LawComparison) -> Figure:
     stacks = []
     for failure in comparison.failures:
         cases = [comparison.case(name, failure) for name in comparison.names]
-        shares = np.array([[case.ended(outcome).mean() for outcome in OUTCOME_NAMES] for case in cases])
+        shares = np.array([[case.has_outcome(outcome).mean() for outcome in OUTCOME_NAMES] for case in cases])
         intervals = [case.share() for case in cases]
         lower, upper = (
             np.array([getattr(interval, bound) if interval else np.nan for interval in intervals]) for bound in ("low", "high")
@@ -90,7 +90,7 @@ def draw_law_errors(comparison: LawComparison) -> Figure:
         quantities.append(("excess", f"Error above the least possible, {kinds[0].unit}", kinds[0].factor))
     panels = []
     for quantity, title, factor in quantities:
-        samples = [factor * comparison.pooled(name, quantity).ravel() for name in comparison.names]
+        samples = [factor * comparison.pool_values(name, quantity).ravel() for name in comparison.names]
         axis_values = np.geomspace(
             1e-5 * factor, 1.2 * max(float(np.nanmax(sample, initial=1e-3 * factor)) for sample in samples), 400
         )

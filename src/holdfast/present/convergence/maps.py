@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.convergence.maps import ConvergenceMap
 from holdfast.convergence.table import save_places
@@ -18,6 +17,7 @@ from holdfast.present.clearance.shape import describe_shape, summarize_shape
 from holdfast.present.convergence.places import prepare_place_maps
 from holdfast.present.printing import TextTable
 from holdfast.present.story import PageContent
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first, format_count, format_percent
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from holdfast.present.results import Drawings
     from holdfast.report.outcomes import Stack
 
-Array = NDArray[np.float64]
 
 _END_PHRASES = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
 _ENDING_LABELS = (
@@ -52,13 +51,13 @@ def to_dict(result: ConvergenceMap) -> dict[str, Any]:
         "task": result.law.task.name,
         "over": result.over,
         "places": len(result.places),
-        "places_with_motions": int(result.known.any(axis=1).sum()),
-        "motions": int(result.known.sum()),
+        "places_with_motions": int(result.has_configuration.any(axis=1).sum()),
+        "motions": int(result.has_configuration.sum()),
         "seed": result.seed,
-        "undecided_runs": result.undecided(),
+        "undecided_runs": result.count_undecided(),
         "confidence": 0.95,
         "limits_passed_fraction": dict(
-            zip(result.columns, result.limits_passed[result.known].mean(axis=0).tolist(), strict=True)
+            zip(result.columns, result.limits_passed[result.has_configuration].mean(axis=0).tolist(), strict=True)
         ),
         "fractions": shares,
     } | ({} if result.clearance is None else {"clearance": summarize_shape(result.clearance, 0.0)})
@@ -66,7 +65,7 @@ def to_dict(result: ConvergenceMap) -> dict[str, Any]:
 
 def key_table(result: ConvergenceMap) -> TextTable:
     """Return how often the motions converge with each joint locked."""
-    if not result.known.any():
+    if not result.has_configuration.any():
         return TextTable(["", ""], [["motions", "none"]])
     converged, trapped = result.shares("converged"), result.shares("trapped")
     cells = [
@@ -90,7 +89,7 @@ def story(result: ConvergenceMap) -> PageContent:
     )
     title += " after a lock that its controller does not know of"
     subject = f"{law.arm.name}, {law.describe()}"
-    if not result.known.any():
+    if not result.has_configuration.any():
         explanation = (
             f"No configuration was found at any of the {format_count(len(result.places), place_noun[:-1])}, so no "
             f"motion was made; choose places within reach."
@@ -156,7 +155,7 @@ def story(result: ConvergenceMap) -> PageContent:
         answer,
         about=subject,
         facts=facts,
-        lines=[f"{capitalise_first(result.describe()[-1])}."] if sum(result.undecided().values()) else [],
+        lines=[f"{capitalise_first(result.describe()[-1])}."] if sum(result.count_undecided().values()) else [],
         figures={
             "outcomes": (
                 "How the motions end",
@@ -177,7 +176,7 @@ def _format_fraction(fraction: float) -> str:
 
 
 def _list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
-    places, motions = int(result.known.any(axis=1).sum()), int(result.known.sum())
+    places, motions = int(result.has_configuration.any(axis=1).sum()), int(result.has_configuration.sum())
     return [
         ("Law", result.law.describe()),
         (
@@ -203,7 +202,7 @@ def _list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
 
 def tables(result: ConvergenceMap) -> list[TextTable]:
     """Return how the motions end with each joint locked."""
-    if not result.known.any():
+    if not result.has_configuration.any():
         return []
     shares = {outcome: result.shares(outcome) for outcome in result.words if outcome != "in_reach"}
     table_rows = []
@@ -231,7 +230,7 @@ def next_steps(result: ConvergenceMap, name: str) -> list[str]:
 def save(result: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
     """Save ``map.csv`` (a line for each place), ``map.json``, the figures and the report."""
     columns = ["motions", *(f"{outcome}_{name}" for outcome in result.words for name in result.columns)]
-    values = [result.known.sum(axis=1), *(result.values(outcome) for outcome in result.words)]
+    values = [result.has_configuration.sum(axis=1), *(result.values(outcome) for outcome in result.words)]
     files = save_places(folder, "map", result.places, columns, values, result.to_dict())
     return files + results.save(result, folder, command, dpi=130)
 
@@ -270,7 +269,7 @@ def drawings(result: ConvergenceMap) -> Drawings:
     percentages = {"converges": 100 * result.values("converged"), "not there, in reach": 100 * result.values("trapped")}
     percentages |= {} if result.touched is None else {"touches something": 100 * result.values("touched")}
     percentages = {name: values[:, :-1] for name, values in percentages.items()}
-    target = result.target[result.known][:, :3, 3]
+    target = result.target[result.has_configuration][:, :3, 3]
     has_one_target = result.over == "starts" and len(np.unique(target, axis=0)) == 1
     maps = prepare_place_maps(
         result.law.task,
@@ -285,7 +284,7 @@ def drawings(result: ConvergenceMap) -> Drawings:
 
 
 def _compose_caption(result: ConvergenceMap, laws: int = 1) -> str:
-    motions, places = int(result.known.sum()), len(result.places)
+    motions, places = int(result.has_configuration.sum()), len(result.places)
     law_text = f"{laws} laws" if laws > 1 else result.law.name
     return (
         f"{result.law.arm.name}, {law_text}, task {result.law.task.name}: {motions} motions over {places} "
@@ -293,8 +292,8 @@ def _compose_caption(result: ConvergenceMap, laws: int = 1) -> str:
     )
 
 
-def _compute_unreachable_fractions(result: ConvergenceMap, outcome: str) -> Array:
+def _compute_unreachable_fractions(result: ConvergenceMap, outcome: str) -> FloatArray:
     """Compute the fraction (n + 1,) of runs with this outcome and the target out of reach, every place alike."""
-    has_motions = result.known.any(axis=1)
-    runs = (result.happened(outcome) & ~result.in_reach)[has_motions].sum(axis=1)
-    return np.asarray((runs / result.known[has_motions].sum(axis=1)[:, None]).mean(axis=0))
+    has_motions = result.has_configuration.any(axis=1)
+    runs = (result.has_outcome(outcome) & ~result.in_reach)[has_motions].sum(axis=1)
+    return np.asarray((runs / result.has_configuration[has_motions].sum(axis=1)[:, None]).mean(axis=0))

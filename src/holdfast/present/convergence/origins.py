@@ -28,8 +28,6 @@ from holdfast.words import capitalise_first, format_count
 if TYPE_CHECKING:
     from holdfast.present.results import Drawings
 
-Array = NDArray[np.float64]
-
 
 def to_dict(workspace: Workspace) -> dict[str, Any]:
     """Return the contents of the analysis as JSON data; NaN is None."""
@@ -48,8 +46,8 @@ def to_dict(workspace: Workspace) -> dict[str, Any]:
         "relative_to": workspace.relative_to,
         "bounds_rad": {name: [list(arc) for arc in arcs] for name, arcs in zip(columns[:-1], workspace.bounds, strict=True)},
         "ends": dict(zip(FAILURE_ENDS, workspace.ends.sum(axis=0).tolist(), strict=True)),
-        "undecided_fraction": workspace.undecided,
-        "not_simulated_fraction": workspace.saved,
+        "undecided_fraction": workspace.undecided_fraction,
+        "not_simulated_fraction": workspace.skipped_fraction,
         "mean_percent": {name: dict(zip(columns, values, strict=True)) for name, values in workspace.means().items()},
         "mean_percent_95": {name: dict(zip(columns, values, strict=True)) for name, values in workspace.intervals().items()},
         "starts_with_R100_full": _count_by_column(workspace, workspace.reach.full >= 100 - 1e-9),
@@ -63,7 +61,7 @@ def tables(workspace: Workspace) -> list[TextTable]:
     """
     bound_rows = []
     for joint, arcs in zip(workspace.law.arm.joints, workspace.bounds, strict=True):
-        factor, unit = joint.shown
+        factor, unit = joint.display_unit
         arcs_text = ", ".join(f"{factor * lower:.2f} to {factor * upper:.2f} {unit}" for lower, upper in arcs)
         bound_rows.append([joint.name, arcs_text or "no value"])
     sampled = workspace.method == "sampled"
@@ -120,7 +118,7 @@ def story(workspace: Workspace) -> PageContent:
                     f"{int(workspace.configurations.sum()):,} configurations"
                 ),
             ),
-            ("Failures", f"{method_texts[workspace.method]}; {workspace.simulated:,} simulated"),
+            ("Failures", f"{method_texts[workspace.method]}; {workspace.simulated_count:,} simulated"),
             ("Measures", MEASURE_DEFINITIONS),
             ("Source", "Goel, Maciejewski, Balakrishnan 2005"),
         ],
@@ -164,7 +162,10 @@ def drawings(workspace: Workspace) -> Drawings:
     )
     failures = ""
     if workspace.ends.sum():
-        failures = f"{workspace.simulated} failures simulated, {100 * workspace.undecided:.2f} % undecided at the time limit"
+        failures = (
+            f"{workspace.simulated_count} failures simulated, {100 * workspace.undecided_fraction:.2f} % undecided "
+            f"at the time limit"
+        )
         if workspace.method == "procedure":
             failures += f", {int(workspace.ends[:, -1].sum())} locked where no sink is"
     return prepare_measure_maps(workspace.law, workspace.places, workspace.measures, about, failures, workspace.target[:3, 3])

@@ -8,11 +8,11 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.convergence.measures import FINISH_NAMES, REACH_NAMES
 from holdfast.convergence.places import Places, is_planar_position
 from holdfast.present.printing import TextTable, format_column, format_significant
+from holdfast.typing import FloatArray
 from holdfast.words import format_percent
 
 if TYPE_CHECKING:
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from holdfast.convergence.targets import TargetMeasures
     from holdfast.present.results import Drawings
 
-Array = NDArray[np.float64]
 
 _BIN_COUNT = 12  # cells along the longer edge
 _VIEW_AXES = {"-top": (0, 1), "-side": (0, 2)}
@@ -31,11 +30,11 @@ _VIEW_AXES = {"-top": (0, 1), "-side": (0, 2)}
 def prepare_place_maps(
     task: Task,
     places: Places,
-    percentages: Mapping[str, Array],
+    percentages: Mapping[str, FloatArray],
     column_titles: Sequence[str],
     colorbar_label: str,
     caption: str,
-    target: Array | None = None,
+    target: FloatArray | None = None,
     average_cells: bool = True,
 ) -> Drawings:
     """Prepare a figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and
@@ -46,7 +45,7 @@ def prepare_place_maps(
     averaged in square
     cells if ``average_cells``, as those of spatial arms always are; else each is a dot.
     """
-    from holdfast.report.places import Plane, binned, place_maps
+    from holdfast.report.places import Plane, bin_positions, place_maps
     from holdfast.report.views import View
 
     functions: Drawings = {}
@@ -54,13 +53,13 @@ def prepare_place_maps(
     for name, axes in views.items():
         right_axis, up_axis = task.rows[:2, :3] if axes is None else np.eye(3)[list(axes)]
         view = View(right_axis, up_axis, name)
-        target_point = None if target is None else tuple(view.of(target).tolist())
-        points, remark, shown_values = view.of(places.points), "", dict(percentages)
+        target_point = None if target is None else tuple(view.project(target).tolist())
+        points, remark, shown_values = view.project(places.points), "", dict(percentages)
         plane = Plane(
             points=points, labels=view.names, cells=places.cells, axes=places.axes, mark=target_point, mark_label="target"
         )
         if places.cells is None and (average_cells or axes is not None):
-            binned_values = {title: binned(points, values, _BIN_COUNT) for title, values in percentages.items()}
+            binned_values = {title: bin_positions(points, values, _BIN_COUNT) for title, values in percentages.items()}
             first_plane = next(iter(binned_values.values()))[0]
             plane = replace(first_plane, labels=view.names, mark=target_point, mark_label="target")
             shown_values = {title: values for title, (_, values) in binned_values.items()}
@@ -91,7 +90,12 @@ def format_with_interval(value: float, lower: float, upper: float) -> str:
 
 
 def prepare_measure_maps(
-    law: Law, places: Places, measures: Mapping[str, Array], about: str, failure_text: str, target: Array | None = None
+    law: Law,
+    places: Places,
+    measures: Mapping[str, FloatArray],
+    about: str,
+    failure_text: str,
+    target: FloatArray | None = None,
 ) -> Drawings:
     """Prepare maps of R100, Ravg, Rsens and, if failures were simulated, of F100, Favg, Fsens, by name: ``reach``,
     ``finish-top``.

@@ -8,22 +8,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.present.stick_figure import choose_views
 from holdfast.regions.region import Region
-from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, format_label, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, format_label, settle_layout, style
 from holdfast.report.scenes import Scale, Scene, draw_view, fit_view_spans
 from holdfast.solvers.inverse_kinematics import solver
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 def draw_pareto_front(
-    reach: Array,
-    quantiles: Array,
+    reach: FloatArray,
+    quantiles: FloatArray,
     front: Sequence[int],
     best: int,
     baseline: tuple[float, float] | None,
@@ -73,7 +71,7 @@ def draw_pareto_front(
             Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="the best design"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=2.0)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
@@ -106,29 +104,29 @@ def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, 
         panels: Sequence[Axes] = figure.subplots(1, 2)
         spans, height = fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
-        middle = view.of(common_scene.extent.mean(axis=0))
+        middle = view.project(common_scene.extent.mean(axis=0))
         for axes, scene, title in zip(panels, scenes, ("before: " + baseline.name, "after: " + best.name), strict=True):
             draw_view(axes, scene, view, Scale(0.0, 1.0), 1.0, spans, 4.4)
             axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
             axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
             axes.set_title(format_label(title, 44))
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> Array:
+def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> FloatArray:
     lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
     upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
     if region.kind == "box":
         poses = region.poses(np.array(region.center)[None])
         solutions = solver(arm, task).solve(poses, np.random.SeedSequence(seed), 50, 1e-6)
         if solutions.success[0]:
-            q: Array = solutions.q[0]
+            q: FloatArray = solutions.q[0]
             return q
     return np.asarray((lower + upper) / 2)
 
 
 def draw_parameters(
-    names: Sequence[str], values: Array, quantiles: Array, baseline: tuple[Array, float] | None, label: str
+    names: Sequence[str], values: FloatArray, quantiles: FloatArray, baseline: tuple[FloatArray, float] | None, label: str
 ) -> Figure:
     """Draw the index quantile against each parameter, one panel for each parameter.
 
@@ -158,4 +156,4 @@ def draw_parameters(
             Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
-        return finished(figure)
+        return settle_layout(figure)

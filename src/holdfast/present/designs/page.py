@@ -33,9 +33,8 @@ from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first, format_as_given, format_count, format_number, format_percent, list_alternatives
-
-Array = NDArray[np.float64]
 
 ARM_FILE = "best-arm.yaml"
 _MAX_FRONT_DESIGNS = 10  # designs of the front in the table
@@ -158,7 +157,7 @@ def _list_answer_facts(designs: Designs) -> list[tuple[Cell, Cell]]:
 # ---- what to build -------------------------------------------------------------------------------------------------------
 
 
-def build_bounds_callout(space: DesignSpace, best: Array) -> list[Block]:
+def build_bounds_callout(space: DesignSpace, best: FloatArray) -> list[Block]:
     """Name the parameters of the best design (k,) that are at their bounds, if any are."""
     bounded = [
         f"{parameter.name} ({parameter.text(value)})"
@@ -192,7 +191,7 @@ def _build_remark_blocks(designs: Designs) -> list[Block]:
     return blocks
 
 
-def tabulate_parameters(space: DesignSpace, best: Array) -> Table:
+def tabulate_parameters(space: DesignSpace, best: FloatArray) -> Table:
     """Build the table of the parameters of the baseline arm and of the best design (k,)."""
     table_rows: list[list[Cell]] = []
     for parameter, before, after in zip(space.parameters, space.start.tolist(), best.tolist(), strict=True):

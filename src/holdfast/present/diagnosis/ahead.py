@@ -32,7 +32,7 @@ def to_dict(result: Observability | ProbingMotion | Identification) -> dict[str,
     data: dict[str, Any] = {
         **result.arm.entry(),
         "separation_nats": result.separation,
-        "together": list(map(list, result.together)),
+        "together": list(map(list, result.inseparable)),
     }
     if isinstance(result, Observability):
         return {
@@ -47,7 +47,7 @@ def to_dict(result: Observability | ProbingMotion | Identification) -> dict[str,
         "task": result.task.name,
         "duration_s": result.t[-1],
         "suspects": [result.arm.joint_names[joint] for joint in result.suspects],
-        "told_apart": list(result.told_apart),
+        "told_apart": list(result.isolable),
         "not_testable": list(result.untestable),
         "largest_rates": result.visible,
         "tool_strays_m": result.tool,
@@ -60,7 +60,7 @@ def tables(result: Observability | ProbingMotion | Identification) -> list[TextT
         rows = [[name, "possible"] for name in result.remaining] + [[name, "not locked"] for name in result.cleared]
         return [TextTable(["locked joint", "after the record"], rows, "what the tool's pose says")]
     names, unseen = result.arm.joint_names, result.untestable if isinstance(result, ProbingMotion) else result.unseen
-    distinguishable = dict.fromkeys(names, "yes") | {name: "not from all" for locks in result.together for name in locks}
+    distinguishable = dict.fromkeys(names, "yes") | {name: "not from all" for locks in result.inseparable for name in locks}
     distinguishable |= dict.fromkeys(unseen, "no")
     nearest_separation = np.array([np.delete(row, row_index).min() for row_index, row in enumerate(result.separation)][1:])
     if isinstance(result, ProbingMotion):

@@ -38,7 +38,7 @@ def to_dict(result: Bounds | Diagnosis) -> dict[str, Any]:
         "evidence": list(verdict.evidence),
         "not_looked_at_s": [list(interval) for interval in result.gaps],
         "did_not_move_enough": list(result.inconclusive),
-        "not_watched": list(result.off),
+        "not_watched": list(result.unmonitored),
         "faster_than_calibrated": list(result.beyond),
     }
 

@@ -52,7 +52,7 @@ def figures(diagnosis: Diagnosis) -> dict[str, Figure]:
             if verdict.joint is not None and name != "tool":
                 axes.legend(loc="lower left", fontsize=8)
         panels[-1].set(xlabel="time, s", xlim=(diagnosis.log.t[0], diagnosis.log.t[-1]))
-        return {"residuals": style.finished(figure)}
+        return {"residuals": style.settle_layout(figure)}
 
 
 def _thin_samples(t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -55,4 +55,4 @@ def figures(result: Observability | ProbingMotion) -> dict[str, Figure]:
         axes.grid(visible=False)
         axes.set(title="Locked joint against locked joint", xlim=(0, count))
         figure.colorbar(mesh, ax=axes, label="nats")
-        return {"separation": style.finished(figure)}
+        return {"separation": style.settle_layout(figure)}

@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.present.printing import TextTable
 from holdfast.present.story import PageContent
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first, format_number, format_percent
 
 if TYPE_CHECKING:
     from holdfast.endurance.endurance import LockSurvival
     from holdfast.endurance.injection import LockTests
 
-Array = NDArray[np.float64]
 
 _NEGLIGIBLE_SPEED_M_S = 1e-9  # m/s
 
@@ -34,12 +33,12 @@ def to_dict(survival: LockSurvival) -> dict[str, Any]:
         "rates": dict(zip(names, survival.rates.each, strict=True)),
         "rates_per_second": survival.rates.per_second,
         "survival": survival.survival,
-        "bound": survival.bound,
+        "bound": survival.survival_bound,
         "gap": survival.gap,
         "best_within_velocity_limits": lower,
         "best_with_spacing_on_top": upper,
-        "guaranteed": survival.guaranteed,
-        "lost": survival.lost,
+        "guaranteed": survival.survives_all_locks,
+        "lost": survival.loss_probability,
         "safe_from_s": survival.safe_from,
         "safe_until_s": survival.safe_until,
         "worst": {"at_s": worst_time, "survival": worst_survival},
@@ -85,8 +84,8 @@ def key_table(survival: LockSurvival) -> TextTable:
         "lower bound": "locks survived, at least",
     }
     rows = [[label_by_kind[survival.kind], format_percent(survival.survival)]]
-    if survival.bound is not None:
-        rows.append(["no motion survives more than", format_percent(survival.bound)])
+    if survival.survival_bound is not None:
+        rows.append(["no motion survives more than", format_percent(survival.survival_bound)])
     rows += [
         ["at the worst instant", f"{format_percent(worst_survival)}, at {format_number(worst_time)} s"],
         [f"every lock {_survival_verb(survival)} survived from", f"{format_number(survival.safe_from)} s on"],
@@ -133,8 +132,8 @@ def story(survival: LockSurvival) -> PageContent:
         answer += f"; of the motions beside it {best_baseline.name} survives most, {format_percent(best_baseline.survival)}"
     bound = "" if survival.kind == "exact" else f" ({survival.kind})"
     facts = [(format_percent(survival.survival), f"of the locks on the way are survived{bound}")]
-    if survival.bound is not None:
-        facts.append((format_percent(survival.bound), "is the most that any motion could survive, up to the grid"))
+    if survival.survival_bound is not None:
+        facts.append((format_percent(survival.survival_bound), "is the most that any motion could survive, up to the grid"))
     if survival.safe_from < survival.time[-1] and survival.safe_from > 0:
         facts.append((f"{format_number(survival.safe_from)} s", f"from then on every lock {_survival_verb(survival)} survived"))
     about = f"{survival.arm.title}, task {survival.task.name}, {survival.path.describe()}"
@@ -170,7 +169,7 @@ def story(survival: LockSurvival) -> PageContent:
     )
 
 
-def _format_largest(values: Array, time: Array) -> str:
+def _format_largest(values: FloatArray, time: FloatArray) -> str:
     """Format the largest of speeds (T,) with its time; 0 where it is rounding."""
     largest = float(values.max())
     return (

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.files.output import write_files
 from holdfast.present import results
@@ -15,13 +14,13 @@ from holdfast.present.endurance.strips import StripPanel, draw_lines, draw_strip
 from holdfast.report.figures import save_png
 from holdfast.report.scenes import Scale
 from holdfast.solvers import joint_space
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.endurance.endurance import LockSurvival, SearchBounds
 
-Array = NDArray[np.float64]
 
 _MAP_BINS = 64
 _SAMPLES_PER_NODE = 8  # places in a piece between two nodes
@@ -31,7 +30,9 @@ def figures(survival: LockSurvival) -> dict[str, Figure]:
     """Draw the survival over time with that of other motions, the map of all configurations if it was computed, and velocity
     jumps.
     """
-    bound_line = None if survival.bound is None else (100 * survival.bound, "no motion survives more, in the mean")
+    bound_line = (
+        None if survival.survival_bound is None else (100 * survival.survival_bound, "no motion survives more, in the mean")
+    )
     motion_name = "most locks survived" if survival.found is not None else "this motion"
     lines = [
         (motion_name, 100 * survival.curve()),
@@ -50,10 +51,10 @@ def figures(survival: LockSurvival) -> dict[str, Figure]:
 def _draw_survival_map(survival: LockSurvival, search: SearchBounds) -> Figure:
     """Draw which locks are survivable at every node, over the joint that the self-motion moves most."""
     joint = int(search.moved.argmax())
-    factor, unit = survival.arm.joints[joint].shown
+    factor, unit = survival.arm.joints[joint].display_unit
     is_turning = joint_space.is_unlimited(survival.arm)[joint]
 
-    def display_position(q: Array) -> Array:
+    def display_position(q: FloatArray) -> FloatArray:
         return np.asarray(factor * (np.arctan2(np.sin(q), np.cos(q)) if is_turning else q))
 
     positions = display_position(np.concatenate(search.nodes)[:, joint])
@@ -80,7 +81,7 @@ def _draw_survival_map(survival: LockSurvival, search: SearchBounds) -> Figure:
     return draw_strips(survival.time, edges, panels, path, scale=Scale(0.0, 100.0), label=label, ylabel=ylabel)
 
 
-def _sample_curves(search: SearchBounds, pose_index: int, joint: int) -> tuple[Array, Array]:
+def _sample_curves(search: SearchBounds, pose_index: int, joint: int) -> tuple[FloatArray, FloatArray]:
     """Return values (N,) of a joint along the curves of a pose, denser than its nodes, with the verdicts (N, n) of the nearer
     node.
     """

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, SOFT, WIDTH, finished, format_label, legend_below, style
+from holdfast.report.figures import INK, SOFT, WIDTH, format_label, legend_below, settle_layout, style
 from holdfast.report.palette import EMPTY_COLOR
 from holdfast.report.scenes import Scale, label_color_bar
 from holdfast.report.timelines import LINE_COLORS
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -27,12 +25,19 @@ class StripPanel:
         title: One line.
     """
 
-    values: Array
+    values: FloatArray
     title: str
 
 
 def draw_strips(
-    time: Array, edges: Array, panels: Sequence[StripPanel], path: Array, *, scale: Scale, label: str, ylabel: str
+    time: FloatArray,
+    edges: FloatArray,
+    panels: Sequence[StripPanel],
+    path: FloatArray,
+    *,
+    scale: Scale,
+    label: str,
+    ylabel: str,
 ) -> Figure:
     """Draw maps in a grid, on one scale.
 
@@ -62,10 +67,10 @@ def draw_strips(
         label_color_bar(
             figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * row_count, pad=0.015), label, scale
         )
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def _draw_strip(axes: Axes, time: Array, edges: Array, panel: StripPanel, path: Array, scale: Scale) -> None:
+def _draw_strip(axes: Axes, time: FloatArray, edges: FloatArray, panel: StripPanel, path: FloatArray, scale: Scale) -> None:
     half_steps = np.diff(time) / 2
     time_edges = np.concatenate([[time[0]], time[:-1] + half_steps, [time[-1]]])
     mappable = scale.mappable
@@ -81,7 +86,12 @@ def _draw_strip(axes: Axes, time: Array, edges: Array, panel: StripPanel, path: 
 
 
 def draw_lines(
-    time: Array, lines: Sequence[tuple[str, Array]], ylabel: str, *, level: tuple[float, str] | None = None, percents: bool
+    time: FloatArray,
+    lines: Sequence[tuple[str, FloatArray]],
+    ylabel: str,
+    *,
+    level: tuple[float, str] | None = None,
+    percents: bool,
 ) -> Figure:
     """Draw lines over one time (T,), s, with their names below: percentages as steps with the first one bold, or
     smooth curves.
@@ -105,4 +115,4 @@ def draw_lines(
         axes.set_ylim(*((-2, 102) if percents else (0, None)))
         axes.set_xlim(0, float(time[-1]))
         legend_below(figure, axes, 2)
-        return finished(figure)
+        return settle_layout(figure)

@@ -24,7 +24,7 @@ def to_dict(basins: Basins) -> dict[str, Any]:
             {"end": name, "fraction": interval.value, "low": interval.low, "high": interval.high}
             for name, interval in basins.shares
         ],
-        "converged": {"fraction": basins.converged.value, "low": basins.converged.low, "high": basins.converged.high},
+        "converged": {"fraction": basins.convergence.value, "low": basins.convergence.low, "high": basins.convergence.high},
         "confidence": basins.confidence,
     }
 
@@ -40,7 +40,7 @@ def tables(basins: Basins) -> list[TextTable]:
 
 def story(basins: Basins) -> PageContent:
     """Compose the report: the fraction of the initial configurations that reach the target, and the outcomes of the others."""
-    converged, points = basins.converged, basins.points
+    converged, points = basins.convergence, basins.points
     points_report, start_count = points_of.story(points), format_count(len(basins.end), "start")
     largest_miss = max(
         (outcome for outcome in basins.shares if not _is_target(basins, outcome[0])),

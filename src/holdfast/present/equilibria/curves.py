@@ -38,11 +38,15 @@ def to_dict(curves: Curves) -> dict[str, Any]:
                 "closed": curve.closed,
                 "degenerate": curve.degenerate,
                 "segments": [
-                    {"kind": segment.kind.word, "from": curve.locked[segment.first], "to": curve.locked[segment.last]}
+                    {
+                        "kind": segment.kind.word,
+                        "from": curve.locked_values[segment.first],
+                        "to": curve.locked_values[segment.last],
+                    }
                     for segment in curve.segments
                 ],
                 **{
-                    name: curve.locked[getattr(curve, name)]
+                    name: curve.locked_values[getattr(curve, name)]
                     for name in ("folds", "branch_points", "hopf_points", "rank_losses", "solutions")
                 },
             }
@@ -54,11 +58,13 @@ def to_dict(curves: Curves) -> dict[str, Any]:
 def tables(curves: Curves) -> list[TextTable]:
     """Tabulate the segments of the curves on which the kind is constant, one row for each."""
     arm = curves.law.arm
-    factor, unit = arm.joints[curves.joint].shown
+    factor, unit = arm.joints[curves.joint].display_unit
     rows = []
     for index, curve in enumerate(curves.curves):
         for segment in curve.segments:
-            range_text = f"{factor * curve.locked[segment.first]:.3f} to {factor * curve.locked[segment.last]:.3f}"
+            range_text = (
+                f"{factor * curve.locked_values[segment.first]:.3f} to {factor * curve.locked_values[segment.last]:.3f}"
+            )
             spans = [
                 errors[segment.first : segment.last + 1]
                 for errors in display_errors(curves.law, curve.q, curve.error, curves.target)
@@ -79,7 +85,7 @@ def tables(curves: Curves) -> list[TextTable]:
 def story(curves: Curves) -> PageContent:
     """Compose the report: the locked values at which the arm can stop off its target."""
     arm = curves.law.arm
-    joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].shown
+    joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].display_unit
     arcs = [f"{factor * begin:.4g} to {factor * end:.4g}" for begin, end in curves.sink_arcs]
     sinks = [
         tool_errors(

@@ -13,10 +13,11 @@ from holdfast.equilibria.points import StationaryPoints
 from holdfast.equilibria.system import wrap_angles
 from holdfast.report.curves import StationaryCurve, basin_fraction_figure, basin_map_figure, stationary_curves_figure
 from holdfast.simulation.errors import display_errors, error_kinds
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-_REACH_CELLS, _SAMPLES_PER_CELL = 360, 16  # of the locked value, to see where the target is within reach
+# _REACH_CELLS and _SAMPLES_PER_CELL: of the locked value, to see where the target is within reach
+_REACH_CELLS = 360
+_SAMPLES_PER_CELL = 16
 _MAX_SHOWN_JOINTS = 3
 
 
@@ -34,7 +35,7 @@ def draw_curves(curves: Curves) -> Figure:
         *(_axis_label(arm, index) for index in other_joints),
     ]
 
-    def plot_rows(stationary: Curve | StationaryPoints, selected: slice | NDArray[np.bool_]) -> list[Array]:
+    def plot_rows(stationary: Curve | StationaryPoints, selected: slice | NDArray[np.bool_]) -> list[FloatArray]:
         errors = display_errors(curves.law, stationary.q[selected], stationary.error[selected], curves.target)
         return [*errors, *(_display_values(arm, stationary.q[selected], index) for index in other_joints)]
 
@@ -67,7 +68,8 @@ def draw_basins(basins: Basins) -> Figure:
     """
     points, arm = basins.points, basins.points.law.arm
     lock_text = ", ".join(
-        f"{arm.joint_names[index]} locked at {value * arm.joints[index].shown[0]:.4g} {arm.joints[index].shown[1]}"
+        f"{arm.joint_names[index]} locked at {value * arm.joints[index].display_unit[0]:.4g} "
+        f"{arm.joints[index].display_unit[1]}"
         for index, value in zip(points.locked, points.at, strict=True)
     )
     caption = f"{arm.name}, {points.law.name}; {lock_text}; {len(basins.end)} starts"
@@ -85,7 +87,7 @@ def draw_basins(basins: Basins) -> Figure:
     lower, upper = (extremum(basins.starts[:, [first, second]], axis=0) for extremum in (np.min, np.max))
     half_cells = (upper - lower) / (np.array(basins.shape) - 1) / 2
     lower, upper = lower - half_cells, upper + half_cells
-    scale = np.array([arm.joints[first].shown[0], arm.joints[second].shown[0]])
+    scale = np.array([arm.joints[first].display_unit[0], arm.joints[second].display_unit[0]])
     lower_shown, upper_shown = lower * scale, upper * scale
     isolated = np.flatnonzero(~points.continuum)
     value, y = (_display_values(arm, points.q, index).tolist() for index in (first, second))
@@ -97,7 +99,7 @@ def draw_basins(basins: Basins) -> Figure:
     )
 
 
-def _reachable_ranges(curves: Curves) -> tuple[Array, list[tuple[float, float]]]:
+def _reachable_ranges(curves: Curves) -> tuple[FloatArray, list[tuple[float, float]]]:
     """Return the locked values to show, in degrees or m, and their ranges in which the target is reached."""
     arm, joint = curves.law.arm, curves.joint
     lower, upper = (arm.lower[joint], arm.upper[joint]) if arm.joints[joint].prismatic else (-np.pi, np.pi)
@@ -108,17 +110,17 @@ def _reachable_ranges(curves: Curves) -> tuple[Array, list[tuple[float, float]]]
         curves._system.can_reach(samples, np.random.default_rng(0)).reshape(_REACH_CELLS, _SAMPLES_PER_CELL).any(axis=1)
     )
     changes = np.flatnonzero(np.diff(np.r_[0, is_reached.astype(int), 0]))
-    displayed_edges = edges * arm.joints[joint].shown[0]
+    displayed_edges = edges * arm.joints[joint].display_unit[0]
     return displayed_edges, [
         (float(displayed_edges[start]), float(displayed_edges[stop]))
         for start, stop in zip(changes[::2], changes[1::2], strict=True)
     ]
 
 
-def _display_values(arm: Arm, q: Array, joint: int | np.intp) -> Array:
+def _display_values(arm: Arm, q: FloatArray, joint: int | np.intp) -> FloatArray:
     """Return the values of one joint, in degrees from -180 to 180, or m."""
-    return np.asarray(wrap_angles(arm, q)[:, joint] * arm.joints[joint].shown[0])
+    return np.asarray(wrap_angles(arm, q)[:, joint] * arm.joints[joint].display_unit[0])
 
 
 def _axis_label(arm: Arm, joint: int | np.intp) -> str:
-    return f"{arm.joint_names[joint]}, {arm.joints[joint].shown[1]}"
+    return f"{arm.joint_names[joint]}, {arm.joints[joint].display_unit[1]}"

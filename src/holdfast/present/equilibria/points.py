@@ -60,7 +60,7 @@ def tables(points: StationaryPoints) -> list[TextTable]:
     joints = points.law.arm.joints
     titles = [f"{kind.text}, {kind.unit}" for kind in error_kinds(points.law)]
     errors = display_errors(points.law, points.q, points.error, points.target)
-    header = ["kind", *(f"{joint.name}, {joint.shown[1]}" for joint in joints), *titles, "eigenvalues, Ke", ""]
+    header = ["kind", *(f"{joint.name}, {joint.display_unit[1]}" for joint in joints), *titles, "eigenvalues, Ke", ""]
     rows = []
     attracting = points.attracting
     for index, kind in enumerate(points.kinds):
@@ -68,7 +68,7 @@ def tables(points: StationaryPoints) -> list[TextTable]:
         notes = ["one of many"] if in_continuum else []
         notes += ["attracting"] if in_continuum and points.error[index] > REACHED_ERROR and attracting[index] else []
         notes += [] if points.within_limits[index] else ["beyond limits"]
-        values = [f"{joint.shown[0] * position:.4f}" for joint, position in zip(joints, points.q[index], strict=True)]
+        values = [f"{joint.display_unit[0] * position:.4f}" for joint, position in zip(joints, points.q[index], strict=True)]
         values += [format_significant(error[index]) for error in errors]
         rows.append([kind, *values, _format_eigenvalues(points.eigenvalues[index]), ", ".join(notes)])
     return [TextTable(header, rows)]
@@ -78,7 +78,7 @@ def describe_locks(points: StationaryPoints) -> str:
     """Describe the locked joints and their values, for example ``joint2 locked at 140 deg``."""
     joints = points.law.arm.joints
     locks = [
-        (joints[joint_index], joints[joint_index].shown, value)
+        (joints[joint_index], joints[joint_index].display_unit, value)
         for joint_index, value in zip(points.locked, points.at, strict=True)
     ]
     return ", ".join(f"{joint.name} locked at {factor * value:.4g} {unit}" for joint, (factor, unit), value in locks)

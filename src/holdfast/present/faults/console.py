@@ -14,7 +14,7 @@ def to_dict(batch: FaultBatch) -> dict[str, Any]:
         "joints": list(batch.joints),
         "seed": batch.seed,
         "episodes": [
-            {"episode": batch.first + index, "id": events.id, "events": [event.stored() for event in events]}
+            {"episode": batch.first + index, "id": events.id, "events": [event.to_stored() for event in events]}
             for index, events in enumerate(batch.episodes)
         ],
     }

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
@@ -14,14 +13,13 @@ from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.present.arm.console import format_positions, print_limit_violations
 from holdfast.present.printing import format_column, format_significant
 from holdfast.status import Status
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-Array = NDArray[np.float64]
 
-
-def index_values(index: Index, q: Array) -> dict[str, Any]:
+def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
     """Return the index after each failure, the worst of them, and its gradient."""
     result, names = index.evaluate(q), index.arm.joint_names
     singular = bool(result.status == Status.SINGULAR)
@@ -35,7 +33,7 @@ def index_values(index: Index, q: Array) -> dict[str, Any]:
         "bound": index.bound,
         "bound_note": index.bound_note,
         "best_known": index.best_known,
-        "attained": index.attained,
+        "attained": index.is_attained,
         "source": index.source,
         "q": dict(zip(names, q.tolist(), strict=True)),
         "value": result.value,
@@ -46,7 +44,7 @@ def index_values(index: Index, q: Array) -> dict[str, Any]:
     }
 
 
-def susceptibility_values(measure: Susceptibility, q: Array) -> dict[str, Any]:
+def susceptibility_values(measure: Susceptibility, q: FloatArray) -> dict[str, Any]:
     """Return the susceptibility, the contribution of each joint, and the gradient."""
     result, names = measure.evaluate(q), measure.arm.joint_names
     return {
@@ -68,7 +66,7 @@ def susceptibility_values(measure: Susceptibility, q: Array) -> dict[str, Any]:
     }
 
 
-def show_index(index: Index, q: Array, out: Console) -> None:
+def show_index(index: Index, q: FloatArray, out: Console) -> None:
     """Print the worst case, then a table of the failures."""
     from rich.markup import escape
 
@@ -88,7 +86,7 @@ def show_index(index: Index, q: Array, out: Console) -> None:
     _show_gradient("worst case", results, out)
 
 
-def show_susceptibility(measure: Susceptibility, q: Array, out: Console) -> None:
+def show_susceptibility(measure: Susceptibility, q: FloatArray, out: Console) -> None:
     """Print the value, then a table of the joints, and the meaning of their states."""
     results = susceptibility_values(measure, q)
     kinds, values = list(results["joint_unit"].values()), list(results["by_joint"].values())
@@ -110,7 +108,7 @@ def _unit_suffix(measure: Objective) -> str:
 
 def _show_measure(
     measure: Index | Susceptibility,
-    q: Array,
+    q: FloatArray,
     verdict: str,
     head: tuple[str, ...],
     rows: Iterable[tuple[str, ...]],

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.motion.trajectory import Array, Trajectory
+from holdfast.motion.trajectory import Trajectory
 from holdfast.present.clearance.shape import summarize_shape
 from holdfast.present.printing import TextTable, format_column, format_significant
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def show(trajectory: Trajectory, out: Console) -> None:
         _show_slowness(trajectory, trajectory.torque_bound, out)
 
 
-def _summarize_values(values: Array) -> dict[str, float]:
+def _summarize_values(values: FloatArray) -> dict[str, float]:
     return {
         "start": values[0],
         "end": values[-1],

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from holdfast.errors import ArmError
 from holdfast.files.output import make_folder
 from holdfast.motion.slowness import SlowMotion
-from holdfast.motion.trajectory import PATH_TOLERANCE, Trajectory, find_susceptibilities
+from holdfast.motion.trajectory import TRACKING_TOLERANCE, Trajectory, find_susceptibilities
 from holdfast.notice import reports_progress
 from holdfast.present.arm.view import scene
 from holdfast.present.clearance.shape import describe_shape
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MAX_VIEW_FRAMES = 201
-_NEGLIGIBLE_CHANGE, _MAX_RELATIVE_CHANGE = 5e-3, 10.0  # changes that are none, and those that a fraction would not tell
+# _NEGLIGIBLE_CHANGE and _MAX_RELATIVE_CHANGE: changes that are none, and those that a fraction would not tell
+_NEGLIGIBLE_CHANGE = 5e-3
+_MAX_RELATIVE_CHANGE = 10.0
 SPEED_FACTORS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
 _SERIOUS_EVENTS = {
     "end effector slowed",
@@ -112,7 +114,7 @@ class _TrajectoryReport:
     @property
     def headline(self) -> str:
         """Worst value of the objective along the path, and its change by the objective."""
-        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without
+        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without_objective
         text = f"The worst {name} on the way is {format_significant(trajectory.worst)}{self.unit_suffix}"
         if baseline is not None:
             change = (trajectory.worst - baseline.worst) / abs(baseline.worst) if baseline.worst else np.inf
@@ -134,7 +136,7 @@ class _TrajectoryReport:
 
     def list_facts(self) -> list[tuple[str, str]]:
         """List the key facts of the motion."""
-        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without
+        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without_objective
         entries = [(f"{format_significant(trajectory.worst)}{self.unit_suffix}", f"worst {name} on the way")]
         if baseline is not None:
             entries.append(
@@ -193,7 +195,7 @@ class _TrajectoryReport:
 
     def animate_motion(self) -> list[Block]:
         """Animate the arm, with the motion without the objective for comparison."""
-        trajectory, baseline = self.trajectory, self.trajectory.without
+        trajectory, baseline = self.trajectory, self.trajectory.without_objective
         samples = np.unique(np.linspace(0, len(trajectory.time) - 1, min(_MAX_VIEW_FRAMES, len(trajectory.time))).astype(int))
         readings = []
         for sample in samples:
@@ -225,8 +227,8 @@ class _TrajectoryReport:
         """Draw the objective, and each joint's measure."""
         trajectory = self.trajectory
         lines = [TimelineLine(trajectory.value, trajectory.method, "first")]
-        if trajectory.without is not None:
-            lines.append(TimelineLine(trajectory.without.value, "without the objective", "third"))
+        if trajectory.without_objective is not None:
+            lines.append(TimelineLine(trajectory.without_objective.value, "without the objective", "third"))
         caption = (
             f"{capitalise_first(trajectory.objective.name)} at {len(trajectory.time):,} samples; "
             f"{trajectory.objective.better} is better."
@@ -303,7 +305,7 @@ class _TrajectoryReport:
         trajectory = self.trajectory
         panels = []
         for index, joint in enumerate(trajectory.arm.joints):
-            scale, unit = joint.shown
+            scale, unit = joint.display_unit
             lines = [TimelineLine(scale * trajectory.q[:, index], "position", "first")]
             reach = np.ptp(scale * trajectory.q[:, index]) + (0.1 if joint.prismatic else 10.0)
             for limit in (joint.lower, joint.upper):
@@ -427,7 +429,7 @@ class _TrajectoryReport:
             lines = [TimelineLine(1000 * trajectory.rotation_error, "off", "first")]
             panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
         caption = (
-            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * PATH_TOLERANCE:g} mm or "
+            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * TRACKING_TOLERANCE:g} mm or "
             f"mrad the end "
             f"effector is off."
         )

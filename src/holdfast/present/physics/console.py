@@ -33,7 +33,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "terminal_distance_m": run.terminal_distance,
         "terminal_turn_rad": run.terminal_turn,
         "tracking_error": dict(zip(names, run.tracking_error.tolist(), strict=True)),
-        "saturated_fraction": dict(zip(names, run.saturated.tolist(), strict=True)),
+        "saturated_fraction": dict(zip(names, run.saturated_fraction.tolist(), strict=True)),
         "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
         "damping": dict(zip(names, run.damping.tolist(), strict=True)),
         "control_rate_hz": run.servos.rate,
@@ -95,7 +95,7 @@ def show(run: PhysicalRun, out: Console) -> None:
     facts.add_row("tools apart at the end", f"{format_significant(1000 * run.terminal_distance, 3)} mm")
     saturated_joints = [
         f"{joint_name} {fraction:.1%}"
-        for joint_name, fraction in zip(run.law.arm.joint_names, run.saturated, strict=True)
+        for joint_name, fraction in zip(run.law.arm.joint_names, run.saturated_fraction, strict=True)
         if fraction > 0
     ]
     facts.add_row(

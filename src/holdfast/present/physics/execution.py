@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.physics.execution import format_error
 from holdfast.present.clearance.contacts import list_contacts, tabulate_contacts
 from holdfast.present.printing import TextTable, format_significant
 from holdfast.present.story import PageContent
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     from holdfast.physics.execution import Execution
 
-Array = NDArray[np.float64]
 
 _MAX_VIEW_FRAMES = 201
 
@@ -31,7 +30,7 @@ def to_dict(run: Execution) -> dict[str, Any]:
         "outcome": run.outcome,
         "ok": run.ok,
         "time_s": run.time[-1],
-        "q_final": dict(zip(names, run.at, strict=True)),
+        "q_final": dict(zip(names, run.q_final, strict=True)),
         "locked": {} if run.degraded is None else dict(run.degraded.locked),
         "lock_time_s": {
             name: lock_instant for name, lock_instant in zip(names, run.lock_time, strict=True) if np.isfinite(lock_instant)
@@ -40,16 +39,16 @@ def to_dict(run: Execution) -> dict[str, Any]:
         "goal_distance_m": run.goal_distance,
         "goal_turn_rad": run.goal_turn,
         "keep": [constraint.to_dict() for constraint in run.keep],
-        "kept": [{"off": deviation, "turned": tilt} for deviation, tilt in run.kept],
+        "kept": [{"off": deviation, "turned": tilt} for deviation, tilt in run.constraint_errors],
         "beyond_limits": run.beyond_limits,
         "too_fast": run.too_fast,
         "error_limit": run.error_limit,
-        "exceeded": None if run.exceeded is None else {"joint": run.exceeded[0], "time_s": run.exceeded[1]},
+        "exceeded": None if run.first_excess is None else {"joint": run.first_excess[0], "time_s": run.first_excess[1]},
         "following_error": dict(zip(names, run.following_error.max(axis=0), strict=True)),
         "tool_error_m": {"most": run.tool_error[0].max(), "end": run.tool_error[0][-1]},
         "tool_error_rad": {"most": run.tool_error[1].max(), "end": run.tool_error[1][-1]},
         "tracking_error": dict(zip(names, run.tracking_error, strict=True)),
-        "saturated_fraction": dict(zip(names, run.saturated, strict=True)),
+        "saturated_fraction": dict(zip(names, run.saturated_fraction, strict=True)),
         "stiffness": dict(zip(names, run.stiffness, strict=True)),
         "damping": dict(zip(names, run.damping, strict=True)),
         "control_rate_hz": run.servos.rate,
@@ -63,7 +62,7 @@ def tables(run: Execution) -> list[TextTable]:
         rows.append(["tool off the goal, mm", format_error(1000 * run.goal_distance)])
     if run.goal_turn is not None:
         rows.append(["turned away from it, deg", format_error(np.rad2deg(run.goal_turn))])
-    for constraint, (deviation, tilt) in zip(run.keep, run.kept, strict=True):
+    for constraint, (deviation, tilt) in zip(run.keep, run.constraint_errors, strict=True):
         rows += [[f"{constraint.name}: off at most, mm", format_significant(1000 * deviation, 3)]] * bool(
             len(constraint.normals)
         )
@@ -80,7 +79,7 @@ def tables(run: Execution) -> list[TextTable]:
 def _format_largest_lag(run: Execution) -> str:
     joint_index = int(run.tracking_error.argmax())
     joint = run.arm.joints[joint_index]
-    factor, unit = joint.shown
+    factor, unit = joint.display_unit
     return f"{format_significant(factor * run.tracking_error[joint_index], 3)} {unit} ({joint.name})"
 
 
@@ -117,7 +116,7 @@ def story(run: Execution) -> PageContent:
             f"{format_significant(np.rad2deg(tilt), 3)} deg",
             f"is the most that the tool was turned away; {np.rad2deg(constraint.widest):.3g} allowed",
         )
-        for constraint, (_, tilt) in zip(run.keep, run.kept, strict=True)
+        for constraint, (_, tilt) in zip(run.keep, run.constraint_errors, strict=True)
         if np.isfinite(constraint.widest)
     ]
     return PageContent(
@@ -161,7 +160,7 @@ def figures(run: Execution) -> dict[str, Figure]:
 
     locks = run.lock_time[np.isfinite(run.lock_time) & (run.lock_time > 0)]
 
-    def make_panel(values: Array, label: str, title: str, level: tuple[float, str] | None = None) -> TimePanel:
+    def make_panel(values: FloatArray, label: str, title: str, level: tuple[float, str] | None = None) -> TimePanel:
         moments = tuple(
             (float(lock_instant), float(np.interp(lock_instant, run.time, values)), "a joint locks")
             for lock_instant in locks[:1]
@@ -174,7 +173,7 @@ def figures(run: Execution) -> dict[str, Figure]:
         distances = np.linalg.norm(run.poses[:, :3, 3] - goal_position, axis=1)
         panels.append(make_panel(distances, "tool off its goal, m", "Goal"))
     for constraint in run.keep:
-        deviation, tilt = constraint.off(run.poses)
+        deviation, tilt = constraint.distances(run.poses)
         if np.isfinite(constraint.widest):
             max_tilt = float(np.rad2deg(constraint.widest))
             panels.append(make_panel(np.rad2deg(tilt), "turned away, deg", constraint.name.capitalize(), (max_tilt, "allowed")))
@@ -184,7 +183,7 @@ def figures(run: Execution) -> dict[str, Figure]:
                     1000 * deviation, "tool off, mm", constraint.name.capitalize(), (1000 * constraint.within[0], "allowed")
                 )
             )
-    tracking_errors = np.where(run.locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
+    tracking_errors = np.where(run.is_locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
     unit = "m or rad" if run.arm.prismatic.any() else "rad"
     panels.append(make_panel(tracking_errors, f"largest servo error, {unit}", "Servos"))
     caption = f"{run.arm.name}: {run.outcome}; {run.servos.describe()}, MuJoCo"

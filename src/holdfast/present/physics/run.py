@@ -78,7 +78,7 @@ def figures(run: PhysicalRun) -> dict[str, Figure]:
             axes.plot(kinematic_path.time, factor * kinematic, color=style.SKY, linewidth=4.5)
             axes.plot(run.time, factor * physical, color=style.BLUE, linewidth=1.4)
             axes.set(xlabel="time, s", ylabel=unit, title="Error", ylim=(0, None))
-        servo_errors = np.where(run.locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
+        servo_errors = np.where(run.is_locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
         unit = "m or rad" if arm.prismatic.any() else "rad"
         servo_axes.plot(run.time, np.maximum(servo_errors, 1e-9), color=style.BLUE, linewidth=1.2)
         servo_axes.set(xlabel="time, s", ylabel=f"largest servo error of a healthy joint, {unit}", title="Servos", yscale="log")
@@ -95,4 +95,4 @@ def figures(run: PhysicalRun) -> dict[str, Figure]:
         )
         style.legend_below(figure, path_axes, 4)
         figure.suptitle(style.format_label(caption, 200), fontsize=9, color=style.SOFT)
-        return {"physics": style.finished(figure)}
+        return {"physics": style.settle_layout(figure)}

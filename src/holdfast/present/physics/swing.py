@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from holdfast.physics.fall import FreeSwing
 
 _CLOSE_UP_FACTOR = 1.5  # times the last brake time
-_VIEW_FRAMES, _VISIBLE_FRACTION = 201, 0.01  # of a motion; of the farthest that it goes
+_VIEW_FRAMES = 201  # of a motion
+_VISIBLE_FRACTION = 0.01  # of the farthest that it goes
 
 POWER_LOSS_NOTE = "A power loss frees all joints at once, and then the tool drops further."
 
@@ -33,7 +34,7 @@ def to_dict(swing: FreeSwing) -> dict[str, Any]:
         "unit": unit,
         "damping": swing.damping,
         "outcome": swing.outcome,
-        "settled": swing.settled,
+        "settled": swing.is_settled,
         f"rest_{unit}": swing.rest_angle,
         f"peak_{unit}": swing.peak,
         f"initial_acceleration_{unit}_s2": swing.initial_acceleration,
@@ -53,7 +54,7 @@ def to_dict(swing: FreeSwing) -> dict[str, Any]:
 
 def key_table(swing: FreeSwing) -> TextTable:
     """Tabulate the largest displacement, and the drop of the tool at the brake times."""
-    factor, unit = swing.arm.joints[swing.joint].shown
+    factor, unit = swing.arm.joints[swing.joint].display_unit
     rows = [["largest displacement", f"{format_significant(factor * swing.peak)} {unit}"]]
     if swing.contacts is not None:
         rows.append(
@@ -88,7 +89,7 @@ def show(swing: FreeSwing, out: Console) -> None:
     from holdfast.present.terminal import BandedTable
 
     failed = swing.arm.joints[swing.joint]
-    factor, display_unit = failed.shown
+    factor, display_unit = failed.display_unit
     unit = failed.unit
 
     def format_amount(value: float) -> str:
@@ -101,7 +102,7 @@ def show(swing: FreeSwing, out: Console) -> None:
     for sentence in swing.describe()[:2]:
         out.print(escape(sentence), soft_wrap=True)
     facts = BandedTable()
-    if swing.settled:
+    if swing.is_settled:
         facts.add_row("displacement at the end", f"[bold]{format_amount(swing.rest_angle)}[/]")
     facts.add_row("largest displacement", format_amount(swing.peak))
     facts.add_row("initial acceleration", f"{format_significant(swing.initial_acceleration)} {unit}/s^2")
@@ -129,7 +130,7 @@ def show(swing: FreeSwing, out: Console) -> None:
 def story(swing: FreeSwing) -> PageContent:
     """Compose the report: the swing of the joint, and the drop of the tool until the brakes hold it."""
     failed = swing.arm.joints[swing.joint]
-    factor, unit = failed.shown
+    factor, unit = failed.display_unit
 
     def format_amount(value: float) -> str:
         return f"{format_significant(factor * value)} {unit}"
@@ -194,7 +195,7 @@ def story(swing: FreeSwing) -> PageContent:
             (
                 "Configuration",
                 ", ".join(
-                    f"{q * swing_joint.shown[0]:.4g} {swing_joint.shown[1]}"
+                    f"{q * swing_joint.display_unit[0]:.4g} {swing_joint.display_unit[1]}"
                     for q, swing_joint in zip(swing.q, swing.arm.joints, strict=True)
                 ),
             ),
@@ -220,7 +221,7 @@ def _animate_swing(swing: FreeSwing) -> list[tuple[str, list[Any]]]:
     time = np.linspace(0.0, swing.time[end_sample - 1], _VIEW_FRAMES)
     q = np.tile(swing.q, (_VIEW_FRAMES, 1))
     q[:, swing.joint] += np.interp(time, swing.time, swing.angle)
-    factor, unit = swing.arm.joints[swing.joint].shown
+    factor, unit = swing.arm.joints[swing.joint].display_unit
     readings = [
         f"{instant:.2f} s, moved by {factor * displacement:.3g} {unit}"
         for instant, displacement in zip(time, q[:, swing.joint] - swing.q[swing.joint], strict=True)
@@ -239,10 +240,10 @@ def figures(swing: FreeSwing) -> dict[str, Figure]:
     from holdfast.report.motions import TimePanel, motion_figure
 
     failed = swing.arm.joints[swing.joint]
-    factor, unit = failed.shown
+    factor, unit = failed.display_unit
     gravity_norm = float(np.linalg.norm(swing.arm.gravity)) or 1.0
     height = -(swing.tool_position - swing.tool_position[0]) @ swing.arm.gravity / gravity_norm
-    level = (factor * swing.rest_angle, "where it ends") if swing.settled else None
+    level = (factor * swing.rest_angle, "where it ends") if swing.is_settled else None
     panels = [
         TimePanel(swing.time, factor * swing.angle, f"joint has moved, {unit}", f"Joint {failed.name}", level),
         TimePanel(swing.time, height, "tool height above its start, m", "Tool"),

@@ -156,7 +156,7 @@ def figures(region: TolerantWorkspace) -> dict[str, Figure]:
 
     maps = [
         RegionMap(
-            view.of(region.points),
+            view.project(region.points),
             view,
             region.healthy,
             region.within,

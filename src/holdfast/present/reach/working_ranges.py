@@ -40,7 +40,7 @@ def tables(working_ranges: WorkingRanges) -> list[TextTable]:
     for joint_index, (joint, limits, relative) in enumerate(
         zip(working_ranges.claim.arm.joints, working_ranges.ranges, working_ranges.relative_widths, strict=True)
     ):
-        factor, unit = joint.shown
+        factor, unit = joint.display_unit
         loss_text = str(working_ranges.lost[joint_index]) if joint_index in working_ranges.claim.locks else "does not lock"
         width = f"{factor * (limits[1] - limits[0]):.4g} {unit}"
         rows.append([joint.name, format_ranges([limits], joint), width, format_percent(float(relative)), loss_text])

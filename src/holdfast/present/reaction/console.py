@@ -28,7 +28,7 @@ def to_dict(run: FaultRun) -> dict[str, Any]:
         "time_s": run.time[-1],
         "miss_m": run.position_error[-1],
         "turn_rad": run.orientation_error[-1] if run.law.task.angular else None,
-        "faults": [event.stored() for event in run.events],
+        "faults": [event.to_stored() for event in run.events],
         "id": run.events.id,
         "noticed_s": run.detection_time,
         "alarms": [{"time_s": verdict.time, "joint": verdict.joint, "kind": verdict.kind} for verdict in run.verdicts],

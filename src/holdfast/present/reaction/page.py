@@ -44,7 +44,7 @@ def figures(run: FaultRun) -> dict[str, Figure]:
             joint_axes.legend(loc="best", fontsize=8)
         _mark_events(run, [distance_axes, error_axes, joint_axes])
         figure.suptitle(style.format_label(f"{run.arm.name}, {run.law.name}: {run.outcome}", 200), fontsize=9, color=style.SOFT)
-        return {"chain": style.finished(figure)}
+        return {"chain": style.settle_layout(figure)}
 
 
 def _mark_events(run: FaultRun, panels: Sequence[Axes]) -> None:

@@ -171,7 +171,7 @@ def story(recovery: Recovery) -> PageContent:
         [
             joint.name,
             *(
-                f"{format_significant(joint.shown[0] * position)} {joint.shown[1]}"
+                f"{format_significant(joint.display_unit[0] * position)} {joint.display_unit[1]}"
                 for position in (configurations[0, joint_index], configurations[-1, joint_index])
             ),
             recovery.degraded.mark(joint.name),
@@ -299,7 +299,7 @@ def show(recovery: Recovery, out: Console) -> None:
     for remark in list_replay_results(recovery):
         out.print(escape(f"check: {remark}"), soft_wrap=True)
     table = BandedTable("joint", "start", "end", "")
-    factors, units = zip(*(joint.shown for joint in recovery.arm.joints), strict=True)
+    factors, units = zip(*(joint.display_unit for joint in recovery.arm.joints), strict=True)
     for name, *cells in zip(
         recovery.arm.joint_names,
         *(format_column(factors * configuration, units) for configuration in recovery.q[[0, -1]]),

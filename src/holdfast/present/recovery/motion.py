@@ -10,12 +10,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from holdfast.files.output import write_files
 from holdfast.present import results
 from holdfast.present.recovery.console import resample_path
-from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, format_label, legend_below, save_png, style
+from holdfast.report.figures import (
+    BLUE,
+    FAINT,
+    ORANGE,
+    SKY,
+    SOFT,
+    WIDTH,
+    format_label,
+    legend_below,
+    save_png,
+    settle_layout,
+    style,
+)
 from holdfast.report.scenes import Scale, Scene, add_color_bar, choose_dot_area, draw_view, fit_view_spans
 from holdfast.report.timelines import LINE_COLORS
 from holdfast.report.views import SIDE_VIEW, choose_side_and_top_views
@@ -24,7 +35,6 @@ if TYPE_CHECKING:
     from holdfast.present.results import Drawings
     from holdfast.recovery.recovery import Recovery
 
-Array = NDArray[np.float64]
 
 _PATH_DOTS = 160  # of the tool's path
 _GHOST_COUNT = 4  # ghosts of the arm on its way
@@ -90,23 +100,25 @@ def _draw_motion(recovery: Recovery) -> Figure:
         center = extent_scene.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
             for index, ghost in enumerate(ghosts):
-                axes.plot(*view.of(ghost).T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if index == 0 else None)
+                axes.plot(
+                    *view.project(ghost).T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if index == 0 else None
+                )
             if has_motion:
                 axes.plot(
-                    *view.of(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
+                    *view.project(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
                 )
             draw_view(axes, scene, view, scale, choose_dot_area(scene, views, panel_width / spans[0]), spans, panel_width)
             locked_at_start = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
             locked_at_end = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
-            axes.plot(*view.of(locked_at_start).T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
-            axes.plot(*view.of(locked_at_end).T, "X", color=ORANGE, markersize=8, zorder=3.6)
+            axes.plot(*view.project(locked_at_start).T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
+            axes.plot(*view.project(locked_at_end).T, "X", color=ORANGE, markersize=8, zorder=3.6)
             axes.plot([], [], color="#1b1f24", linewidth=2.8, label="where it ends" if has_motion else "where it is and stays")
             if recovery.goal_pose is not None:
-                goal_point = view.of(recovery.goal_pose[:3, 3])
+                goal_point = view.project(recovery.goal_pose[:3, 3])
                 axes.plot(
                     *goal_point, "*", color=SKY, markeredgecolor=SOFT, markersize=13, zorder=3.4, label="goal of the tool"
                 )
-            center_x, center_y = view.of(center)
+            center_x, center_y = view.project(center)
             axes.set(
                 xlim=(center_x - spans[0] / 2, center_x + spans[0] / 2), ylim=(center_y - spans[1] / 2, center_y + spans[1] / 2)
             )
@@ -114,7 +126,7 @@ def _draw_motion(recovery: Recovery) -> Figure:
             add_color_bar(figure, scene, scale, list(panels), "fraction of the tool's path, %")
         legend_below(figure, panels[0], 5)
         figure.suptitle(format_label(_compose_title(recovery), 110), fontsize=10, x=0.01, ha="left")
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_timing(recovery: Recovery) -> Figure:
@@ -144,7 +156,7 @@ def _draw_timing(recovery: Recovery) -> Figure:
         panels[1].set(xlabel="time, s")
         legend_below(figure, panels[0], 4)
         figure.suptitle(format_label(f"{recovery.arm.name}: {timed_motion.describe()}", 110), fontsize=10, x=0.01, ha="left")
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _compose_title(recovery: Recovery) -> str:

@@ -149,7 +149,7 @@ def show(runs: Runs, out: Console) -> None:
     out.print(facts)
     out.print(f"simulated time: {format_significant(float(runs.time))} {unit}")
     table = BandedTable("joint", "start", "end", "least", "greatest", "")
-    factors, units = zip(*(joint.shown for joint in arm.joints), strict=True)
+    factors, units = zip(*(joint.display_unit for joint in arm.joints), strict=True)
     columns = [
         format_column(factors * configuration, units) for configuration in (runs.q0, runs.q_final, runs.q_low, runs.q_high)
     ]

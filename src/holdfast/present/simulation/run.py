@@ -27,13 +27,13 @@ from holdfast.report.motions import StickMotion, TimePanel, motion_figure, stick
 from holdfast.report.page import Block, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Timeline, TimelineLine, draw_small_multiples
 from holdfast.simulation.errors import ErrorHistory, error_history, least_errors
-from holdfast.simulation.runs import Path, Reason, RunOutcome, Runs
+from holdfast.simulation.runs import Reason, RunOutcome, RunPath, Runs
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first, format_number
 
-Array = NDArray[np.float64]
-
 REPEATED_SPAN_GAINS = 200.0  # 1/Ke: the part of a motion that repeats itself which is drawn
-_MIN_SAMPLES, _MAX_VIEW_FRAMES = 1001, 201
+_MIN_SAMPLES = 1001
+_MAX_VIEW_FRAMES = 201
 _SAMPLE_DENSITY = 5  # samples of a whole run in 1/Ke, or in a cycle
 _MAX_SAMPLES = 20_001
 _REACHED_ERROR = 1e-5  # an error below it counts as none
@@ -86,7 +86,7 @@ class _RunReport:
         self.time_unit = runs.unit
         self._lock_time = np.atleast_2d(runs.lock_time)[run_index]
 
-    def _run_value(self, name: str) -> Array:
+    def _run_value(self, name: str) -> FloatArray:
         values = np.asarray(getattr(self.runs, name))
         return np.asarray(values[self.run_index]) if self.runs.code.ndim else values
 
@@ -101,22 +101,22 @@ class _RunReport:
         return error_history(self.runs, self.run_index)
 
     @cached_property
-    def full_path(self) -> Path:
+    def full_path(self) -> RunPath:
         """The whole run, sampled densely enough to show every motion."""
         samples = float(self._run_value("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _SAMPLE_DENSITY
         return self._sample_path(int(np.clip(samples, _MIN_SAMPLES, _MAX_SAMPLES)), float(self._run_value("time")))
 
-    def _sample_path(self, samples: int, end_time: float) -> Path:
+    def _sample_path(self, samples: int, end_time: float) -> RunPath:
         return self.runs._simulator.sample_path(
             self.runs, self.run_index, self._interpolate, np.linspace(0.0, end_time, samples)
         )
 
     @cached_property
-    def _interpolate(self) -> Callable[[Array], Array]:
+    def _interpolate(self) -> Callable[[FloatArray], FloatArray]:
         return self.runs._simulator.replay_run(self.runs, self.run_index, float(self._run_value("time")))[1]
 
     @cached_property
-    def drawn_path(self) -> Path:
+    def drawn_path(self) -> RunPath:
         """Sampled part of the run that is drawn."""
         full_path, end_time = self.full_path, float(self._run_value("time"))
         if self._run_value("code") == RunOutcome.MOVING:
@@ -235,7 +235,7 @@ class _RunReport:
         return np.unique(np.linspace(0, len(self.drawn_path.time) - 1, _MAX_VIEW_FRAMES).astype(int))
 
     @cached_property
-    def goal_position(self) -> Array:
+    def goal_position(self) -> FloatArray:
         """Target position of the tool (3,), m; directions that the task leaves free keep their values."""
         law, start, target = self.runs.law, self.drawn_path.x[0], self._run_value("target")
         linear = law.task.rows[:, :3]
@@ -349,7 +349,7 @@ class _RunReport:
     def _draw_joints(self) -> Picture:
         panels = []
         for index, joint in enumerate(self.arm.joints):
-            scale, unit = joint.shown
+            scale, unit = joint.display_unit
             values = scale * self.drawn_path.q[:, index]
             lines = [TimelineLine(values, "position", "first")]
             margin = float(np.ptp(values)) + 0.1 * (1.0 if joint.prismatic else 100.0)

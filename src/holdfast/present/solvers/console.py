@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.files.output import open_replacement
 from holdfast.files.spreadsheet import escape_cell
@@ -22,25 +21,27 @@ from holdfast.present.printing import TextTable, format_significant, to_json_typ
 from holdfast.present.story import PageContent
 from holdfast.solvers.optima import Optima
 from holdfast.status import Status
+from holdfast.typing import FloatArray
 from holdfast.words import capitalise_first, format_percent
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-Array = NDArray[np.float64]
 
-_NEGLIGIBLE_CHANGE, _MAX_RELATIVE_CHANGE = 1e-4, 10.0  # changes that are none, and those that a fraction would not tell
+# _NEGLIGIBLE_CHANGE and _MAX_RELATIVE_CHANGE: changes that are none, and those that a fraction would not tell
+_NEGLIGIBLE_CHANGE = 1e-4
+_MAX_RELATIVE_CHANGE = 10.0
 MANY_AGREEING_FRACTION = 0.5  # fraction of starts that agree, below which more starts are worth it
 
 
 def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
     """Return all poses by name; ``asked`` contains the objective in the wording of the command line."""
     optima_rows, names = optima.rows, optima.arm.joint_names
-    value_before, before, is_worse = optima_rows.value_before, optima_rows.before, optima_rows.worse
-    clearance_before, clearance_after = optima_rows.apart(optima_rows.before), optima_rows.apart(optima_rows.q)
+    value_before, before, is_worse = optima_rows.value_before, optima_rows.q_before, optima_rows.worse
+    clearance_before, clearance_after = optima_rows.clearance_at(optima_rows.q_before), optima_rows.clearance_at(optima_rows.q)
     measures = list(_compare_measures(optima_rows))
 
-    def map_by_joint(values: Array) -> dict[str, Any]:
+    def map_by_joint(values: FloatArray) -> dict[str, Any]:
         return dict(zip(names, values.tolist(), strict=True))
 
     def build_row(pose_index: int) -> dict[str, Any]:
@@ -90,7 +91,7 @@ def key_table(optima: Optima) -> TextTable:
     """Tabulate one pose joint by joint, or one row for each pose."""
     optima_rows, arm = optima.rows, optima.arm
     if len(optima_rows.poses) == 1:
-        pairs = zip(arm.joints, optima_rows.before[0], optima_rows.q[0], strict=True)
+        pairs = zip(arm.joints, optima_rows.q_before[0], optima_rows.q[0], strict=True)
         return TextTable(
             ["joint", "before", "best"],
             [
@@ -218,7 +219,7 @@ def _draw_comparison(optima_rows: Optima, reference: str) -> list[tuple[str, lis
     pose_index = int(optima_rows.success.argmax())
     pose_note = "" if optima_rows.free else "; the tool is in the same place"
     caption = f"The arm at its best configuration and, see-through, at {reference}{pose_note}."
-    configurations = np.array([optima_rows.q[pose_index], optima_rows.before[pose_index]])
+    configurations = np.array([optima_rows.q[pose_index], optima_rows.q_before[pose_index]])
     cell = None if optima_rows.clearance is None else optima_rows.clearance.cell
     comparison_scene = scene(
         optima_rows.arm,
@@ -301,7 +302,7 @@ def _show_single_pose(optima_rows: Optima, out: Console, reference: str, unit: s
 
     from holdfast.present.terminal import BandedTable
 
-    before = optima_rows.before[0]
+    before = optima_rows.q_before[0]
     out.print(
         f"[bold]{format_significant(optima_rows.value[0], 6)}{unit}[/], {optima_rows.objective.better} wanted; "
         f"{format_significant(optima_rows.value_before[0], 6)} before (the {reference})",
@@ -343,7 +344,7 @@ def _show_clearance(optima_rows: Optima, out: Console) -> None:
 
     if optima_rows.clearance is None:
         return
-    before, after = optima_rows.apart(optima_rows.before), optima_rows.apart(optima_rows.q)
+    before, after = optima_rows.clearance_at(optima_rows.q_before), optima_rows.clearance_at(optima_rows.q)
     collision_phrase, blocked = optima_rows.clearance.too_close(optima_rows.margin), int(optima_rows.blocked.sum())
     if len(before) == 1:
         distance_text = ", ".join(
@@ -354,7 +355,7 @@ def _show_clearance(optima_rows: Optima, out: Console) -> None:
         text = f"clearance of the arm from {optima_rows.clearance.everything}: {distance_text}"
         text += f"; a better configuration {collision_phrase} and was not taken: {optima_rows.obstacles[0]}" if blocked else ""
     else:
-        counts = [int(optima_rows.close(distances).sum()) for distances in (optima_rows.before, optima_rows.q)]
+        counts = [int(optima_rows.close(distances).sum()) for distances in (optima_rows.q_before, optima_rows.q)]
         text = (
             f"the arm {collision_phrase} in {counts[0]} of {len(before)} configurations before, in {counts[1] or 'none'} after"
         )
@@ -428,7 +429,7 @@ def _describe_objective(optima: Optima) -> str:
     return f"{verb} {getattr(objective, 'label', objective.name)}"
 
 
-def _compare_measures(optima_rows: Optima) -> Iterator[tuple[str, tuple[str, ...], Array, Array]]:
+def _compare_measures(optima_rows: Optima) -> Iterator[tuple[str, tuple[str, ...], FloatArray, FloatArray]]:
     """Yield for every summand its name, the unit of each joint, and the values of each joint before and after, (N, n)."""
     measures_by_name: dict[str, tuple[Index | Susceptibility, tuple[str, ...]]] = {}
     for measure in _list_summands(optima_rows.objective):
@@ -437,7 +438,7 @@ def _compare_measures(optima_rows: Optima) -> Iterator[tuple[str, tuple[str, ...
         elif isinstance(measure, Index):
             measures_by_name[measure.label] = _with_single_failures(measure), (measure.unit,) * optima_rows.arm.n
     for label, (measure, units) in measures_by_name.items():
-        yield label, units, measure.by_joint(optima_rows.before), measure.by_joint(optima_rows.q)
+        yield label, units, measure.by_joint(optima_rows.q_before), measure.by_joint(optima_rows.q)
 
 
 def _with_single_failures(index: Index) -> Index:

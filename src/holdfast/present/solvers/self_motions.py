@@ -249,7 +249,7 @@ def format_ranges(intervals: Sequence[Sequence[float]], joint: Joint) -> str:
     """Format ranges of a joint with their unit."""
     if not intervals:
         return "-"
-    factor, unit = joint.shown
+    factor, unit = joint.display_unit
     return ", ".join(" to ".join(_format_bound(factor * bound) for bound in ends) for ends in intervals) + f" {unit}"
 
 
@@ -280,10 +280,10 @@ def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[f
 
     arm = motion.arm
     lower, upper = finite_limits(arm)
-    factors = np.array([joint.shown[0] for joint in arm.joints])
+    factors = np.array([joint.display_unit[0] for joint in arm.joints])
     panels = [
         JointPanel(
-            f"{joint.name}, {joint.shown[1]}",
+            f"{joint.name}, {joint.display_unit[1]}",
             [(factor * begin, factor * finish) for begin, finish in joint_arcs],
             (factor * lower_limit, factor * upper_limit),
         )

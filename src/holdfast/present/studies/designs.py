@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.task import Task
 from holdfast.arms.serial import from_dict
@@ -16,9 +15,8 @@ from holdfast.report import figures
 from holdfast.report.page import Block, Cell, Picture, Table, Text
 from holdfast.studies.jobs.designs import read_design_space
 from holdfast.studies.results import DesignSweep
+from holdfast.typing import FloatArray
 from holdfast.words import format_count, format_decimals, format_number, format_percent
-
-Array = NDArray[np.float64]
 
 _MAX_FRONT_DESIGNS = 8  # designs of the front in the table
 
@@ -117,7 +115,7 @@ def _format_level(swept: DesignSweep) -> str:
     return f"{100 * swept.plan['level']:.4g} %"
 
 
-def _format_parameter_effect(values: Array, swept: DesignSweep, factor: float) -> tuple[str, str]:
+def _format_parameter_effect(values: FloatArray, swept: DesignSweep, factor: float) -> tuple[str, str]:
     """Format the rank correlation of a parameter with the guaranteed value, and its middle half in the best tenth."""
     from scipy import stats
 

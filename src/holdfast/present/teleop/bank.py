@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast import arms
 from holdfast.files.output import write_files
@@ -16,13 +15,11 @@ from holdfast.teleop.bank.selection import Binning, TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
 from holdfast.teleop.protocol.protocol import Protocol, read_protocol
 from holdfast.teleop.records.tables import bank_table
+from holdfast.typing import IndexArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 def figures(choice: TaskChoice) -> dict[str, Figure]:
@@ -67,7 +64,9 @@ def _make_protocol(choice: TaskChoice, spec: str) -> Protocol:
     return protocol.with_tasks(bank.tasks.take(tasks), notes)
 
 
-def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *, special: Indices | None = None) -> Figure:
+def bank_figure(
+    bank: TaskBank, cells: Binning, chosen: IndexArray | None = None, *, special: IndexArray | None = None
+) -> Figure:
     """Draw CPM3 against CPM4/CPM3 with the grid of cells; chosen tasks have their numbers.
 
     Args:
@@ -81,7 +80,7 @@ def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *
     """
     from matplotlib.figure import Figure
 
-    from holdfast.report.figures import WIDTH, finished, legend_below, style
+    from holdfast.report.figures import WIDTH, legend_below, settle_layout, style
 
     chosen_tasks = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
     special_tasks = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
@@ -101,7 +100,7 @@ def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *
             title += f", task {' and '.join(missing_numbers)} among them"
         axes.set_title(title, fontweight="normal", fontsize=9.5)
         legend_below(figure, axes, 4)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
@@ -136,7 +135,7 @@ def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
     axes.grid(visible=False)
 
 
-def _label_tasks(axes: Axes, bank: TaskBank, rows: Indices, numbers: int | Indices, special: bool) -> None:
+def _label_tasks(axes: Axes, bank: TaskBank, rows: IndexArray, numbers: int | IndexArray, special: bool) -> None:
     from matplotlib.patheffects import withStroke
 
     from holdfast.report.figures import BLUE, INK, ORANGE

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.present.teleop import figures
 from holdfast.present.teleop.motions import Motion, motions_figure, ring
@@ -14,11 +13,10 @@ from holdfast.report.page import Block, Picture
 from holdfast.teleop.analysis.observations import MEASURE_NAMES
 from holdfast.teleop.analysis.result import Analysis, Paths
 from holdfast.teleop.analysis.tables import median_operator
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from holdfast.teleop.protocol.protocol import Protocol
-
-Array = NDArray[np.float64]
 
 
 def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | None, paths: Paths | None) -> list[Block]:
@@ -79,7 +77,7 @@ def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths
         if title == "operator" and name is None:
             continue
         for condition in observed.conditions:
-            path: Array | None = paths(name, task, condition.scenario)
+            path: FloatArray | None = paths(name, task, condition.scenario)
             if path is not None and len(path):
                 label = f"{condition.label}" if title == "operator" else f"computer, {condition.label}"
                 motions.append(

@@ -14,12 +14,11 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, format_label, legend_below, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, format_label, legend_below, settle_layout, style
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.trials.performance import MEASURES
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 SERIES_COLORS = (BLUE, ORANGE, "#007a5e", "#a8497f", "#c58a00", "#4aa3d6")
 _SERIES_MARKERS = ("o", "^", "s", "D", "v", "P")
@@ -32,8 +31,8 @@ _LOG_SCALE_RATIO = 30  # largest over smallest: beyond, the axis is logarithmic
 class Scatter:
     """Tasks in a plane, with their correlation."""
 
-    x: Array
-    y: Array
+    x: FloatArray
+    y: FloatArray
     xlabel: str
     ylabel: str
     correlation: Correlation
@@ -65,7 +64,7 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
                 axis_end = float(values[np.isfinite(values)].max(initial=1.0))
                 axes.plot([0, axis_end], [0, axis_end], color=SOFT, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
         legend_below(figure, figure.axes[0], len(names))
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
@@ -108,7 +107,7 @@ def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
             )
             axes.grid(axis="x", visible=False)
         legend_below(figure, figure.axes[0], len(scenarios))
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def draw_cell_means(analysis: Analysis) -> Figure:
@@ -160,10 +159,12 @@ def draw_cell_means(analysis: Analysis) -> Figure:
         axes.set(ylabel="mean CPM of a subject, failed arm", ylim=(0, None))
         axes.grid(axis="x", visible=False)
         legend_below(figure, axes, len(analysis.cells.laws))
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def measures_figure(values: Sequence[Sequence[Array]], computer: Sequence[Array] | None, scenarios: Sequence[int]) -> Figure:
+def measures_figure(
+    values: Sequence[Sequence[FloatArray]], computer: Sequence[FloatArray] | None, scenarios: Sequence[int]
+) -> Figure:
     """Draw for CPM and each measure, in each scenario, the range, a histogram, mean, median, and the computer (Figs 5 to 7).
 
     Args:
@@ -194,7 +195,7 @@ def measures_figure(values: Sequence[Sequence[Array]], computer: Sequence[Array]
         for axes in panels[max(0, len(values) - columns) : len(values)]:
             axes.set_xlabel("scenario")
         figure.legend(handles=_legend_handles(computer is not None), loc="lower center", ncols=5, columnspacing=2.0)
-        return finished(figure)
+        return settle_layout(figure)
 
 
 def label_measure(measure: int) -> tuple[str, float]:
@@ -207,7 +208,9 @@ def label_measure(measure: int) -> tuple[str, float]:
     return f"{definition.name} {definition.about}{'' if definition.unit == '1' else f', {definition.unit}'}", 1.0
 
 
-def _draw_distributions(axes: Axes, values: Sequence[Array], computer: Array | None, scenarios: Sequence[int]) -> None:
+def _draw_distributions(
+    axes: Axes, values: Sequence[FloatArray], computer: FloatArray | None, scenarios: Sequence[int]
+) -> None:
     finite_values = [np.where(np.abs(sample) < _ROUNDING_TOLERANCE, 0.0, sample)[np.isfinite(sample)] for sample in values]
     computer_values = (
         np.full(len(finite_values), np.nan)
@@ -308,4 +311,4 @@ def draw_power(analysis: Analysis) -> Figure:
             axes.set(xlabel="subjects", title=format_label(effect), ylim=(0, 1.03))
         figure.axes[0].set_ylabel("probability of significance")
         legend_below(figure, figure.axes[0], 2)
-        return finished(figure)
+        return settle_layout(figure)

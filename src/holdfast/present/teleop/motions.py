@@ -12,12 +12,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.report.figures import FAINT, INK, ORANGE, SOFT, WIDTH, finished, format_label, style
-
-Array = NDArray[np.float64]
+from holdfast.report.figures import FAINT, INK, ORANGE, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.typing import FloatArray
 
 _TIME_COLORMAP = LinearSegmentedColormap.from_list("time", ["#b9d6ee", "#0a5c9e", "#04233f"])
 _LOST_COLOR = "#e4e7ea"
@@ -32,7 +30,7 @@ class Ring:
     outer: float
 
 
-def ring(arm: Arm, q: Array, locked: int | None = None) -> Ring | None:
+def ring(arm: Arm, q: FloatArray, locked: int | None = None) -> Ring | None:
     """Return the ring that the tool point of a planar arm can reach, with one joint locked at its angle in ``q`` or with none.
 
     Args:
@@ -70,9 +68,9 @@ class Motion:
         left: What is left of it; None if nothing is lost.
     """
 
-    path: Array
+    path: FloatArray
     title: str
-    target: Array
+    target: FloatArray
     radius: float
     whole: Ring | None = None
     left: Ring | None = None
@@ -142,10 +140,10 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
         panels[0].set(
             xlim=(center[0] - half_width, center[0] + half_width), ylim=(center[1] - half_width, center[1] + half_width)
         )
-        return finished(figure)
+        return settle_layout(figure)
 
 
-def _find_extent(motions: Sequence[Motion]) -> tuple[Array, Array]:
+def _find_extent(motions: Sequence[Motion]) -> tuple[FloatArray, FloatArray]:
     points = [np.vstack([motion.path, motion.target - motion.radius, motion.target + motion.radius]) for motion in motions]
     for motion in motions:
         if motion.whole is not None:

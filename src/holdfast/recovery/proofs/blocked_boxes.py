@@ -6,19 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-from holdfast.clearance.capsules import BASE_LINK, Capsule, Capsules
+from holdfast.clearance.capsules import BASE_LINK, Capsules, LinkCapsule
 from holdfast.clearance.changes import pair_lipschitz_bounds
 from holdfast.clearance.clearance import Clearance
+from holdfast.typing import BoolArray, FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.exact.meetings import ArmBody
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 _ROUNDING_SLACK_M = 1e-9  # m: rounding
 _CONTACT_TOLERANCE_M = 2e-6  # m: what the exact sign may not see of two links
@@ -39,7 +37,7 @@ class BlockedBoxes:
         limits: (n,) and (n,), what all boxes lie within, rad and m; the arm's if not given.
     """
 
-    def __init__(self, clearance: Clearance, margin: float, limits: tuple[Array, Array] | None = None) -> None:
+    def __init__(self, clearance: Clearance, margin: float, limits: tuple[FloatArray, FloatArray] | None = None) -> None:
         obstacles, (self._inner_model, solids) = clearance.obstacles, clearance.exactness.inner_objects
         self._arm, self._object_names, self._blockers = clearance.arm, [solid.name for solid in solids], set[str]()
         self._margins = np.array([margin + obstacles.cell.margin_of(solid) for solid in solids]) if obstacles else np.zeros(0)
@@ -51,7 +49,7 @@ class BlockedBoxes:
         self._self_clearance, self._margin = clearance.alone, margin
         self._self_pairs = _find_self_pairs(clearance, limits or finite_limits(self._arm))
 
-    def __call__(self, q: Array, half_widths: Array) -> Flags:
+    def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half`` (N, n) of q (N, n) is blocked."""
         is_blocked = np.zeros(len(q), dtype=bool)
         indices = np.flatnonzero(np.sort(half_widths, axis=1)[:, half_widths.shape[1] // 2] < _MAX_HALF_WIDTH)
@@ -62,7 +60,7 @@ class BlockedBoxes:
             is_blocked[indices] = self._is_blocked_by_objects(q[indices], half_widths[indices])
         return is_blocked
 
-    def is_self_blocked(self, q: Array, half_widths: Array) -> Flags:
+    def is_self_blocked(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked by the arm alone."""
         is_blocked, pair_distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
         for pair in self._self_pairs:
@@ -77,7 +75,7 @@ class BlockedBoxes:
                 self._blockers.add(pair.name)
         return is_blocked
 
-    def _is_blocked_by_objects(self, q: Array, half_widths: Array) -> Flags:
+    def _is_blocked_by_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         is_blocked = np.zeros(len(q), dtype=bool)
         margins = self._inner_model.link_distances(q) - self._margins
         indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
@@ -120,10 +118,10 @@ class _SelfCollisionPair:
 
     name: str
     columns: list[int]
-    lipschitz_bounds: Array
-    balls: tuple[int, int, Array, Array, Array] | None = None
+    lipschitz_bounds: FloatArray
+    balls: tuple[int, int, FloatArray, FloatArray, FloatArray] | None = None
 
-    def measure_distances(self, arm: Arm, q: Array, pair_distances: Array) -> Array:
+    def measure_distances(self, arm: Arm, q: FloatArray, pair_distances: FloatArray) -> FloatArray:
         """Return distances (N, K) at q (N, n), from those of all pairs (N, P)."""
         if self.balls is None:
             return pair_distances[:, self.columns]
@@ -140,7 +138,7 @@ class _SelfCollisionPair:
         return np.asarray(np.linalg.norm(offsets, axis=2) - radii)
 
 
-def _find_self_pairs(clearance: Clearance, limits: tuple[Array, Array]) -> list[_SelfCollisionPair]:
+def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]) -> list[_SelfCollisionPair]:
     """Return the links that may touch each other, with balls that are certainly inside them."""
     self_pairs, arm, capsules = [], clearance.arm, clearance.capsules
     if capsules.shape is None:
@@ -151,7 +149,7 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[Array, Array]) -> list[
     parts = clearance.exactness.parts
     for columns, bodies in clearance.exactness.own_bodies:
         ball_pairs = [
-            (Capsule(parts[a].link, tuple(x), tuple(x), radius=r), Capsule(parts[b].link, tuple(y), tuple(y), radius=s))
+            (LinkCapsule(parts[a].link, tuple(x), tuple(x), radius=r), LinkCapsule(parts[b].link, tuple(y), tuple(y), radius=s))
             for a, b in bodies
             if columns and parts[a].known and parts[b].known and not (parts[a].held or parts[b].held)
             for x, r in _list_inner_balls(parts[a])
@@ -176,7 +174,7 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[Array, Array]) -> list[
     return self_pairs
 
 
-def _list_inner_balls(part: ArmBody) -> list[tuple[Array, float]]:
+def _list_inner_balls(part: ArmBody) -> list[tuple[FloatArray, float]]:
     """Return the centers (3,) in the frame of the link and the radii, m, of balls inside a body."""
     centers, radii = part.body.inner_spheres
     centers = centers @ part.body.pose[:3, :3].T + part.body.pose[:3, 3]

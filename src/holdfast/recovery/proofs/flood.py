@@ -31,15 +31,14 @@ from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.rows import TaskRows
 from holdfast.recovery.space import FreeSpace
 from holdfast.solvers import joint_space
+from holdfast.typing import BoolArray, FloatArray
 
 if TYPE_CHECKING:
     from holdfast.clearance.exact.meetings import ArmBody
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Cells = NDArray[np.int64]
 Indices = NDArray[np.intp]
-Holds = Callable[[Array, Array], Flags]
+Holds = Callable[[FloatArray, FloatArray], BoolArray]
 """Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
 
 _MAX_JOINTS = 3  # that move, at most
@@ -52,13 +51,12 @@ _CHUNK_ROWS = 4096
 _SAMPLED_CONFIGURATIONS = 64  # configurations
 _MAX_CONFINED_CELLS = 25_000  # the same of some of more joints
 _MAX_PENETRATION_M = 0.15  # m: deeper in an object hardly a ball is
-_MAX_CONFINED_JOINTS, _MAX_CONFINED_FLOODS = (
-    2,
-    2,
-)  # of more joints: over how many of them a flood goes, and how often it is tried
+# _MAX_CONFINED_JOINTS and _MAX_CONFINED_FLOODS: of more joints: over how many of them a flood goes, and how often it is tried
+_MAX_CONFINED_JOINTS = 2
+_MAX_CONFINED_FLOODS = 2
 
 
-def prove_disconnected(space: FreeSpace, start: Array, may_hold_goal: Holds) -> str | None:
+def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: Holds) -> str | None:
     """Prove that no motion leads from a start (n,) to the goal, and return the proof as a sentence; None if that fails.
 
     Of at most three joints that move; of more see :func:`find_confined_floods`.
@@ -72,7 +70,7 @@ def prove_disconnected(space: FreeSpace, start: Array, may_hold_goal: Holds) -> 
     return None
 
 
-def find_confined_floods(space: FreeSpace, start: Array, known_goals: Array) -> Iterator[Flood]:
+def find_confined_floods(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[Flood]:
     """Yield floods over one or two of more than three moving joints that are confined, wherever the other joints are.
 
     Those between two links that touch each other, and the first two, whose links touch objects. Only floods that hold none of
@@ -123,13 +121,13 @@ class Flood:
 
     names: list[str]
     joints: Indices
-    lower: Array
-    cell_widths: Array
-    is_unlimited: Flags
+    lower: FloatArray
+    cell_widths: FloatArray
+    is_unlimited: BoolArray
     cells_per_joint: int
     cells: Cells
-    middle: Array
-    half_widths: Array
+    middle: FloatArray
+    half_widths: FloatArray
     checked_cells: int
 
     @property
@@ -149,7 +147,7 @@ class Flood:
             counts = counts.cumsum(axis=axis)
         return counts
 
-    def excludes(self, q: Array, half_widths: Array) -> Flags:
+    def excludes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where no configuration within ``half_widths`` (N, n) of q (N, n) is in a connected cell."""
         positions, widths = q[:, self.joints], half_widths[:, self.joints]
         positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
@@ -168,7 +166,7 @@ class Flood:
 
 
 def _generate_floods(
-    space: FreeSpace, start: Array, joints: Indices, blocked: Blocked, max_cells: int | None = None
+    space: FreeSpace, start: FloatArray, joints: Indices, blocked: Blocked, max_cells: int | None = None
 ) -> Iterator[Flood]:
     """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere within their
     limits.
@@ -217,14 +215,14 @@ def _generate_floods(
         cells_per_joint *= 2
 
 
-def make_configuration_test(space: FreeSpace, q: Array) -> Holds:
+def make_configuration_test(space: FreeSpace, q: FloatArray) -> Holds:
     """Return the test of cells for a goal that is a configuration (n,)."""
     return lambda middle, half: np.asarray(
         (np.abs(joint_space.joint_difference(space.arm, middle, q)) <= half + _ROUNDING_SLACK).all(axis=1, where=space.free)
     )
 
 
-def make_pose_test(space: FreeSpace, rows: TaskRows, poses: Array, tolerance: tuple[float, float] = (1e-6, 1e-6)) -> Holds:
+def make_pose_test(space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)) -> Holds:
     """Return the test of cells for a goal that is any of poses (G, 4, 4); rows that mix translation and rotation
     are ignored.
     """
@@ -235,7 +233,7 @@ def make_pose_test(space: FreeSpace, rows: TaskRows, poses: Array, tolerance: tu
     full_orientation = int(np.linalg.matrix_rank(rows.matrix[is_rotation, 3:])) == 3 if is_rotation.any() else False
     tool_point = _LinkPoints(np.array([arm.n - 1]), arm.tool[None, :3, 3])
 
-    def may_hold_pose(middle: Array, half_widths: Array) -> Flags:
+    def may_hold_pose(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
         frames = arm.frames(middle)
         max_translations = tool_point.bound_motion(arm, frames, half_widths)[:, 0] + np.sqrt(3) * tolerance[0] + _ROUNDING_SLACK
         max_rotation = float(half_widths[~arm.prismatic].sum()) + np.sqrt(3) * tolerance[1] + _ROUNDING_SLACK
@@ -258,7 +256,7 @@ def make_pose_test(space: FreeSpace, rows: TaskRows, poses: Array, tolerance: tu
     return may_hold_pose
 
 
-def _bound_joints(space: FreeSpace, free: Indices) -> tuple[Array, Array, Flags] | None:
+def _bound_joints(space: FreeSpace, free: Indices) -> tuple[FloatArray, FloatArray, BoolArray] | None:
     """Return the bounds of the free joints and which of them are unlimited; None if the bounds are not known."""
     lower, upper = space.arm.lower[free], space.arm.upper[free]
     is_unlimited = joint_space.is_unlimited(space.arm)[free]
@@ -266,7 +264,7 @@ def _bound_joints(space: FreeSpace, free: Indices) -> tuple[Array, Array, Flags]
     return (lower, upper, is_unlimited) if np.isfinite([lower, upper]).all() and (upper > lower).all() else None
 
 
-def _connect_cells(cells: Cells, holds_start: Flags, cells_per_joint: int, is_unlimited: Flags) -> Flags:
+def _connect_cells(cells: Cells, holds_start: BoolArray, cells_per_joint: int, is_unlimited: BoolArray) -> BoolArray:
     """Return (N,) True for cells (N, f) connected to a start cell, also through corners and around unlimited joints."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -302,9 +300,9 @@ class _LinkPoints:
     """
 
     link: NDArray[np.int64]
-    local_positions: Array
+    local_positions: FloatArray
 
-    def world_positions(self, frames: Array) -> Array:
+    def world_positions(self, frames: FloatArray) -> FloatArray:
         """Return the positions (N, P, 3) in the world, m."""
         positions = np.empty((len(frames), len(self.link), 3))
         for link in np.unique(self.link):
@@ -312,7 +310,9 @@ class _LinkPoints:
             positions[:, on_link] = self.local_positions[on_link] @ pose[:, :3, :3].transpose(0, 2, 1) + pose[:, None, :3, 3]
         return positions
 
-    def bound_motion(self, arm: Arm, frames: Array, half_widths: Array, positions: Array | None = None) -> Array:
+    def bound_motion(
+        self, arm: Arm, frames: FloatArray, half_widths: FloatArray, positions: FloatArray | None = None
+    ) -> FloatArray:
         """Return (N, P) upper bounds of the motion of each point where joints move by up to ``half_widths`` (n,), m.
 
         From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
@@ -353,7 +353,7 @@ class _BlockedCells:
         self._points = _LinkPoints(
             np.array([link for link, _, _ in ball_rows]), np.array([centre for _, centre, _ in ball_rows]).reshape(-1, 3)
         )
-        self._objects: list[tuple[PrimitiveSolid, float, Flags]] = []
+        self._objects: list[tuple[PrimitiveSolid, float, BoolArray]] = []
         for index, solid in enumerate(() if obstacles is None else obstacles.cell):
             assert obstacles is not None
             is_ignored = obstacles.may_touch[self._points.link + 1, index] if len(ball_rows) else np.zeros(0, dtype=bool)
@@ -375,7 +375,7 @@ class _BlockedCells:
         restricted._objects = [(solid, margin, is_ignored[is_useful]) for solid, margin, is_ignored in self._objects]
         return restricted
 
-    def __call__(self, q: Array, half_widths: Array) -> Flags:
+    def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half_widths`` (N, n), all rows equal, of q (N, n) is blocked."""
         joint_half_widths = half_widths[0]
         space, is_blocked = self._space, np.zeros(len(q), dtype=bool)
@@ -396,7 +396,7 @@ class _BlockedCells:
         return is_blocked
 
 
-def _list_body_balls(part: ArmBody) -> list[tuple[Array, float]]:
+def _list_body_balls(part: ArmBody) -> list[tuple[FloatArray, float]]:
     """Return centers (3,) in the frame of the link and radii, m, of balls inside a body, closer together in round bodies."""
     body = part.body
     centers, radii = body.inner_spheres

@@ -18,9 +18,7 @@ from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.recovery import Recovery
 from holdfast.recovery.rows import RowSolver
 from holdfast.recovery.space import FreeSpace
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 MAX_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
 _RELATIVE_SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
@@ -29,7 +27,7 @@ ANY_ORIENTATION = "; this is about the position alone, so it holds for every ori
 EXACT_TOLERANCE: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
 
 
-def prove_unreachable(solver: RowSolver, free: Flags, q_locked: Array, pose: Array) -> str | None:
+def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, pose: FloatArray) -> str | None:
     """Prove that a pose (4, 4) is out of reach, if its position counts, and return the sentence; None if that fails.
 
     Args:
@@ -50,8 +48,8 @@ def prove_unreachable(solver: RowSolver, free: Flags, q_locked: Array, pose: Arr
 
 
 def enumerate_collision_free(
-    recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: Array
-) -> tuple[Array, NDArray[np.int64], list[str | None]]:
+    recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: FloatArray
+) -> tuple[FloatArray, NDArray[np.int64], list[str | None]]:
     """Enumerate the collision-free configurations of poses (G, 4, 4), each pose in half of the remaining time.
 
     Returns:
@@ -76,7 +74,7 @@ def enumerate_collision_free(
     return goals, pose_indices, proofs
 
 
-def proves_no_solution(degraded: Degraded, task: Task, pose: Array, space: FreeSpace, tolerance: Tolerance) -> bool:
+def proves_no_solution(degraded: Degraded, task: Task, pose: FloatArray, space: FreeSpace, tolerance: Tolerance) -> bool:
     """Return True if it is proved that no collision-free configuration meets a pose (4, 4) within a tolerance, m and rad.
 
     In half of the time that is left.
@@ -94,7 +92,7 @@ def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:
 def enumerate_configurations(
     degraded: Degraded,
     task: Task,
-    pose: Array,
+    pose: FloatArray,
     time_limit: float,
     is_blocked: Blocked | None = None,
     tolerance: Tolerance = EXACT_TOLERANCE,
@@ -170,7 +168,7 @@ def prove_no_configuration(
 
 
 def prove_out_of_reach(
-    arm: Arm, free: Flags, q_locked: Array, pose: Array, whole_pose: bool, planar: Array | None
+    arm: Arm, free: BoolArray, q_locked: FloatArray, pose: FloatArray, whole_pose: bool, planar: FloatArray | None
 ) -> str | None:
     """Prove that a pose is out of reach with joints locked, and return the sentence; None if this bound cannot prove it.
 
@@ -229,7 +227,7 @@ def prove_out_of_reach(
     return None
 
 
-def _bound_distance(arm: Arm, k: int, offset: Array, is_planar: bool) -> tuple[float, float]:
+def _bound_distance(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
     """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar:
     across its axis.
     """

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.task import Task
 from holdfast.certificates.claims import out_of_reach_claim
@@ -12,13 +11,12 @@ from holdfast.certificates.prover import certify
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
 from holdfast.grammar import TASK_SIZES
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-_MAX_BISECTIONS = 20  # halvings of each joint: a single pose may be near to one that is reached
+_MAX_JOINT_BISECTIONS = 20  # halvings of each joint: a single pose may be near to one that is reached
 
 
-def certify_unreachable_pose(degraded: Degraded, task: Task, pose: Array, time_limit: float | None) -> Refutation:
+def certify_unreachable_pose(degraded: Degraded, task: Task, pose: FloatArray, time_limit: float | None) -> Refutation:
     """Certify that no configuration within the remaining limits has a pose (4, 4); locked joints have equal limits.
 
     Raises:
@@ -39,7 +37,7 @@ def certify_unreachable_pose(degraded: Degraded, task: Task, pose: Array, time_l
             task="pointing" if task.name == "pointing" else None,
             limits=dict(enumerate(zip(degraded.lo.tolist(), degraded.hi.tolist(), strict=True))),
         ),
-        halvings=_MAX_BISECTIONS,
+        halvings=_MAX_JOINT_BISECTIONS,
         time_limit=time_limit,
     )
     if certificate.refuted:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from holdfast.recovery.proofs.flood import (
     Flood,
     find_confined_floods,
@@ -16,9 +13,7 @@ from holdfast.recovery.proofs.reach import EXACT_TOLERANCE, Tolerance, enumerate
 from holdfast.recovery.recovery import Recovery
 from holdfast.recovery.rows import TaskRows
 from holdfast.recovery.space import FreeSpace
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
 
 
 def prove_separated(
@@ -26,10 +21,10 @@ def prove_separated(
     rows: TaskRows,
     space: FreeSpace,
     *,
-    start: Array,
-    known_goals: Array,
-    poses: Array,
-    q_goal: Array | None = None,
+    start: FloatArray,
+    known_goals: FloatArray,
+    poses: FloatArray,
+    q_goal: FloatArray | None = None,
 ) -> tuple[str, bool] | None:
     """Prove that no motion leads to the goal; return the sentence and its validity within the tolerance, or None.
 
@@ -57,13 +52,15 @@ def prove_separated(
     return None
 
 
-def _proves_no_goal_in_flood(flood: Flood, recovery: Recovery, pose: Array, space: FreeSpace, tolerance: Tolerance) -> bool:
+def _proves_no_goal_in_flood(
+    flood: Flood, recovery: Recovery, pose: FloatArray, space: FreeSpace, tolerance: Tolerance
+) -> bool:
     """Return True if it is proved that no collision-free configuration of a pose (4, 4) is in a flood, in half of the time
     left.
     """
     blocked_boxes = make_blocked_boxes(space)
 
-    def is_excluded(middle: Array, half_widths: Array) -> Flags:
+    def is_excluded(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
         excluded = flood.excludes(middle, half_widths)
         if blocked_boxes is not None and not excluded.all():
             excluded[~excluded] = blocked_boxes(middle[~excluded], half_widths[~excluded])

@@ -6,19 +6,18 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
+from holdfast.typing import BoolArray, FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 AccelerationsLike = ArrayLike | Mapping[str, float] | Mapping[int, float]
 """rad/s^2 and m/s^2: a number, (n,) numbers, or by joint, by name or index from 0."""
 
 
-def parse_acceleration_limits(arm: Arm, accelerations: AccelerationsLike, is_moving: Flags) -> Array:
+def parse_acceleration_limits(arm: Arm, accelerations: AccelerationsLike, is_moving: BoolArray) -> FloatArray:
     """Return the acceleration limits (n,) of the joints that move (n,), rad/s^2 and m/s^2; 0 of others.
 
     Raises:

@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import rotation_vectors
@@ -19,13 +18,11 @@ from holdfast.paths.joint_table import motion_columns
 from holdfast.recovery.space import FreeSpace
 from holdfast.recovery.timing.profile import compute_fastest_profile
 from holdfast.recovery.timing.rounding import CornerChords, find_corner_cuts, round_corners
+from holdfast.typing import BoolArray, FloatArray
 from holdfast.words import format_count
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-
 PATH_TOLERANCE = 5e-4, np.deg2rad(0.25)  # m and rad: what a rounded corner may take off a tool path
-_DUPLICATE_TOLERANCE = 1e-12  # rad and m: waypoints this near are one
+_WAYPOINT_TOLERANCE = 1e-12  # rad and m: waypoints this near are one
 _MAX_ROWS = 1_000_000  # rows
 _MERGE_RATIO = 1.0  # of the shorter line beside two waypoints: those nearer to each other than that are tried as one
 
@@ -49,15 +46,15 @@ class TimedMotion:
     """
 
     arm: Arm
-    time: Array
-    q: Array
-    qd: Array
-    qdd: Array
-    accelerations: Array
+    time: FloatArray
+    q: FloatArray
+    qd: FloatArray
+    qdd: FloatArray
+    accelerations: FloatArray
     duration: float
     without: float | None
     stops: int
-    place: Array
+    place: FloatArray
 
     @property
     def period(self) -> float:
@@ -83,13 +80,13 @@ class TimedMotion:
 def time_motion(
     space: FreeSpace,
     degraded: Degraded,
-    q: Array,
+    q: FloatArray,
     *,
-    accelerations: Array,
+    accelerations: FloatArray,
     period: float,
     without: float | None,
     stop_indices: Sequence[int] = (),
-    path_samples: tuple[Array, slice] | None = None,
+    path_samples: tuple[FloatArray, slice] | None = None,
     stop_at_corners: bool = False,
 ) -> TimedMotion:
     """Return the fastest motion found through waypoints (K, n), straight in joint space except for their corners.
@@ -116,7 +113,7 @@ def time_motion(
         path_fractions[path_samples[1]] = path_samples[0]
     must_stop = np.zeros(len(q), dtype=bool)
     must_stop[list(stop_indices)] = True
-    is_distinct = np.concatenate([[True], np.abs(np.diff(q, axis=0)).max(axis=1) > _DUPLICATE_TOLERANCE])
+    is_distinct = np.concatenate([[True], np.abs(np.diff(q, axis=0)).max(axis=1) > _WAYPOINT_TOLERANCE])
     group = np.cumsum(is_distinct) - 1
     waypoints, must_stop, path_fractions = q[is_distinct], np.bincount(group, must_stop) > 0, path_fractions[is_distinct]
     waypoints[-1] = q[-1]
@@ -154,7 +151,7 @@ def time_motion(
     )
 
 
-def _are_chords_valid(space: FreeSpace, on_path: Flags, chords: CornerChords) -> Flags:
+def _are_chords_valid(space: FreeSpace, on_path: BoolArray, chords: CornerChords) -> BoolArray:
     """Return (E,) True for chords that are valid and, where waypoints are on a tool path (K,), within the tolerance of the
     path.
     """
@@ -166,8 +163,8 @@ def _are_chords_valid(space: FreeSpace, on_path: Flags, chords: CornerChords) ->
 
 
 def _merge_close_waypoints(
-    space: FreeSpace, waypoints: Array, is_fixed: Flags, must_stop: Flags, path_fractions: Array
-) -> tuple[Array, Flags, Array]:
+    space: FreeSpace, waypoints: FloatArray, is_fixed: BoolArray, must_stop: BoolArray, path_fractions: FloatArray
+) -> tuple[FloatArray, BoolArray, FloatArray]:
     """Replace two close waypoints that need not stay by one, as a short line leaves little to round.
 
     It is where the lines beside them come nearest to each other, drawn on, or in the middle of the two: if the new lines are
@@ -201,8 +198,13 @@ def _merge_close_waypoints(
 
 
 def _sample_profile(
-    waypoints: Array, cut_lengths: Array, path_fractions: Array, speeds: Array, accelerations: Array, period: float
-) -> tuple[Array, Array, Array, float]:
+    waypoints: FloatArray,
+    cut_lengths: FloatArray,
+    path_fractions: FloatArray,
+    speeds: FloatArray,
+    accelerations: FloatArray,
+    period: float,
+) -> tuple[FloatArray, FloatArray, FloatArray, float]:
     """Return joints and path fraction (N, n + 1), rates and accelerations (N, n) every period, and the duration of the motion,
     s.
     """
@@ -228,7 +230,7 @@ def _sample_profile(
     )  # + 0: no -0 in a file
 
 
-def _is_tool_near(arm: Arm, q: Array, other: Array) -> Flags:
+def _is_tool_near(arm: Arm, q: FloatArray, other: FloatArray) -> BoolArray:
     """Return (N,) True where the tool at q (N, n) is within the path tolerance of its pose at the other configurations."""
     poses, other_poses = arm.forward_kinematics(q), arm.forward_kinematics(other)
     position_errors = np.linalg.norm(poses[:, :3, 3] - other_poses[:, :3, 3], axis=1)

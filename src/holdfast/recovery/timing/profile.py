@@ -14,16 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.recovery.timing.rounding import PathPieces
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
-_MAX_INTERVALS_PER_PARABOLA, _MIN_INTERVALS_PER_PARABOLA, _MAX_PARABOLA_INTERVALS = (
-    32,
-    4,
-    1600,
-)  # intervals of a parabola, at least, and of all of them
+# _MAX_INTERVALS_PER_PARABOLA, _MIN_INTERVALS_PER_PARABOLA and _MAX_PARABOLA_INTERVALS: intervals of a parabola, at least, and
+# of all of them
+_MAX_INTERVALS_PER_PARABOLA = 32
+_MIN_INTERVALS_PER_PARABOLA = 4
+_MAX_PARABOLA_INTERVALS = 1600
 _POLYGON_TOLERANCE = 1e-12  # of a bound, for corners of the polygon of what is allowed
 
 
@@ -39,12 +38,12 @@ class SpeedProfile:
     """
 
     pieces: Indices
-    offsets: Array
-    speed: Array
-    acceleration: Array
-    time: Array
+    offsets: FloatArray
+    speed: FloatArray
+    acceleration: FloatArray
+    time: FloatArray
 
-    def sample(self, pieces: PathPieces, time: Array) -> tuple[Array, Array, Array]:
+    def sample(self, pieces: PathPieces, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return positions, speeds, and accelerations (N, c) at times (N,), s."""
         interval = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.offsets) - 1)
         elapsed = time - self.time[interval]
@@ -55,7 +54,7 @@ class SpeedProfile:
         return q, direction * rate[:, None], curvature * rate[:, None] ** 2 + direction * self.acceleration[interval][:, None]
 
 
-def compute_fastest_profile(pieces: PathPieces, v: Array, a: Array) -> SpeedProfile:
+def compute_fastest_profile(pieces: PathPieces, v: FloatArray, a: FloatArray) -> SpeedProfile:
     """Compute the profile between standstills within speeds v and accelerations a (n,) above 0, finite for moving joints."""
     grid = _PathGrid(pieces, v, a)
     speed_limits = grid.compute_backward_limits()
@@ -65,7 +64,7 @@ def compute_fastest_profile(pieces: PathPieces, v: Array, a: Array) -> SpeedProf
 class _PathGrid:
     """Intervals of the path, with the limits in each."""
 
-    def __init__(self, pieces: PathPieces, v: Array, a: Array) -> None:
+    def __init__(self, pieces: PathPieces, v: FloatArray, a: FloatArray) -> None:
         n = len(v)
         is_curved = np.abs(pieces.bend[:, :n]).max(axis=1) > 0
         count = np.where(
@@ -101,7 +100,7 @@ class _PathGrid:
         )
         self._accelerations = a
 
-    def _constraint_rows(self, interval: int) -> Array:
+    def _constraint_rows(self, interval: int) -> FloatArray:
         """Return the constraints (R, 2) on squared speeds x and y at the ends of a curved interval: ``rows @ (x, y) <= 1``."""
         curvature, step = self._curvatures[interval] / self._accelerations, 1 / (2 * self.lengths[interval])
         first, last = (
@@ -112,7 +111,7 @@ class _PathGrid:
         rows = np.concatenate([start_rows, -start_rows, end_rows, -end_rows])
         return np.asarray(rows[np.abs(rows).max(axis=1) > 0])
 
-    def compute_backward_limits(self) -> Array:
+    def compute_backward_limits(self) -> FloatArray:
         """Return (G + 1,) the greatest squared speeds from which the rest of the path can be completed."""
         squared_speeds = self.squared_speed_caps.copy()
         for interval in range(len(self.offsets) - 1, -1, -1):
@@ -127,7 +126,7 @@ class _PathGrid:
                 )
         return squared_speeds
 
-    def limit_forward_speeds(self, squared_limits: Array) -> Array:
+    def limit_forward_speeds(self, squared_limits: FloatArray) -> FloatArray:
         """Return (G + 1,) the squared speeds, each as great as the previous ones allow."""
         squared_speeds = squared_limits.copy()
         for interval in range(len(self.offsets)):
@@ -148,7 +147,7 @@ class _PathGrid:
             )
         return squared_speeds
 
-    def make_profile(self, squared_speeds: Array) -> SpeedProfile:
+    def make_profile(self, squared_speeds: FloatArray) -> SpeedProfile:
         """Return the profile with these squared speeds at the ends of the intervals, scaled down where rounding exceeded a
         limit.
         """
@@ -198,7 +197,7 @@ def _split_trapezoid(
     return [part for part in parts if part[0] > 1e-15 * length]
 
 
-def _maximize_speed(rows: Array, cap: float, next_limit: float) -> float:
+def _maximize_speed(rows: FloatArray, cap: float, next_limit: float) -> float:
     """Maximize x up to ``cap`` such that some y from 0 to ``next_limit`` has ``rows @ (x, y) <= 1``; (0, 0) is allowed."""
     # In units of the bounds, so that one rounding fits all.
     units = np.array([cap, next_limit if next_limit > 0 else 1.0])

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from holdfast.typing import BoolArray, FloatArray
+
 Indices = NDArray[np.intp]
 
 _MAX_BISECTIONS = 9  # times a corner is, until what is cut off it is allowed; then the way stops there
@@ -26,13 +26,13 @@ class PathPieces:
         stops: (P,) True where the way must stop as a piece begins.
     """
 
-    start: Array
-    slope: Array
-    bend: Array
-    length: Array
-    stops: Flags
+    start: FloatArray
+    slope: FloatArray
+    bend: FloatArray
+    length: FloatArray
+    stops: BoolArray
 
-    def evaluate(self, piece: Indices, s: Array) -> tuple[Array, Array, Array]:
+    def evaluate(self, piece: Indices, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return position, slope, and bend (N, c) in pieces (N,) at s (N,)."""
         s = s[:, None]
         slope, bend = self.slope[piece], self.bend[piece]
@@ -51,13 +51,13 @@ class CornerChords:
     """
 
     corner: Indices
-    first: Array
-    last: Array
-    deviations: Array
-    line_points: Array
+    first: FloatArray
+    last: FloatArray
+    deviations: FloatArray
+    line_points: FloatArray
 
 
-def find_corner_cuts(q: Array, must_meet: Flags, is_allowed: Callable[[CornerChords], Flags]) -> Array:
+def find_corner_cuts(q: FloatArray, must_meet: BoolArray, is_allowed: Callable[[CornerChords], BoolArray]) -> FloatArray:
     """Return (K,) how far before and after each waypoint of q (K, n), all distinct, its corner may be cut off; 0: a stop there.
 
     Half of the shorter line beside it, or a half, a quarter, ... of that.
@@ -83,7 +83,7 @@ def find_corner_cuts(q: Array, must_meet: Flags, is_allowed: Callable[[CornerCho
     return cut_lengths
 
 
-def _make_chords(q: Array, corners: Indices, cut_lengths: Array) -> CornerChords:
+def _make_chords(q: FloatArray, corners: Indices, cut_lengths: FloatArray) -> CornerChords:
     incoming, outgoing = _compute_directions(q)
     u, v = incoming[corners][:, None], outgoing[corners][:, None]
     s = np.linspace(0, 2, _CHORDS_PER_PARABOLA + 1)[None, :, None] * cut_lengths[:, None, None]
@@ -102,14 +102,14 @@ def _make_chords(q: Array, corners: Indices, cut_lengths: Array) -> CornerChords
     )
 
 
-def _compute_directions(q: Array) -> tuple[Array, Array]:
+def _compute_directions(q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return (K, n) unit vectors towards each waypoint and onwards from it; at the ends both are equal."""
     steps = np.diff(q, axis=0)
     steps /= np.linalg.norm(steps, axis=1, keepdims=True)
     return np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
 
 
-def round_corners(q: Array, cut_lengths: Array, further_columns: Array) -> PathPieces:
+def round_corners(q: FloatArray, cut_lengths: FloatArray, further_columns: FloatArray) -> PathPieces:
     """Return the pieces of the path through q (K, n), all distinct, with corner cuts (K,); further columns (K, c)
     follow along.
     """

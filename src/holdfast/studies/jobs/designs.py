@@ -21,8 +21,8 @@ from holdfast.engine.store import Column
 from holdfast.indices.own_file import check_digest
 from holdfast.regions.region import Region
 from holdfast.studies.jobs.process import PlannedJob
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 
@@ -31,12 +31,12 @@ def read_design_space(plan: dict[str, Any]) -> DesignSpace:
     return DesignSpace(from_dict(plan["arm"]), tuple(DesignParameter(*entry[:3], unit=entry[3]) for entry in plan["vary"]))
 
 
-def list_designs(space: DesignSpace, count: int, seed: int) -> Array:
+def list_designs(space: DesignSpace, count: int, seed: int) -> FloatArray:
     """Return the designs (count, k), the baseline arm first."""
     return np.concatenate([space.start[None], space.draw(count, seed)])[:count]
 
 
-CompiledDesigns = tuple[Evaluator, ReachEvaluator, Array, Array | None]
+CompiledDesigns = tuple[Evaluator, ReachEvaluator, FloatArray, FloatArray | None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,9 @@ from holdfast.kernels.threads import set_threads, thread_count
 
 T = TypeVar("T")
 
-_TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # of malloc.h
+# _TRIM_THRESHOLD and _MMAP_THRESHOLD: of malloc.h
+_TRIM_THRESHOLD = -1
+_MMAP_THRESHOLD = -3
 _MAX_COMPILED_CELLS = 32  # cells whose compiled things are kept
 _lock = threading.RLock()
 _compiled_by_job: OrderedDict[Hashable, Any] = OrderedDict()

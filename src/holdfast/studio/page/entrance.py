@@ -24,7 +24,8 @@ from holdfast.files.hosts import find_request_fault, is_loopback
 MAX_MESSAGE_BYTES = (
     8 << 20
 )  # bytes of one message of a browser: a picture of the scene has less, and so has a part of an upload
-_VISER_TITLE_HTML, _HEAD_END_HTML = "<title>Viser</title>", "</head>"
+_VISER_TITLE_HTML = "<title>Viser</title>"
+_HEAD_END_HTML = "</head>"
 _PATCH_LOCK = threading.Lock()
 
 

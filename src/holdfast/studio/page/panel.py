@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY, Registry
@@ -18,8 +17,8 @@ from holdfast.studio.scene.bars import bars_html, losses_html
 from holdfast.studio.scene.machine import CompiledArm, LiveReading
 from holdfast.studio.state import JOINT_CONDITIONS, State
 from holdfast.studio.watching import FAULT_PARAMETERS, LATEST_ONSET_S, MonitorDemo, monitor_html
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Handler = Callable[[Any], None]
 PRESSED_PREFIX = "✓ "  # before the state that a joint is in: the page shows that button as pressed
 WELCOME_TEXT = "Drag the handle at the end effector, lock a joint, or drop a file of your own arm here."
@@ -70,7 +69,7 @@ class ControlPanel:
     def _add_move_tab(self, arm: Arm, state: State) -> None:
         self.sliders = []
         for index, joint in enumerate(arm.joints):
-            factor, unit = joint.shown
+            factor, unit = joint.display_unit
             step, digits = (0.001, 3) if joint.prismatic else (0.1, 1)
             lower, upper = (round(factor * limit, digits) for limit in slider_range(arm, index, self.machine.size))
             value = round(float(np.clip(factor * state.q[index], lower, upper)), digits)
@@ -216,7 +215,7 @@ class ControlPanel:
         names, arm = state.names, self.machine.arm
         pieces = (
             (self.bars, bars_html(reading.bars, "if the joint locks", names, state.conditions)),
-            (self.losses, losses_html(arm, self.machine.task, reading, state.failed)),
+            (self.losses, losses_html(arm, self.machine.task, reading, state.failed_joints)),
             (self.weights, bars_html(reading.weights, "if the joint swings free", names, state.conditions)),
             (self.command, command_html(state)),
         )
@@ -224,10 +223,10 @@ class ControlPanel:
             if handle.content != content:
                 handle.content = content
 
-    def move_sliders(self, q: Array, dragged_joint: int | None) -> None:
+    def move_sliders(self, q: FloatArray, dragged_joint: int | None) -> None:
         """Move the sliders to the configuration q (n,), except the one that is being dragged."""
         for index, (slider, joint) in enumerate(zip(self.sliders, self.machine.arm.joints, strict=True)):
-            value = round(float(np.clip(joint.shown[0] * q[index], slider.min, slider.max)), 3 if joint.prismatic else 1)
+            value = round(float(np.clip(joint.display_unit[0] * q[index], slider.min, slider.max)), 3 if joint.prismatic else 1)
             if index != dragged_joint and abs(slider.value - value) > 0.5 * slider.step:
                 slider.value = value
 

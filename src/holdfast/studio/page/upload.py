@@ -22,7 +22,8 @@ from holdfast.studio.state import State
 
 MAX_FILE_BYTES = 4 << 20  # bytes
 MAX_JOINTS = 40  # more take minutes to compile
-ARM_SUFFIXES, MOTION_SUFFIXES = (".urdf", ".xml", ".yaml", ".yml"), (".csv",)
+ARM_SUFFIXES = (".urdf", ".xml", ".yaml", ".yml")
+MOTION_SUFFIXES = (".csv",)
 _PART_BYTES = 512 << 10  # bytes of a part of viser's
 _TOO_LARGE = f"the file is too large; at most {MAX_FILE_BYTES >> 20} MiB can be opened here"
 

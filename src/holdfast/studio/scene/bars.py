@@ -6,14 +6,11 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.indices.lost_directions import DirectionLoss, remaining_manipulability
 from holdfast.studio.scene.machine import JointBars, LiveReading
-
-Array = NDArray[np.float64]
 
 
 def format_value(value: float, digits: int = 3) -> str:

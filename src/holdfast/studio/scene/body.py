@@ -5,16 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.present.arm.body import JOINT_COLOR_RGB, Color, MeshPart
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
+LOCKED_RGB = (200, 80, 10)
+FREE_RGB = (168, 73, 127)
 
-LOCKED_RGB, FREE_RGB = (200, 80, 10), (168, 73, 127)
 
-
-def to_quaternions(rotations: Array) -> Array:
+def to_quaternions(rotations: FloatArray) -> FloatArray:
     """Convert rotations (N, 3, 3) to quaternions (N, 4), w, x, y, z."""
     from viser.transforms import SO3  # SciPy's rotations would double the time to the first picture
 
@@ -40,7 +39,7 @@ class ArmFigure:
         self._root = scene.add_frame(root, show_axes=False)
         self._frames = [scene.add_frame(f"{root}/{link}", show_axes=False) for link in range(frames)]
         self.joints: dict[int, list[Any]] = {}
-        self._last_frames: Array | None = None
+        self._last_frames: FloatArray | None = None
         for number, part in enumerate(parts):
             handle = scene.add_mesh_simple(
                 f"{root}/{part.frame}/{number}",
@@ -55,7 +54,7 @@ class ArmFigure:
             if part.joint is not None:
                 self.joints.setdefault(part.joint, []).append(handle)
 
-    def move_links(self, frames: Array) -> None:
+    def move_links(self, frames: FloatArray) -> None:
         """Move the links to their frames (F, 4, 4); only changed frames are sent."""
         orientations = to_quaternions(frames[:, :3, :3])
         for link, handle in enumerate(self._frames):

@@ -14,8 +14,8 @@ from holdfast.assessment.run import assess, load
 from holdfast.errors import InputError
 from holdfast.indices.index import Index
 from holdfast.regions.region import Region
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 MAX_POINTS = 2500  # points that are drawn
 REGION_POSES = 1200  # of a region around the end effector
 
@@ -33,13 +33,13 @@ class RegionCloud:
     """
 
     label: str
-    points: Array
+    points: FloatArray
     colors: NDArray[np.uint8]
-    q: Array
-    values: Array
+    q: FloatArray
+    values: FloatArray
 
 
-def assess_around_tool(index: Index, tool_pose: Array, size: float, progress: Callable[[int, int], None]) -> RegionCloud:
+def assess_around_tool(index: Index, tool_pose: FloatArray, size: float, progress: Callable[[int, int], None]) -> RegionCloud:
     """Assess a region of a quarter of the arm's length around the tool, with orientations within 30 degrees of its own."""
     from holdfast.regions.region import rpy_from_rotation
 
@@ -85,7 +85,7 @@ def make_cloud(assessment: Assessment, label: str) -> RegionCloud:
             values[has_configuration],
             has_configuration[has_configuration],
         )
-    scale = Scale.of(values[has_configuration], smaller_is_better=assessment.index.better == "smaller")
+    scale = Scale.from_values(values[has_configuration], smaller_is_better=assessment.index.better == "smaller")
     colors = np.full((len(q), 3), 150, dtype=np.uint8)
     if has_configuration.any():
         colors[has_configuration] = (255 * scale.colors(values[has_configuration])[:, :3]).astype(np.uint8)

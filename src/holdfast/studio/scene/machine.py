@@ -9,7 +9,6 @@ from importlib.util import find_spec
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
@@ -29,8 +28,8 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.present.arm.body import stretched_length
 from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY
 from holdfast.solvers.inverse_kinematics import solver
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 REACH_TOLERANCE = 1e-6  # m and rad, of an end effector that is dragged
 MAX_SLIDE_STEP = 0.05  # rad (and m): longest step along a self-motion
 
@@ -51,7 +50,7 @@ class JointBars:
     title: str
     better: str
     unit: tuple[str, ...]
-    values: Array
+    values: FloatArray
     worst: int
     status: str = ""
 
@@ -97,7 +96,7 @@ class CompiledArm:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [ca.densify(self.task.jacobian(self.arm, q))])
 
-    def tool_pose(self, q: Array) -> Array:
+    def tool_pose(self, q: FloatArray) -> FloatArray:
         """Return the tool pose (4, 4) in the world."""
         return np.asarray(self.arm.frames(q)[-1])
 
@@ -166,7 +165,7 @@ class CompiledArm:
                 self._laws[text] = LAW_REGISTRY.make(text, self.arm, option="law", task=self.task)
             return self._laws[text]
 
-    def evaluate(self, q: Array, failed: Sequence[int], index: str, weight: str) -> LiveReading:
+    def evaluate(self, q: FloatArray, failed: Sequence[int], index: str, weight: str) -> LiveReading:
         """Evaluate all live values at q (n,)."""
         bars = self._evaluate_index_bars(q, index)
         failure_joints = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
@@ -181,7 +180,7 @@ class CompiledArm:
             find_losses(task_jacobian, failure_joints),
         )
 
-    def _evaluate_index_bars(self, q: Array, name: str) -> JointBars | str:
+    def _evaluate_index_bars(self, q: FloatArray, name: str) -> JointBars | str:
         index = self.get_index(name)
         if isinstance(index, str):
             return index
@@ -190,7 +189,7 @@ class CompiledArm:
         singular = "" if evaluation.status == 0 else "the healthy arm is singular here"
         return JointBars(index.name, index.better, units, evaluation.by_failure, int(evaluation.worst), singular)
 
-    def _evaluate_susceptibility_bars(self, q: Array, name: str) -> JointBars | str:
+    def _evaluate_susceptibility_bars(self, q: FloatArray, name: str) -> JointBars | str:
         measure = self.get_susceptibility(name)
         if isinstance(measure, str):
             return measure
@@ -199,7 +198,7 @@ class CompiledArm:
 
     # ---- following the end effector ----------------------------------------------------------------------------------------
 
-    def solve_near(self, q: Array, pose: Array, failed: Sequence[int]) -> tuple[Array, bool]:
+    def solve_near(self, q: FloatArray, pose: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, bool]:
         """Find the configuration near q (n,) that brings the end effector to a pose (4, 4) with failed joints locked; return it
         and whether it reaches the pose.
 
@@ -210,7 +209,7 @@ class CompiledArm:
         is_movable[list(failed)] = 0.0
         return ik_solver.solve_near(q, pose, is_movable, REACH_TOLERANCE)
 
-    def pose_error_norm(self, q: Array, pose: Array) -> float:
+    def pose_error_norm(self, q: FloatArray, pose: FloatArray) -> float:
         """Return the distance between the end effector at q (n,) and a pose (4, 4), by the rows of the task; m and rad."""
         from scipy.spatial.transform import Rotation
 
@@ -221,7 +220,7 @@ class CompiledArm:
             np.linalg.norm(self.task.rows @ np.r_[to_task_frame @ (pose[:3, 3] - tool[:3, 3]), to_task_frame @ angular])
         )
 
-    def nearby_configuration(self, q: Array) -> Array:
+    def nearby_configuration(self, q: FloatArray) -> FloatArray:
         """Return a configuration near q (n,) within the limits, whose pose is a reachable target."""
         offsets = np.where(self.arm.prismatic, 0.1 * self.size, 0.3) * np.where(np.arange(self.arm.n) % 2, -1.0, 1.0)
         is_within_limits = (q + offsets >= self.arm.lower) & (q + offsets <= self.arm.upper)
@@ -232,7 +231,7 @@ class CompiledArm:
         """True if a free joint can be simulated: the physics engine is installed and the bodies have masses."""
         return find_spec("mujoco") is not None and all(link is not None for link in self.arm.links)
 
-    def step_self_motion(self, q: Array, step: Array, failed: Sequence[int]) -> tuple[Array, Array]:
+    def step_self_motion(self, q: FloatArray, step: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, FloatArray]:
         """Take one step along the self-motion of q (n,) in the direction nearest to ``step`` (n,), whose norm is the step
         length.
 
@@ -252,7 +251,7 @@ class CompiledArm:
             return q, np.zeros_like(q)
         return q_next, direction
 
-    def self_motion_directions(self, q: Array, failed: Sequence[int]) -> Array:
+    def self_motion_directions(self, q: FloatArray, failed: Sequence[int]) -> FloatArray:
         """Return unit directions (r, n) of the self-motions of q."""
         return null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
 

@@ -6,15 +6,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_from_quaternion
 from holdfast.errors import InputError
 from holdfast.present.cell.bodies import NEAREST_COLOR_RGB, OBJECT_COLOR_RGB, mesh_solid
 from holdfast.studio.scene.body import to_quaternions
 from holdfast.studio.scene.machine import CompiledArm, describe_error
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
 Moved = Sequence[tuple[str, Sequence[float]]]
 
 
@@ -35,7 +34,7 @@ class CellObjects:
         self._machine, self._picked = machine, ""
         self._clearance = machine.get_clearance(moved_objects)
         self._handles: dict[str, Any] = {}
-        self._poses: dict[str, Array] = {}
+        self._poses: dict[str, FloatArray] = {}
         for number, solid in enumerate(machine.cell):
             vertices, faces = mesh_solid(solid, machine.size)
             handle = scene.add_mesh_simple(
@@ -73,7 +72,7 @@ class CellObjects:
 
         self.gizmo.on_update(on_drag)
 
-    def _set_pose(self, name: str, pose: Array) -> None:
+    def _set_pose(self, name: str, pose: FloatArray) -> None:
         handle, self._poses[name] = self._handles[name], pose
         handle.position, handle.wxyz = pose[:3, 3], to_quaternions(pose[None, :3, :3])[0]
 
@@ -98,7 +97,7 @@ class CellObjects:
 
     _error_text = ""
 
-    def show_nearest(self, q: Array) -> tuple[str, bool]:
+    def show_nearest(self, q: FloatArray) -> tuple[str, bool]:
         """Draw the shortest distance at q (n,); return a text about the nearest object, and whether it is too near."""
         if self._error_text or self._clearance is None or self._clearance.obstacles is None:
             self._line.visible = False

@@ -6,17 +6,18 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.indices.lost_directions import DirectionLoss, Ellipsoid
 from holdfast.present.arm.body import LINK_RADIUS_FRACTION, Color, MeshPart, build_stick_parts, mesh_sphere
 from holdfast.studio.scene.body import ArmFigure, to_quaternions
 from holdfast.studio.scene.cloud import RegionCloud
 from holdfast.studio.scene.machine import CompiledArm, LiveReading
+from holdfast.typing import FloatArray
 
-Array = NDArray[np.float64]
-
-BLUE_RGB, ORANGE_RGB, GREEN_RGB, PURPLE_RGB = (10, 92, 158), (200, 80, 10), (0, 122, 94), (168, 73, 127)
+BLUE_RGB = (10, 92, 158)
+ORANGE_RGB = (200, 80, 10)
+GREEN_RGB = (0, 122, 94)
+PURPLE_RGB = (168, 73, 127)
 GRID_RGB = (150, 157, 164)  # to be seen on white and on black
 GHOST_COLORS: tuple[Color, ...] = (GREEN_RGB, ORANGE_RGB, BLUE_RGB, PURPLE_RGB)
 LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # names of two ghosts that meet stay apart
@@ -115,14 +116,14 @@ class Stage:
 
     # ---- live ------------------------------------------------------------------------------------------------------
 
-    def move_arm(self, frames: Array, moves_gizmo: bool) -> None:
+    def move_arm(self, frames: FloatArray, moves_gizmo: bool) -> None:
         """Move the arm to its frames (n + 2, 4, 4), and the handle to the end effector unless the user drags it."""
         self.figure.move_links(frames)
         if moves_gizmo:
             self.gizmo.position = frames[-1, :3, 3]
             self.gizmo.wxyz = to_quaternions(frames[-1:, :3, :3])[0]
 
-    def show_reading(self, reading: LiveReading, tool_pose: Array) -> None:
+    def show_reading(self, reading: LiveReading, tool_pose: FloatArray) -> None:
         """Show the effect of a failure at the end effector (4, 4)."""
         self._place_ellipsoid(self.before, reading.healthy_ellipsoid, tool_pose[:3, 3])
         self._place_ellipsoid(self.after, reading.failed_ellipsoid, tool_pose[:3, 3])
@@ -142,13 +143,13 @@ class Stage:
         for line in self._loss_lines:
             line.visible = visible
 
-    def _place_ellipsoid(self, handle: Any, shape: Ellipsoid, center: Array) -> None:
+    def _place_ellipsoid(self, handle: Any, shape: Ellipsoid, center: FloatArray) -> None:
         min_radius = 2e-3 * self.machine.size
         handle.scale = tuple(float(max(ELLIPSOID_TIME_S * radius, min_radius)) for radius in shape.radii)
         handle.wxyz = to_quaternions(shape.axes[None])[0]
         handle.position = center
 
-    def _loss_segments(self, loss: DirectionLoss, tool_pose: Array) -> Array:
+    def _loss_segments(self, loss: DirectionLoss, tool_pose: FloatArray) -> FloatArray:
         """Return segments (_RING_SEGMENTS + 3, 2, 3): a line through the end effector both ways, and a ring about the axis of
         rotation.
         """
@@ -186,7 +187,7 @@ class Stage:
             self.ghosts.append(figure)
             self._ghost_labels.append(self.scene.add_label(f"/name{number}", text, anchor=LABEL_ANCHORS[number % 2]))
 
-    def move_ghosts(self, frames: Sequence[Array]) -> None:
+    def move_ghosts(self, frames: Sequence[FloatArray]) -> None:
         """Move the ghosts to their frames (n + 2, 4, 4)."""
         for figure, label, ghost_frames in zip(self.ghosts, self._ghost_labels, frames, strict=True):
             figure.move_links(ghost_frames)
@@ -227,7 +228,7 @@ class Stage:
 
         self.cloud.on_click(on_click)
 
-    def mark_point(self, point: Array) -> None:
+    def mark_point(self, point: FloatArray) -> None:
         """Mark the chosen point of the region."""
         if self.chosen is not None:
             self.chosen.remove()

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,7 +135,7 @@ def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float,
     return solve_noncentrality(0.5 + confidence / 2), solve_noncentrality(0.5 - confidence / 2)
 
 
-def correct_by_holm(p: ArrayLike) -> Array:
+def correct_by_holm(p: ArrayLike) -> FloatArray:
     """Correct p-values for multiple testing by Holm's step-down procedure; NaN stay NaN and do not count as tests.
 
     Source: Holm 1979.

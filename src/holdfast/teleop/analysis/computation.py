@@ -10,7 +10,6 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, InputError
 from holdfast.notice import reports_progress
@@ -28,7 +27,6 @@ from holdfast.teleop.trials.performance import RECORDED_MEASURES
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 Missing = Literal["refuse", "complete", "mixed"]
 
 FACTOR_NAMES = ("law", "difficulty")

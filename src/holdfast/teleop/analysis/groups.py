@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.teleop.analysis.observations import TrialTable
+from holdfast.typing import FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _GROUP_NAMES = {2: ("easy", "difficult"), 3: ("easy", "medium", "difficult")}
 
@@ -32,17 +30,17 @@ class TaskGroups:
     """
 
     names: tuple[str, ...]
-    of_task: Indices
-    difficulty: Array
+    of_task: IndexArray
+    difficulty: FloatArray
     by: str
 
     @property
-    def sizes(self) -> Indices:
+    def sizes(self) -> IndexArray:
         """(B,) number of tasks in each group."""
         return np.bincount(self.of_task, minlength=len(self.names))
 
 
-def group_by_difficulty(difficulty: Array, count: int, by: str) -> TaskGroups:
+def group_by_difficulty(difficulty: FloatArray, count: int, by: str) -> TaskGroups:
     """Group tasks by difficulty into equal parts of their sorted list; surplus tasks go one each to the easiest groups.
 
     Tasks without a known difficulty are put behind all others: nobody, or not the computer, could do them.
@@ -79,8 +77,8 @@ class CellMeans:
         groups: (B,) names.
     """
 
-    values: Array
-    tasks: Indices
+    values: FloatArray
+    tasks: IndexArray
     subjects: tuple[str, ...]
     laws: tuple[str, ...]
     groups: tuple[str, ...]

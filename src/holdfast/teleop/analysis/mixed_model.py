@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.teleop.analysis.observations import TrialTable
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 
 _OPTIMISER_NAMES = ("lbfgs", "powell", "nm")
 
@@ -58,8 +58,8 @@ class MixedModel:
     """
 
     tests: tuple[WaldTest, WaldTest, WaldTest]
-    means: Array
-    mean_errors: Array
+    means: FloatArray
+    mean_errors: FloatArray
     variances: dict[str, float]
     trials: int
     converged: bool
@@ -129,7 +129,7 @@ def fit_mixed_model(observed: TrialTable, conditions: list[int], group: NDArray[
 _EFFECT_NAMES = ("law", "difficulty", "law x difficulty")
 
 
-def _code_deviations(cells: NDArray[np.int64], levels: tuple[int, int]) -> tuple[Array, list[slice]]:
+def _code_deviations(cells: NDArray[np.int64], levels: tuple[int, int]) -> tuple[FloatArray, list[slice]]:
     """Return the (K, A B) deviation-coded columns of cells (K, 2): intercept, law, difficulty, interaction; and the slices of
     the last three.
     """
@@ -144,7 +144,7 @@ def _code_deviations(cells: NDArray[np.int64], levels: tuple[int, int]) -> tuple
 
 
 def _fit_with_fallback(
-    y: Array, x: Array, subject: NDArray[np.int64], task: NDArray[np.int64]
+    y: FloatArray, x: FloatArray, subject: NDArray[np.int64], task: NDArray[np.int64]
 ) -> tuple[Any, str, tuple[str, ...]]:
     """Return the fit of the first optimiser that converges, or that of the last one."""
     from pandas import DataFrame
@@ -171,7 +171,7 @@ def _fit_with_fallback(
     return result, optimiser, tuple(dict.fromkeys(texts))
 
 
-def _test_coefficients(name: str, coefficients: Array, covariance: Array) -> WaldTest:
+def _test_coefficients(name: str, coefficients: FloatArray, covariance: FloatArray) -> WaldTest:
     from scipy import stats
 
     chi2 = float(coefficients @ np.linalg.solve(covariance, coefficients))

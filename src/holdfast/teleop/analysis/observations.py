@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 from holdfast.errors import InputError
 from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES, compute_cpm
 from holdfast.teleop.trials.recordings import End
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 Words = NDArray[Any]
 
 MEASURE_NAMES = tuple(m.name for m in MEASURES)
 REQUIRED_COLUMNS = ("subject", "task", "scenario", "law", "failed", "end", *MEASURE_NAMES[:RECORDED_MEASURES])
 END_NAMES = tuple(e.name.lower() for e in End)
-UNRATED_CAUSE, ABSENT_CAUSE = "no rating", "not recorded"
+UNRATED_CAUSE = "no rating"
+ABSENT_CAUSE = "not recorded"
 CAUSE_SENTENCES = {
     **{e.name.lower(): e.sentence for e in End if e != End.ARRIVED},
     UNRATED_CAUSE: "the end effector reached the target, but the operator did not rate the trial",
@@ -73,12 +74,12 @@ class TrialTable:
     subjects: tuple[str, ...]
     tasks: tuple[int, ...]
     conditions: tuple[Condition, ...]
-    measures: Array
-    ratings: Array
+    measures: FloatArray
+    ratings: FloatArray
     cause: Words
     has_ratings: bool
-    cpm: Array
-    normalisers: Array
+    cpm: FloatArray
+    normalisers: FloatArray
 
     @classmethod
     def from_table(cls, table: DataFrame, table_name: str = "table") -> TrialTable:
@@ -126,7 +127,7 @@ class TrialTable:
             normalisers=combined.normalisers,
         )
 
-    def normalise_by(self, normalisers: Array) -> TrialTable:
+    def normalise_by(self, normalisers: FloatArray) -> TrialTable:
         """Return the same trials with other normalisers of the CPM, as many as they have."""
         included = self.measures[..., : len(self.normalisers)]
         return replace(self, cpm=compute_cpm(included, normalisers).values, normalisers=normalisers)
@@ -178,7 +179,7 @@ class TrialTable:
             normalisers=combined.normalisers,
         )
 
-    def median_cpm(self) -> Array:
+    def median_cpm(self) -> FloatArray:
         """Return the median CPM (T, S) over subjects; a trial that was seen to fail counts as worse than any other.
 
         Infinite where that is the median; NaN where there are no trials. Trials that were not recorded, broken off or not
@@ -192,7 +193,7 @@ class TrialTable:
                 medians[task, scenario] = (known[(known.size - 1) // 2] + known[known.size // 2]) / 2
         return medians
 
-    def median_rating(self) -> Array:
+    def median_rating(self) -> FloatArray:
         """Return the median rating (T, S) over subjects; NaN where no subject rated a trial."""
         medians = np.full(self.ratings.shape[1:], np.nan)
         for task, scenario in np.ndindex(*medians.shape):

@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.teleop.analysis.variance import degrees_of_freedom, sums_of_squares
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 MAX_SUBJECTS = 10_000
 _MAX_BLOCK_VALUES = 2_000_000  # values resampled at once
@@ -68,7 +66,7 @@ def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float
     return _find_smallest_sample(lambda n: f_power(effect, df, n, limit, epsilon), power)
 
 
-def estimate_power(values: Array, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> Array:
+def estimate_power(values: FloatArray, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> FloatArray:
     """Return the fraction (3,) of random samples of ``subjects`` subjects that would have shown each effect of the ANOVA.
 
     They are drawn without replacement, so this holds for this experiment only and assumes no distribution; close to the number

@@ -6,9 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from holdfast.errors import InputError
 from holdfast.result import Result
 from holdfast.teleop.analysis.correlations import Correlation
@@ -16,12 +13,12 @@ from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.mixed_model import MixedModel
 from holdfast.teleop.analysis.observations import Condition, TrialTable
 from holdfast.teleop.analysis.variance import Anova
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
-Paths = Callable[[str | None, int, int], Array | None]
+Paths = Callable[[str | None, int, int], FloatArray | None]
 """(subject, task, scenario) to the (K, m) tool points of that trial, m; subject None is the computer; None if not recorded."""
 
 

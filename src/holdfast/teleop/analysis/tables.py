@@ -8,18 +8,17 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.teleop.analysis.comparisons import compare_pairs, correct_by_holm
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.observations import CAUSE_SENTENCES, MEASURE_NAMES, TrialTable
 from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 
 _ZERO_TOLERANCE = 1e-9
 
@@ -122,14 +121,14 @@ def compare_measures(observed: TrialTable, conditions: Sequence[int], confidence
     return _add_holm_column(DataFrame(comparison_rows))
 
 
-def _average_over_tasks(values: Array) -> Array:
+def _average_over_tasks(values: FloatArray) -> FloatArray:
     """Return the mean (P,) over the tasks that have a value; NaN where there are none."""
     finite = np.isfinite(values)
     counts = finite.sum(axis=1)
     return np.where(counts > 0, np.where(finite, values, 0.0).sum(axis=1) / np.maximum(counts, 1), np.nan)
 
 
-def _average_over_subjects(values: Array) -> float:
+def _average_over_subjects(values: FloatArray) -> float:
     return float(np.nanmean(values)) if np.isfinite(values).any() else float("nan")
 
 
@@ -268,7 +267,7 @@ def tabulate_measures(observed: TrialTable, computer: TrialTable | None) -> Data
     return DataFrame(measure_rows)
 
 
-def _select_values(observed: TrialTable, scenario: int, measure: int) -> Array:
+def _select_values(observed: TrialTable, scenario: int, measure: int) -> FloatArray:
     """Return the CPM (0) or a measure (from 1) of all trials of a scenario that have a value."""
     all_values = (
         observed.cpm

@@ -10,14 +10,14 @@ from dataclasses import astuple, dataclass, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.errors import InputError
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Array = NDArray[np.float64]
 
 _ERROR_TOLERANCE = 1e-24  # of the whole variation, squared rounding: below it there is no error to compare with
 
@@ -105,12 +105,12 @@ class SumsOfSquares:
         subjects: (...) between subjects.
     """
 
-    effects: Array
-    errors: Array
-    subjects: Array
+    effects: FloatArray
+    errors: FloatArray
+    subjects: FloatArray
 
 
-def sums_of_squares(y: Array) -> SumsOfSquares:
+def sums_of_squares(y: FloatArray) -> SumsOfSquares:
     """Return the sums of squares of (..., n, A, B) values of n subjects, A levels of the first factor and B of the second."""
     n, a, b = y.shape[-3:]
     grand_mean = y.mean(axis=(-3, -2, -1), keepdims=True)
@@ -118,7 +118,7 @@ def sums_of_squares(y: Array) -> SumsOfSquares:
     first_mean, second_mean, cell_mean = (y.mean(axis=axes, keepdims=True) for axes in ((-3, -1), (-3, -2), -3))
     subject_first_mean, subject_second_mean = y.mean(axis=-1, keepdims=True), y.mean(axis=-2, keepdims=True)
 
-    def weighted_total(weight: int, deviations: Array) -> Array:
+    def weighted_total(weight: int, deviations: FloatArray) -> FloatArray:
         return np.asarray(weight * np.square(deviations).sum(axis=(-3, -2, -1)))
 
     effects = [
@@ -138,7 +138,7 @@ def sums_of_squares(y: Array) -> SumsOfSquares:
     )
 
 
-def degrees_of_freedom(subjects: int, first: int, second: int) -> tuple[Array, Array]:
+def degrees_of_freedom(subjects: int, first: int, second: int) -> tuple[FloatArray, FloatArray]:
     """Return the degrees of freedom (3,) of the factors and the interaction, and (3,) of their errors."""
     df = np.array([first - 1, second - 1, (first - 1) * (second - 1)], dtype=np.float64)
     return df, df * (subjects - 1)
@@ -205,7 +205,7 @@ def anova(
     return Anova((effects[0], effects[1], effects[2]), n, float(sums.subjects))
 
 
-def sphericity_epsilons(contrasts: Array) -> tuple[float, float]:
+def sphericity_epsilons(contrasts: FloatArray) -> tuple[float, float]:
     """Return the epsilons of Greenhouse and Geisser and of Huynh and Feldt.
 
     Args:
@@ -220,7 +220,7 @@ def sphericity_epsilons(contrasts: Array) -> tuple[float, float]:
     return gg, min(1.0, (n * contrast_count * gg - 2) / denominator) if denominator > 0 else 1.0
 
 
-def _project_on_contrasts(y: Array, effect: int) -> Array:
+def _project_on_contrasts(y: FloatArray, effect: int) -> FloatArray:
     """Return the orthonormal contrasts (n, df) of each subject for an effect: the first factor, the second, or both."""
     n, a, b = y.shape
     first_contrasts = _orthonormal_contrasts(a) if effect in (0, 2) else np.full((a, 1), 1 / np.sqrt(a))
@@ -228,14 +228,14 @@ def _project_on_contrasts(y: Array, effect: int) -> Array:
     return np.asarray(np.einsum("nab,ai,bj->nij", y, first_contrasts, second_contrasts).reshape(n, -1))
 
 
-def _orthonormal_contrasts(levels: int) -> Array:
+def _orthonormal_contrasts(levels: int) -> FloatArray:
     """Return the (levels, levels - 1) orthonormal contrasts."""
     from scipy.linalg import helmert
 
     return np.asarray(helmert(levels).T)
 
 
-def _fit_statsmodels(y: Array) -> tuple[list[float], list[float]]:
+def _fit_statsmodels(y: FloatArray) -> tuple[list[float], list[float]]:
     from pandas import DataFrame
     from statsmodels.stats.anova import AnovaRM
 
@@ -251,7 +251,7 @@ def _fit_statsmodels(y: Array) -> tuple[list[float], list[float]]:
 
 
 def _check_values(
-    y: Array,
+    y: FloatArray,
     factors: tuple[str, str],
     levels: tuple[Sequence[str], Sequence[str]] | None,
     subjects: Sequence[str] | None,

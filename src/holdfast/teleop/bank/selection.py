@@ -21,9 +21,7 @@ from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
 from holdfast.teleop.trials.stick import Joystick
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 _LEVEL_COUNT = 5  # a selection should hold equally many tasks of each fifth of each measure
 
@@ -38,12 +36,12 @@ class Binning:
         cell: (N,) number of the cell of each task, ``row * columns + column``; -1 where a scenario was not completed.
     """
 
-    difficulty: Array
-    ratio: Array
-    cell: Indices
+    difficulty: FloatArray
+    ratio: FloatArray
+    cell: IndexArray
 
     @property
-    def occupied_cells(self) -> Indices:
+    def occupied_cells(self) -> IndexArray:
         """Numbers of the cells that contain a task."""
         return np.unique(self.cell[self.cell >= 0])
 
@@ -74,7 +72,7 @@ def bin_tasks(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
     return Binning(edges[0], edges[1], cell)
 
 
-def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> Indices:
+def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> IndexArray:
     """Select tasks of the bank, one from each occupied cell, that together cover the range of every measure.
 
     Each measure of scenario 3 is replaced by its rank; the choice makes the numbers of tasks in the fifths of each measure
@@ -112,7 +110,7 @@ def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> Indices:
     return chosen[np.argsort(bank.difficulty[chosen], kind="stable")]
 
 
-def _assign_cells(by_size: Indices, sizes: dict[int, int], count: int) -> list[int]:
+def _assign_cells(by_size: IndexArray, sizes: dict[int, int], count: int) -> list[int]:
     """Return the cell of each task to be chosen: each occupied cell once, then the fullest cells again up to ``count``."""
     task_cells: list[int] = []
     remaining = dict(sizes)
@@ -122,7 +120,7 @@ def _assign_cells(by_size: Indices, sizes: dict[int, int], count: int) -> list[i
     return task_cells
 
 
-def _rank_in_levels(bank: TaskBank, eligible: Indices) -> NDArray[np.int64]:
+def _rank_in_levels(bank: TaskBank, eligible: IndexArray) -> NDArray[np.int64]:
     """Return the level (N, 11), from 0, of each task in each measure of scenario 3."""
     values = bank.measures[bank.scenario_index("pseudoinverse", failed=True)]
     levels = np.zeros(values.shape, dtype=np.int64)
@@ -131,11 +129,11 @@ def _rank_in_levels(bank: TaskBank, eligible: Indices) -> NDArray[np.int64]:
     return levels
 
 
-def _one_hot(levels: NDArray[np.int64]) -> Array:
+def _one_hot(levels: NDArray[np.int64]) -> FloatArray:
     return np.asarray(levels[..., None] == np.arange(_LEVEL_COUNT), dtype=np.float64)
 
 
-def _choose_central_tasks(bank: TaskBank, cells: Binning, task_cells: list[int]) -> Indices:
+def _choose_central_tasks(bank: TaskBank, cells: Binning, task_cells: list[int]) -> IndexArray:
     columns = len(cells.difficulty) - 1
     centers = [0.5 * (edges[1:] + edges[:-1]) for edges in (cells.difficulty, cells.ratio)]
     widths = [max(edges[1] - edges[0], 1e-300) for edges in (cells.difficulty, cells.ratio)]
@@ -149,7 +147,7 @@ def _choose_central_tasks(bank: TaskBank, cells: Binning, task_cells: list[int])
     return np.array(chosen)
 
 
-def find_most_disorienting(bank: TaskBank, excluded: Indices) -> int:
+def find_most_disorienting(bank: TaskBank, excluded: IndexArray) -> int:
     """Return the task with the largest direction errors and retreat (M10 x M5 of scenario 3) that is not yet chosen.
 
     Raises:
@@ -225,13 +223,13 @@ class TaskChoice(Result):
     arm: Arm
     task: Task
     cells: Binning
-    chosen: Indices
+    chosen: IndexArray
     disorienting: int | None
     trapped: int | None
     seed: int
 
     @property
-    def special_tasks(self) -> Indices:
+    def special_tasks(self) -> IndexArray:
         """Indices of the special tasks."""
         return np.array([task for task in (self.disorienting, self.trapped) if task is not None], dtype=np.int64)
 
@@ -300,14 +298,14 @@ class WaypointOperator(Operator):
         via: (N, m) the points, m.
     """
 
-    def __init__(self, via: Array) -> None:
+    def __init__(self, via: FloatArray) -> None:
         self._waypoints = via
 
-    def begin(self, x: Array, target: Array) -> None:
+    def begin(self, x: FloatArray, target: FloatArray) -> None:
         """See :meth:`Operator.begin`."""
         self._cycles_left = np.full(len(x), 60)  # cycles: 3 m at full speed
 
-    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.wanted`."""
         self._cycles_left[rows] -= 1
         arrived = np.linalg.norm(self._waypoints[rows] - x, axis=1) < 0.05

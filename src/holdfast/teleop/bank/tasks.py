@@ -20,12 +20,12 @@ from holdfast.teleop.trials.plant import JoystickPlant, check_joystick_task
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks, Scenario
 from holdfast.teleop.trials.stick import Joystick
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 TASK_DISTANCE_M = 2.0  # m
 _MAX_TARGETS_PER_START = 200  # targets tried from one start configuration
-_IK_RESTARTS, _IK_TOLERANCE = 24, 1e-6
+_IK_RESTARTS = 24
+_IK_TOLERANCE = 1e-6
 _MAX_STARTS_PER_TASK = 20  # start configurations tried for one task
 _BATCH_TARGETS = 400
 
@@ -81,7 +81,7 @@ def sample_tasks(
 
 def _sample_joint_tasks(
     inverse_kinematics: InverseKinematics, joint: int, count: int, distance: float, seed: np.random.SeedSequence
-) -> tuple[Array, Array, NDArray[np.int64]]:
+) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
     """Sample start configurations (count, n), targets (count, m) and the joint (count,) of tasks for one joint."""
     arm, task = inverse_kinematics.arm, inverse_kinematics.task
     draw_seed, search_seed = seed.spawn(2)
@@ -204,10 +204,10 @@ class TaskBank:
 
     tasks: PointTasks
     scenarios: tuple[Scenario, ...]
-    measures: Array
+    measures: FloatArray
     end: NDArray[np.uint8]
-    cpm: Array
-    normalisers: Array
+    cpm: FloatArray
+    normalisers: FloatArray
 
     @classmethod
     def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIOS) -> TaskBank:
@@ -239,12 +239,12 @@ class TaskBank:
         raise InputError(f"the bank has no scenario with {law} and {'a' if failed else 'no'} failure; run the tasks with one")
 
     @property
-    def difficulty(self) -> Array:
+    def difficulty(self) -> FloatArray:
         """Anticipated difficulty (N,): CPM3, that of the failed arm under the pseudoinverse."""
         return np.asarray(self.cpm[self.scenario_index("pseudoinverse", failed=True)])
 
     @property
-    def ratio(self) -> Array:
+    def ratio(self) -> FloatArray:
         """Ratio (N,) CPM4 / CPM3: below 1, the failure-tolerant inverse does better."""
         return np.asarray(self.cpm[self.scenario_index("failure-tolerant", failed=True)] / self.difficulty)
 

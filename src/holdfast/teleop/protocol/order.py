@@ -8,14 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import InputError
+from holdfast.typing import IndexArray
 
-Indices = NDArray[np.int64]
 
-
-def williams_square(n: int) -> Indices:
+def williams_square(n: int) -> IndexArray:
     """Return a Latin square balanced for the preceding task, by Williams' construction.
 
     In each column every task comes equally often, and every ordered pair of neighbours occurs equally often in the rows:
@@ -61,7 +59,7 @@ def choose_next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -
     return int(np.lexsort((np.arange(rows), open_counts, completed_counts + open_counts))[0])
 
 
-def shuffle_scenarios(tasks: int, scenarios: int, seed: int, *, subject: int) -> Indices:
+def shuffle_scenarios(tasks: int, scenarios: int, seed: int, *, subject: int) -> IndexArray:
     """Return (tasks, scenarios) random orders of the scenarios within each task, the same for the same seed and
     subject number.
     """

@@ -43,13 +43,15 @@ from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files import reading
 from holdfast.files.output import replace_file
 from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
-from holdfast.teleop.protocol.order import Indices, shuffle_scenarios, williams_square
+from holdfast.teleop.protocol.order import shuffle_scenarios, williams_square
 from holdfast.teleop.trials.driving import EndRules
 from holdfast.teleop.trials.plant import SUBSTEPS_PER_CYCLE, JoystickPlant
 from holdfast.teleop.trials.scenarios import PointTasks, Scenario
 from holdfast.teleop.trials.stick import Joystick
+from holdfast.typing import IndexArray
 
-PAPER_PROTOCOL, SMOOTH_PROTOCOL = "goel2003", "goel2003-smooth"
+PAPER_PROTOCOL = "goel2003"
+SMOOTH_PROTOCOL = "goel2003-smooth"
 BUILTIN_PROTOCOLS = (PAPER_PROTOCOL, SMOOTH_PROTOCOL)
 RATING_STEPS = ("easy", "moderate", "difficult", "very difficult")
 _UNLIMITED_CYCLES = 10**9
@@ -160,11 +162,11 @@ class Protocol:
         """Plant of the arm under each scenario's law."""
         return tuple(JoystickPlant(scenario.make_law(self.arm, self.rows), self.substeps) for scenario in self.scenarios)
 
-    def task_order(self) -> Indices:
+    def task_order(self) -> IndexArray:
         """Return (R, T) task indices from 0: the rows of the balanced square."""
         return williams_square(len(self.tasks))
 
-    def session_order(self, row: int, subject: int) -> Indices:
+    def session_order(self, row: int, subject: int) -> IndexArray:
         """Return (T S, 2) task and scenario indices, from 0, of a whole session in order.
 
         Args:

@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.notice import reports_progress
 from holdfast.result import Result
 from holdfast.teleop.records.entries import TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import Trials
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 REPLAY_TOLERANCE = 1e-6  # rad and m; a browser, or a computer of another kind, rounds differently, by less
 
@@ -32,7 +30,7 @@ class Replay(Result):
 
     entries: list[TrialRecord]
     trials: Trials
-    difference: Array
+    difference: FloatArray
 
     @property
     def differing_entries(self) -> list[TrialRecord]:

@@ -9,11 +9,9 @@ from enum import StrEnum
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.teleop.trials.recordings import End
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 # The columns that the readers below take, in their order.
 SUBJECT_COLUMNS = "code, number, row, kind, state, since, answers, note"
@@ -97,8 +95,8 @@ class TrialRecord:
     task: int
     scenario: int
     joint: int
-    q0: Array
-    target: Array
+    q0: FloatArray
+    target: FloatArray
     began: str
     ended: str | None
     end: End
@@ -144,10 +142,10 @@ def read_entry(row: tuple[Any, ...]) -> TrialRecord:
     )
 
 
-def pack_array(values: Array) -> bytes:
+def pack_array(values: FloatArray) -> bytes:
     """Pack numbers as they are stored."""
     return np.ascontiguousarray(values, dtype="<f8").tobytes()
 
 
-def _unpack_array(blob: bytes) -> Array:
+def _unpack_array(blob: bytes) -> FloatArray:
     return np.frombuffer(blob, dtype="<f8").astype(np.float64)

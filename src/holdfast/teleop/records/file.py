@@ -16,7 +16,8 @@ from holdfast.teleop.protocol import protocol as protocols
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.digests import RECORDS_FORMAT, DigestChain
 
-RECORDS_FILE, PROTOCOL_FILE = "records.sqlite", "protocol.yaml"
+RECORDS_FILE = "records.sqlite"
+PROTOCOL_FILE = "protocol.yaml"
 LOCK = "serve.lock"  # held by who writes the records of a whole folder
 _UNFINISHED = RECORDS_FILE + ".new"  # the file while an experiment is being created
 _JOURNAL = _UNFINISHED + "-journal"  # written by SQLite

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import InputError, StoreError
 from holdfast.teleop.protocol.order import choose_next_row
@@ -45,8 +44,7 @@ from holdfast.teleop.records.file import (
 )
 from holdfast.teleop.trials.recordings import End, RecordedCycles, Trials
 from holdfast.teleop.trials.scenarios import PointTasks
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 _OUTER_TRANSACTION = ("BEGIN IMMEDIATE", "COMMIT", "ROLLBACK")
 _NESTED_TRANSACTION = ("SAVEPOINT part", "RELEASE part", "ROLLBACK TO part", "RELEASE part")
@@ -321,7 +319,7 @@ class Records:
             self._chain.begin_trial(cursor.lastrowid, subject)
         return cursor.lastrowid
 
-    def append_cycles(self, trial: int, first: int, time: Array, *, velocity: Array, q: Array) -> None:
+    def append_cycles(self, trial: int, first: int, time: FloatArray, *, velocity: FloatArray, q: FloatArray) -> None:
         """Append cycles to a trial; when this returns they are on the disk.
 
         Args:
@@ -360,7 +358,7 @@ class Records:
             self._db.executemany("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", rows)
             self._chain.append_cycles(trial, [row[1:] for row in rows])
 
-    def finish_trial(self, trial: int, end: End, q_end: Array) -> None:
+    def finish_trial(self, trial: int, end: End, q_end: FloatArray) -> None:
         """Finish a trial with its end and the final configuration (n,) of the arm.
 
         Raises:
@@ -513,7 +511,7 @@ class Records:
         result.time[end_rows], result.velocity[end_rows] = np.nan, np.nan
         return result
 
-    def read_times(self, entry: TrialRecord) -> Array:
+    def read_times(self, entry: TrialRecord) -> FloatArray:
         """Return the time (K,) of each cycle in s since the trial began, by the clock of the operator's page."""
         rows = self._db.execute("SELECT time FROM cycles WHERE trial = ? AND time >= 0 ORDER BY k", (entry.id,))
         return np.array([row[0] for row in rows])

@@ -8,12 +8,12 @@ from functools import lru_cache
 import numpy as np
 
 from holdfast.teleop.bank.tasks import sample_tasks
-from holdfast.teleop.protocol.order import Indices
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import SubjectState, TrialKind, TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
+from holdfast.typing import IndexArray
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -72,7 +72,7 @@ class Session:
     def __init__(self, records: Records, code: str) -> None:
         self.records, self.subject = records, records.subject(code)
         protocol = records.protocol
-        self._order: Indices = protocol.session_order(self.subject.row, self.subject.number)
+        self._order: IndexArray = protocol.session_order(self.subject.row, self.subject.number)
 
     def next_trial(self) -> NextTrial | None:
         """Return the next trial; None when the session is over, or the subject failed the training.

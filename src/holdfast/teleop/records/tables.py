@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError
 from holdfast.files.output import guard_writing, make_folder, replace_file
@@ -23,6 +22,7 @@ from holdfast.teleop.records.verification import refuse_damage
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules
 from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES, compute_measures
 from holdfast.teleop.trials.recordings import End, Trials
+from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,9 +30,10 @@ if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.teleop.bank.selection import Binning
 
-Array = NDArray[np.float64]
 
-_MAX_PATH_LENGTH_M, _PATIENCE_PATH_M = 50.0, 2.5  # m
+# _MAX_PATH_LENGTH_M and _PATIENCE_PATH_M: m
+_MAX_PATH_LENGTH_M = 50.0
+_PATIENCE_PATH_M = 2.5
 _STILL_FRACTION = 2e-5  # of a cycle's way at full speed
 
 _TRIAL_COLUMNS = {
@@ -196,7 +197,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
     return pd.DataFrame(columns)
 
 
-def tool_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
+def tool_paths(records: Records) -> Callable[[str | None, int, int], FloatArray | None]:
     """Return a function for the tool path of a trial, in the form that :meth:`holdfast.teleop.analysis.Analysis.report` takes.
 
     Returns:
@@ -206,7 +207,7 @@ def tool_paths(records: Records) -> Callable[[str | None, int, int], Array | Non
     protocol = records.protocol
     by_computer = run_computer_trials(protocol)
 
-    def find_path(subject: str | None, task: int, scenario: int) -> Array | None:
+    def find_path(subject: str | None, task: int, scenario: int) -> FloatArray | None:
         if subject is None:
             return by_computer.path((scenario - 1) * len(protocol.tasks) + task - 1)
         for entry in select_valid_trials(records.entries(subject, TrialKind.TRIAL)):

@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.session import find_training_scenario
 from holdfast.teleop.serve.texts import Texts
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 EXPERIMENT_FORMAT = 1
 _PARALLEL_TOLERANCE = 1e-9
@@ -90,6 +88,6 @@ def compute_planar_workspace(arm: Arm, task: Task) -> tuple[list[float], float |
     return center, float(np.linalg.norm(np.diff(projected, axis=0), axis=1).sum())
 
 
-def _axis_name(row: Array) -> str:
+def _axis_name(row: FloatArray) -> str:
     index = int(np.argmax(np.abs(row)))
     return ("" if row[index] > 0 else "-") + "xyz"[index]

@@ -22,8 +22,12 @@ from holdfast.teleop.serve.writer import RecordsThread
 from holdfast.teleop.trials.recordings import End
 
 DIFFERENCE_EVENT = "replay differs"
-_PAUSED_EVENT, _RESUMED_EVENT, _EXPERIMENTER_DATA = "paused", "goes on", {"by": "experimenter"}
-_MAX_GREETING_PAGES, _MAX_PAGES = 64, 256  # pages at once that have not said hello, and that have
+_PAUSED_EVENT = "paused"
+_RESUMED_EVENT = "goes on"
+_EXPERIMENTER_DATA = {"by": "experimenter"}
+# _MAX_GREETING_PAGES and _MAX_PAGES: pages at once that have not said hello, and that have
+_MAX_GREETING_PAGES = 64
+_MAX_PAGES = 256
 
 
 class _Page(Protocol):

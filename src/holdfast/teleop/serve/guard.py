@@ -21,7 +21,9 @@ from holdfast.files import hosts
 
 _TOKEN_PATTERN = re.compile("[A-Za-z0-9_-]{12,128}")
 _GUESSABLE_WORDS = ("password", "passwort", "qwerty", "letmein", "holdfast", "secret", "token", "study", "admin")
-_MAX_FAILED_ATTEMPTS, _ATTEMPTS_PER_SECOND = 200.0, 1.0  # wrong tokens and keys of one address at once, and a second after that
+# _MAX_FAILED_ATTEMPTS and _ATTEMPTS_PER_SECOND: wrong tokens and keys of one address at once, and a second after that
+_MAX_FAILED_ATTEMPTS = 200.0
+_ATTEMPTS_PER_SECOND = 1.0
 _MAX_ADDRESSES = 1024
 _STATION_PATHS = ("/", "/experiment.json", "/arm.js", "/session")
 _EXPERIMENTER_PATHS = ("/experimenter", "/live")

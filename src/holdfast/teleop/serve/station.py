@@ -25,7 +25,9 @@ _TRIAL_ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME,
 _LIMIT_TOLERANCE = 1e-9  # of the stick's limit
 _MAX_ANSWERS = 1000
 _MAX_SESSION_S = 8 * 3600  # s
-_BYTES_PER_CYCLE, _BYTES_PER_NUMBER = 80, 25  # bytes of a message about one cycle, and of each of its numbers
+# _BYTES_PER_CYCLE and _BYTES_PER_NUMBER: bytes of a message about one cycle, and of each of its numbers
+_BYTES_PER_CYCLE = 80
+_BYTES_PER_NUMBER = 25
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,7 @@ from holdfast.errors import InputError
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.stick import Joystick
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 _NOT_OVER = 255
 
@@ -52,11 +50,11 @@ class Operator(ABC):
     """Operator who holds the joystick in a batch of trials."""
 
     @abstractmethod
-    def begin(self, x: Array, target: Array) -> None:
+    def begin(self, x: FloatArray, target: FloatArray) -> None:
         """Begin a batch of trials with tool points (N, m) and targets (N, m), m."""
 
     @abstractmethod
-    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """Return the velocity (K, m), m/cycle, that the operator commands, before dead zone and limit.
 
         Args:
@@ -66,7 +64,7 @@ class Operator(ABC):
             target: (K, m) their targets.
         """
 
-    def gives_up(self, rows: Indices, cycle: int) -> NDArray[np.bool_]:
+    def gives_up(self, rows: IndexArray, cycle: int) -> NDArray[np.bool_]:
         """Return (K,) True where the operator aborts the trial."""
         del cycle
         return np.zeros(rows.size, dtype=bool)
@@ -87,10 +85,10 @@ class ComputerOperator(Operator):
             raise InputError(f"the computer's gain is {gain:g}; it must be above 0")
         self.gain = gain
 
-    def begin(self, x: Array, target: Array) -> None:
+    def begin(self, x: FloatArray, target: FloatArray) -> None:
         """See :meth:`Operator.begin`."""
 
-    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.wanted`."""
         return self.gain * (target - x)
 
@@ -101,12 +99,12 @@ class RecordedOperator(Operator):
     def __init__(self, trials: Trials) -> None:
         self._trials = trials
 
-    def begin(self, x: Array, target: Array) -> None:
+    def begin(self, x: FloatArray, target: FloatArray) -> None:
         """See :meth:`Operator.begin`."""
         if len(x) != len(self._trials):
             raise InputError(f"{len(self._trials)} recorded trials cannot drive {len(x)} others; give the same trials")
 
-    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.wanted`."""
         trials = self._trials
         velocity = np.zeros((rows.size, trials.velocity.shape[1]))
@@ -114,7 +112,7 @@ class RecordedOperator(Operator):
         velocity[in_progress] = trials.velocity[trials.first[rows[in_progress]] + cycle]
         return velocity
 
-    def gives_up(self, rows: Indices, cycle: int) -> NDArray[np.bool_]:
+    def gives_up(self, rows: IndexArray, cycle: int) -> NDArray[np.bool_]:
         """See :meth:`Operator.gives_up`."""
         gave_up = np.isin(self._trials.end[rows], (End.ABORTED, End.BROKEN_OFF))
         return np.asarray(gave_up & (cycle >= self._trials.cycles[rows]))
@@ -165,7 +163,7 @@ def drive_trials(
     q_end, x_end = q.copy(), x.copy()
     still_cycles = np.zeros(count, dtype=np.int64)
     running = np.arange(count)
-    batches: list[tuple[Indices, Array, Array, Array, Array]] = []
+    batches: list[tuple[IndexArray, FloatArray, FloatArray, FloatArray, FloatArray]] = []
     for cycle in range(end_rules.cycle_limit + 1):
         commanded = operator.command_velocity(running, cycle, x, target=goals[running])
         velocity = commanded if stick is None else stick.limit_velocity(commanded)
@@ -198,20 +196,20 @@ def drive_trials(
 
 
 def _gather_trials(
-    batches: list[tuple[Indices, Array, Array, Array, Array]],
+    batches: list[tuple[IndexArray, FloatArray, FloatArray, FloatArray, FloatArray]],
     count: int,
     n: int,
     m: int,
-    q_end: Array,
-    x_end: Array,
-    target: Array,
+    q_end: FloatArray,
+    x_end: FloatArray,
+    target: FloatArray,
     end: NDArray[np.uint8],
 ) -> Trials:
     """Gather the recorded cycles of all trials, sorted by trial."""
     trial_of_cycle = np.concatenate([np.empty(0, dtype=np.int64), *(batch[0] for batch in batches)])
     order = np.argsort(trial_of_cycle, kind="stable")
 
-    def sorted_cycles(field_index: int, width: int) -> Array:
+    def sorted_cycles(field_index: int, width: int) -> FloatArray:
         return np.concatenate([np.empty((0, width)), *(batch[field_index] for batch in batches)])[order]
 
     first = np.concatenate([[0], np.cumsum(np.bincount(trial_of_cycle, minlength=count))])

@@ -14,9 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.errors import InputError
 from holdfast.teleop.trials.driving import Operator
 from holdfast.teleop.trials.stick import Joystick
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from holdfast.typing import FloatArray, IndexArray
 
 _STOP_RADIUS_FRACTION, _RESTART_RADIUS_FRACTION = (
     0.6,
@@ -107,7 +105,7 @@ class SimulatedPeople(Operator):
         self._people, self._rate, self._stick, self._radius = list(people), rate, stick, radius
         self._generator = np.random.default_rng(seed)
 
-    def begin(self, x: Array, target: Array) -> None:
+    def begin(self, x: FloatArray, target: FloatArray) -> None:
         """See :meth:`Operator.begin`."""
         count, m = x.shape
         if count != len(self._people):
@@ -134,7 +132,7 @@ class SimulatedPeople(Operator):
             (3 + int(np.ceil((self._delay + self._look_back).max())), count, m)
         )  # of the last cycles
 
-    def command_velocity(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
+    def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.wanted`."""
         self._seen_positions[cycle % len(self._seen_positions), rows] = x
         self._update_wobble()
@@ -166,11 +164,11 @@ class SimulatedPeople(Operator):
         hand_speed = np.linalg.norm(hand_velocity, axis=1, keepdims=True)
         return np.asarray(hand_velocity + hand_speed * self._noise[rows, None] * self._wobble[rows])
 
-    def gives_up(self, rows: Indices, cycle: int) -> NDArray[np.bool_]:
+    def gives_up(self, rows: IndexArray, cycle: int) -> NDArray[np.bool_]:
         """See :meth:`Operator.gives_up`."""
         return np.asarray(cycle >= self._give_up_cycles[rows])
 
-    def _interpolate_seen_positions(self, rows: Indices, time: Array) -> Array:
+    def _interpolate_seen_positions(self, rows: IndexArray, time: FloatArray) -> FloatArray:
         """Return the positions seen at times (K,), in cycles; for times before the start, the start."""
         clipped = np.maximum(time, 0.0)
         cycle_before = np.floor(clipped).astype(np.int64)
@@ -188,7 +186,7 @@ class SimulatedPeople(Operator):
         innovation = self._generator.normal(size=self._wobble.shape)
         self._wobble = decay * self._wobble + np.sqrt(1 - decay * decay) * innovation
 
-    def _start_detours(self, rows: Indices, cycle: int, moved: Array, retreat: Array) -> None:
+    def _start_detours(self, rows: IndexArray, cycle: int, moved: FloatArray, retreat: FloatArray) -> None:
         """Start a detour in another direction where the straight one makes no progress or leads away from the target.
 
         Args:
@@ -207,7 +205,7 @@ class SimulatedPeople(Operator):
         self._calm_until[detouring] = self._detour_until[detouring] + self._look_back[detouring]
 
 
-def _rotate_direction(direction: Array, angle: Array, reference: Array) -> Array:
+def _rotate_direction(direction: FloatArray, angle: FloatArray, reference: FloatArray) -> FloatArray:
     """Rotate unit vectors (K, m) by angles (K,): to the left in the plane, towards ``aside`` in space."""
     if direction.shape[1] == 2:
         normal = np.stack([-direction[:, 1], direction[:, 0]], axis=1)

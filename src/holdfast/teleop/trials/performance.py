@@ -11,12 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.errors import InputError
 from holdfast.teleop.trials.recordings import Trials
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ RECORDED_MEASURES = 11  # of them: all but the rating
 _MIN_SPEED_FRACTION = 1e-12  # of the command: below it the end effector has no direction
 
 
-def compute_measures(trials: Trials) -> Array:
+def compute_measures(trials: Trials) -> FloatArray:
     """Compute the measures M1 to M11 of each trial.
 
     With the commanded velocity v, its actual velocity a at the beginning of a cycle, its position x, and the straight
@@ -79,16 +78,16 @@ def compute_measures(trials: Trials) -> Array:
     result = np.zeros((count, RECORDED_MEASURES))
     started = np.flatnonzero(cycle_counts > 0)
 
-    def sum_by_trial(values: Array) -> Array:
+    def sum_by_trial(values: FloatArray) -> FloatArray:
         return np.asarray(np.bincount(trial_of_cycle, weights=values, minlength=count), dtype=np.float64)
 
-    def max_by_trial(values: Array) -> Array:
+    def max_by_trial(values: FloatArray) -> FloatArray:
         maxima = np.zeros(count)
         if started.size:
             maxima[started] = np.maximum.reduceat(values, first[started])
         return maxima
 
-    def shift_by_cycle(values: Array, end: Array) -> Array:
+    def shift_by_cycle(values: FloatArray, end: FloatArray) -> FloatArray:
         """Return the same quantity one cycle later."""
         shifted = np.empty_like(values)
         shifted[:-1] = values[1:]
@@ -146,8 +145,8 @@ class CPM:
         normalisers: (k,) the largest value of each measure over all trials compared.
     """
 
-    values: Array
-    normalisers: Array
+    values: FloatArray
+    normalisers: FloatArray
 
 
 def compute_cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
@@ -186,7 +185,7 @@ def compute_cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
     return CPM(terms.sum(axis=-1), np.asarray(largest))
 
 
-def _distance_to_segment(x: Array, start: Array, end: Array) -> Array:
+def _distance_to_segment(x: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """Return the (K,) distances of points (K, m) from segments."""
     segment = end - start
     squared_length = np.einsum("ij,ij->i", segment, segment)

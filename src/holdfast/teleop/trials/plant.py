@@ -6,7 +6,6 @@ from functools import lru_cache
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.task import Task
@@ -15,8 +14,7 @@ from holdfast.control.law import Law
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel, SingleRowKernel
 from holdfast.kernels.recall import cached_json, cached_kernel
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 SUBSTEPS_PER_CYCLE = 10
 _MAX_UNROLLED_OPERATIONS = 40_000  # operations in one call, about
@@ -61,7 +59,7 @@ class JoystickPlant:
     def _single_kernel(self) -> SingleRowKernel:
         return self._kernel.single_row()
 
-    def step_one(self, q: Array, velocity: Array, healthy: Array) -> tuple[Array, Array]:
+    def step_one(self, q: FloatArray, velocity: FloatArray, healthy: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Compute one cycle of one arm, without checks: for a control loop, and not for several threads at once.
 
         The first call compiles, which takes up to a second the first time and milliseconds later.
@@ -83,7 +81,7 @@ class JoystickPlant:
             result = self._single_kernel(arguments)
         return result[:n].copy(), actual
 
-    def step_batch(self, q: Array, velocity: Array, healthy: Array) -> tuple[Array, Array]:
+    def step_batch(self, q: FloatArray, velocity: FloatArray, healthy: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Compute one cycle of N arms: as :meth:`cycle`, with (N, n), (N, m) and (N, n), to (N, n) and (N, m)."""
         n = self.n
         result = self._kernel.rows(q, velocity, healthy)
@@ -92,7 +90,7 @@ class JoystickPlant:
             result = self._kernel.rows(result[:, :n], velocity, healthy)
         return np.ascontiguousarray(result[:, :n]), actual
 
-    def position(self, q: Array) -> Array:
+    def position(self, q: FloatArray) -> FloatArray:
         """Return the task components (N, m) of the tool point, m, of configurations (N, n)."""
         points = self.law.arm.forward_kinematics(np.atleast_2d(q))[:, :3, 3]
         return np.asarray(points @ self.law.task.rows[:, :3].T)

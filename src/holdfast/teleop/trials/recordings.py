@@ -9,7 +9,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 class End(IntEnum):
@@ -47,9 +47,9 @@ class RecordedCycles:
         first: (N + 1,) where each trial begins; the last entry is R.
     """
 
-    time: Array
-    velocity: Array
-    q: Array
+    time: FloatArray
+    velocity: FloatArray
+    q: FloatArray
     first: NDArray[np.int64]
 
 
@@ -69,14 +69,14 @@ class Trials:
         end: (N,) :class:`holdfast.teleop.End`.
     """
 
-    velocity: Array
-    q: Array
-    x: Array
-    actual: Array
+    velocity: FloatArray
+    q: FloatArray
+    x: FloatArray
+    actual: FloatArray
     first: NDArray[np.int64]
-    q_end: Array
-    x_end: Array
-    target: Array
+    q_end: FloatArray
+    x_end: FloatArray
+    target: FloatArray
     end: NDArray[np.uint8]
 
     def __len__(self) -> int:
@@ -96,18 +96,18 @@ class Trials:
         """Return the trial (C,) of each cycle."""
         return np.repeat(np.arange(len(self)), self.cycles)
 
-    def start(self) -> Array:
+    def start(self) -> FloatArray:
         """Return the tool point (N, m) at the start, m."""
         has_cycles = self.cycles > 0
         starts = self.x_end.copy()
         starts[has_cycles] = self.x[self.first[:-1][has_cycles]]
         return starts
 
-    def path(self, i: int) -> Array:
+    def path(self, i: int) -> FloatArray:
         """Return the tool point (K + 1, m) of trial i, from start to end, m."""
         return np.vstack([self.x[self.first[i] : self.first[i + 1]], self.x_end[i]])
 
-    def configurations(self, i: int) -> Array:
+    def configurations(self, i: int) -> FloatArray:
         """Return the configurations (K + 1, n) of trial i, from start to end, rad and m."""
         return np.vstack([self.q[self.first[i] : self.first[i + 1]], self.q_end[i]])
 

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control.law import Law, by_name
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -66,14 +65,14 @@ class PointTasks:
         joint: (N,) index from 0 of the joint that is locked, at its start angle, in scenarios with a failure; -1 for none.
     """
 
-    q0: Array
-    target: Array
+    q0: FloatArray
+    target: FloatArray
     joint: NDArray[np.int64]
 
     def __len__(self) -> int:
         return len(self.joint)
 
-    def healthy_mask(self, failed: bool | NDArray[np.bool_]) -> Array:
+    def healthy_mask(self, failed: bool | NDArray[np.bool_]) -> FloatArray:
         """Return the mask (N, n): 1, or 0 for a joint that is locked; ``failed`` for all tasks, or (N,) for each."""
         mask = np.ones(self.q0.shape)
         locked = np.flatnonzero((self.joint >= 0) & failed)

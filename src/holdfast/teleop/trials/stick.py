@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.errors import InputError
-
-Array = NDArray[np.float64]
+from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -40,11 +39,11 @@ class Joystick:
                 f"the dead zone is {self.dead_zone:g} m/cycle; it must be 0 or more, and below the limit of {self.limit:g}"
             )
 
-    def command_velocity(self, deflection: ArrayLike) -> Array:
+    def command_velocity(self, deflection: ArrayLike) -> FloatArray:
         """Return the commanded velocity (..., m), m/cycle, for a deflection (..., m) of -1 to 1, 0 in the middle."""
         return self.limit_velocity(self.limit * np.asarray(deflection, dtype=np.float64))
 
-    def limit_velocity(self, velocity: ArrayLike) -> Array:
+    def limit_velocity(self, velocity: ArrayLike) -> FloatArray:
         """Apply dead zone and limit to a velocity (..., m), m/cycle."""
         v = np.asarray(velocity, dtype=np.float64)
         speed = np.linalg.norm(v, axis=-1, keepdims=True)

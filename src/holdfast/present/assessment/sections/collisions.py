@@ -29,7 +29,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         return []
     arm, capsules = facts.assessment.arm, clearance.capsules
     blocks: list[Block] = []
-    if capsules.assumed(arm):
+    if capsules.is_assumed(arm):
         text = (
             f"The shape of the arm is an assumption: along each link a capsule of radius {capsules.parts[0].radius:.3g} m, "
             "1/20 of the sum of the link lengths. Give the real one by --capsules, or its radius by --radius."

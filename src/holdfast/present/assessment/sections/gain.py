@@ -114,7 +114,7 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
                 pose_axes.set(yscale="log", ylim=(None, None))
             pose_axes.set_title("Each pose before (line) and after (dots)")
         figures.legend_below(figure, cdf_axes)
-        return figures.finished(figure)
+        return figures.settle_layout(figure)
 
 
 def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]:
@@ -165,4 +165,4 @@ def draw_cdf_figure(facts: AssessmentFacts) -> Figure:
             f"{facts.noun}s{unreached_text}"
         )
         figures.legend_below(figure, axes, 1)
-        return figures.finished(figure)
+        return figures.settle_layout(figure)

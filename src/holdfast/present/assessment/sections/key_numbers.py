@@ -37,7 +37,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     if assessment.region.kind != "joints":
         entries.append(("Reached", facts.format_share(distribution.reached)))
         entries.append(("No configuration found", facts.format_share(distribution.unreached)))
-    if distribution.weighted and distribution.samples:
+    if distribution.has_weights and distribution.samples:
         entries.append(("Weights", facts.weights_text))
     entries.append(
         (

@@ -13,10 +13,10 @@ from holdfast.regions.region import Region
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Code, Picture, Table, Text
 from holdfast.report.views import choose_side_and_top_views
+from holdfast.typing import FloatArray
 from holdfast.words import format_count, format_decimals, format_number
 
 TITLE = "The worst {noun}s, and where tolerance is low"
-Array = NDArray[np.float64]
 
 _MIN_POSES_FOR_MAP = 200
 
@@ -69,7 +69,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         text += " Above at the configurations found, below at the best ones, in the same colours."
     if facts.assessment.region.kind == "joints":
         text += " Positions are those of the tool."
-    if facts.distribution.weighted:
+    if facts.distribution.has_weights:
         text += f" Within a cell {facts.noun}s count by weight; cells without weight are grey."
     return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
 
@@ -110,7 +110,7 @@ def _tabulate_worst_poses(facts: AssessmentFacts, distribution: Distribution, po
     return Table(cells, header, frozenset(range(8)), caption=caption, wide=True)
 
 
-def _choose_rpy_angles(rotations: Array, region: Region) -> Array:
+def _choose_rpy_angles(rotations: FloatArray, region: Region) -> FloatArray:
     """Return roll, pitch, yaw of rotations; of the two equivalent triples and their full turns the one nearest to the region
     centre.
     """

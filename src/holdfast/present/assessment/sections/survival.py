@@ -12,10 +12,10 @@ from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.report.views import View, choose_side_and_top_views
+from holdfast.typing import FloatArray
 from holdfast.words import format_as_given, format_decimals, format_interval, format_percent
 
 TITLE = "What survives a locked joint"
-Array = NDArray[np.float64]
 
 _MIN_POSES_FOR_MAP = 200
 
@@ -35,7 +35,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         f"{facts.assessment.arm.joint_names[joint]}{'' if angle is None else f' {_format_position(facts, joint, angle)}'}"
         for joint, angle in locks.items()
     ]
-    axis_label = f"{'weight of ' if facts.distribution.weighted else ''}poses still reached once the joint has locked"
+    axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached once the joint has locked"
     figure = figures.bar_figure(
         bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
     )
@@ -48,7 +48,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     blocks: list[Block] = [
         Text(
             f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
-            f"{'the weight of ' if facts.distribution.weighted else ''}the "
+            f"{'the weight of ' if facts.distribution.has_weights else ''}the "
             f"{facts.distribution.samples:,} poses{_describe_safe_reach(facts)}. The lock that costs most is that of "
             f"{worst}, {lock_positions[worst]}: "
             f"{format_interval(fractions[worst])} of the poses are left."
@@ -88,7 +88,7 @@ def _describe_clearance_method(facts: AssessmentFacts) -> str:
 
 
 def _get_total_weight(facts: AssessmentFacts) -> float:
-    return facts.distribution.total_weight() if facts.distribution.weighted else facts.distribution.samples
+    return facts.distribution.total_weight() if facts.distribution.has_weights else facts.distribution.samples
 
 
 def _format_position(facts: AssessmentFacts, joint: int, position: float) -> str:
@@ -128,18 +128,18 @@ def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list
         f"how many poses the cell holds. Left: the healthy arm reaches {int(healthy.sum()):,} of {total:,} poses"
         f"{_describe_clearance_method(facts)}. Right: with {name} locked {position}, {int(remaining.sum()):,} of {total:,}."
     )
-    if facts.distribution.weighted:
+    if facts.distribution.has_weights:
         text += " Fractions count by weight, these numbers do not."
     return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
 
 
 def draw_before_and_after(
-    position: Array,
+    position: FloatArray,
     healthy: NDArray[np.bool_],
     remaining: NDArray[np.bool_],
     view: View,
     locked_title: str,
-    weights: Array | None = None,
+    weights: FloatArray | None = None,
 ) -> Figure:
     """Map the fraction of poses (N, 3), m, reached (N,) before and after a failure, by weight (N,) if there is one."""
     panels = [("Healthy", healthy), (figures.format_label(locked_title, 37), remaining)]

@@ -22,7 +22,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     if not facts.distribution.reached:
         return []
     blocks: list[Block] = []
-    weighted = facts.distribution.weighted
+    weighted = facts.distribution.has_weights
     total = float(counts.sum()) if weighted else int(counts.sum())
     chosen = np.arange(len(labels))
     remark = ""
