@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from holdfast.typing import IndexArray
-
 from collections.abc import Callable, Sequence
 from hashlib import sha256
 from pathlib import Path
@@ -16,7 +14,6 @@ from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.notice import reports_progress, warn_now
 from holdfast.teleop.bank.tasks import drive_tasks
-from holdfast.teleop.protocol.order import
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Subject, SubjectKind, SubjectState, TrialKind
 from holdfast.teleop.records.file import LOCK, RECORDS_FILE
@@ -25,6 +22,7 @@ from holdfast.teleop.records.session import completion_times, find_training_scen
 from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfort, sample_people
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import PointTasks
+from holdfast.typing import IndexArray
 
 OPERATORS_PER_BATCH = 64  # their trials are driven together and held in memory
 

@@ -17,10 +17,9 @@ from holdfast.teleop.serve.messages import Ack, Bye, Hello, Message, Pause, Refu
 
 _MAX_UNANSWERED_MESSAGES = 512  # messages of one page that wait for the disk
 _GREETING_TIMEOUT_S = 10.0  # s for the first message
-_BYTES_PER_SECOND, _BURST_BYTES = (
-    256 * 1024.0,
-    4 * 2.0**20,
-)  # that a page may send in a second for ever, and at once after a pause
+# _BYTES_PER_SECOND and _BURST_BYTES: that a page may send in a second for ever, and at once after a pause
+_BYTES_PER_SECOND = 256 * 1024.0
+_BURST_BYTES = 4 * 2.0**20
 
 
 class Connection:

@@ -16,10 +16,10 @@ from holdfast.teleop.trials.driving import Operator
 from holdfast.teleop.trials.stick import Joystick
 from holdfast.typing import FloatArray, IndexArray
 
-_STOP_RADIUS_FRACTION, _RESTART_RADIUS_FRACTION = (
-    0.6,
-    0.9,
-)  # of the circle's radius: where the stick is released, and where it is used again
+# _STOP_RADIUS_FRACTION and _RESTART_RADIUS_FRACTION: of the circle's radius: where the stick is released, and where it is used
+# again
+_STOP_RADIUS_FRACTION = 0.6
+_RESTART_RADIUS_FRACTION = 0.9
 _NOISE_MEMORY_S = 0.2  # s
 _DETOUR_DURATION_S = 1.5  # s: how long another direction is tried
 _LOST_DISTANCE_M = 0.05  # m: farther from the target by so much than one look-back ago is "moving away"
