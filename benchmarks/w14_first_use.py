@@ -65,7 +65,7 @@ FILES = {
 STUDY = "holdfast study new tools.yaml --arm panda --arm iiwa14 --poses 200 --chunk 100 --seed 1"
 EXPERIMENT = "holdfast teleop run --simulated --operators 24 --seed 1 --out experiment"
 CERTIFICATE = "holdfast certify reach planar-3r --box '1.5 0.5' --size 0.4 --lock joint2=0.9..1.1"
-HEALTHY = "holdfast rehearse panda --records 2 --out healthy"
+HEALTHY = "holdfast simulate-logs panda --records 2 --out healthy"
 EARLIER = {  # what somebody has run before, not timed
     "report": ["holdfast assess planar-3r --poses 200 --seed 1 --out results"],
     "study run": [STUDY],

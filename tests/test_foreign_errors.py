@@ -105,19 +105,19 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "design": (
             hf.design,
             {"arm": arm, "vary": {"a2": (0.5, 1.5)}, "region": region, "task": "planar", "objective": index.slug}
-            | {"level": 0.9, "poses": 4, "designs": 4, "climbs": 0, "fresh": 4, "seed": 0, "failures": "single", "length": 1.0},
+            | {"level": 0.9, "poses": 4, "designs": 4, "local_searches": 0, "check_poses": 4, "seed": 0, "failures": "single", "length": 1.0},
         ),
-        "endurance_of": (
+        "evaluate_motion": (
             hf.evaluate_motion,
             {"arm": arm, "motion": np.tile(q, (3, 1)), "path": g["tiny"], "rates": None, "mode": "on-path", "task": "planar"}
             | {"per_second": False, "samples": 3, "spacing": 0.3, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
-        "endure": (
+        "plan_motion": (
             hf.plan_motion,
             {"arm": arm, "path": g["timed"], "rates": [1.0, 2.0, 0.0], "mode": "on-path", "task": "planar", "samples": 3}
             | {"per_second": False, "spacing": 0.3, "start": None, "seed": 0, "starts": 4, "clearance": None, "margin": 0.0},
         ),
-        "endure_to": (
+        "plan_motion_to": (
             hf.plan_motion_to,
             {**at_planar, "start": q, "goal": target, "rates": None, "velocity": 1.0, "spacing": 0.3, "seed": 0, "starts": 4}
             | {"per_second": False},

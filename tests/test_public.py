@@ -88,9 +88,9 @@ def test_the_names_a_user_needs():
         "set_threads",
         "free_swing",
         "follow",
-        "endure",
-        "endurance_of",
-        "endure_to",
+        "plan_motion",
+        "evaluate_motion",
+        "plan_motion_to",
     }
     assert needed <= set(hf.__all__)
 

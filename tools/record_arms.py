@@ -51,7 +51,7 @@ def write_sold(sold: str, task: str, k: int) -> None:
         rest = np.where(np.arange(arm.n) == joint, np.clip(0.0, arm.lower, arm.upper), q)
         q = rest if abs(index(rest) - index(q)) < 1e-12 else q
     name = f"{sold}-{task}-k{k}-001"
-    how = "holdfast optimise --anywhere, the better of seeds 1 and 2"
+    how = "holdfast optimise --any-pose, the better of seeds 1 and 2"
     low, high = np.ceil(arm.lower * 10**DIGITS) / 10**DIGITS, np.floor(arm.upper * 10**DIGITS) / 10**DIGITS
     record = hf.designs.new_record(arm, task, k, q=np.clip(np.round(q, DIGITS), low, high), name=name, by="holdfast", how=how)
     (FOLDER / f"{name}.yaml").write_text(record.text, encoding="utf-8")

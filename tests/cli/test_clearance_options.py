@@ -221,7 +221,7 @@ CALLS = {
     "best-law": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
     "compare-laws": ("planar-3r", "--motions", 2),
     "convergence-map": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
-    "endure": ("panda", "line.yaml"),
+    "plan-motion": ("panda", "line.yaml"),
     "follow": ("panda", "line.yaml", "--minimise", "torque"),
     "free-swing": ("panda", "--q", "0 -0.2 0 -1.6 0 1.6 0.8", "--joint", 2),
     "optimise": BEST[1:],

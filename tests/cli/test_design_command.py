@@ -18,7 +18,7 @@ from wellformed import check
 
 REGION = "name: a bench\nbox: {center: [1.5, 0.6, 0], size: [0.8, 0.8, 0]}\n"
 SEARCH = ("planar-3r", "--vary", "a1=0.6..1.4", "--vary", "a3=0.6..1.4m", "--vary", "upper2=90..180deg", "--task", "planar",
-          "--poses", "12", "--designs", "6", "--climbs", "1", "--fresh", "60", "--seed", "5")  # fmt: skip
+          "--poses", "12", "--designs", "6", "--local-searches", "1", "--check-poses", "60", "--seed", "5")  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +59,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     # The report says what was found, and the command in it is one that the program takes.
     page = (out / "report.html").read_text().replace("\u00a0", " ")
     check(page)
-    for words in ("What to build", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--fresh 60"):
+    for words in ("What to build", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--check-poses 60"):
         assert words in page, words
     # A search that lost its last parts makes only those, with the same bits; one that is complete is not made again.
     memory = out / MEMORY_FILE
@@ -88,7 +88,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
         (("--vary", "a4=0..1"), "'planar-3r' has no row 4"),
         (("--vary", "lower3=-180..190deg"), "the limits of joint 'joint3' can cross"),
         (("--vary", "a3=0.5..2", "--level", "1"), "level is 1; it must be between 0 and 1"),
-        (("--vary", "a3=0.5..2", "--climbs", "-1"), "climbs is -1; it must be 0 or more"),
+        (("--vary", "a3=0.5..2", "--local-searches", "-1"), "climbs is -1; it must be 0 or more"),
         (("--vary", "a3=0.5..2", "--maximise", "condition-number"), "better when smaller"),
         (("--vary", "a3=0.5..2", "--maximise", "dexterity"), "dexterity"),
         (("--vary", "alpha1=-10..10deg"), "a planar task needs designs that move in the plane of 'planar-3r'"),
@@ -101,7 +101,7 @@ def test_refusals(refused, options, words):
 
 
 def test_a_search_for_convergence(cli, ask, tmp_path):
-    options = ("planar-3r", "--vary", "a2=0.6..1.4", "--vary", "a3=0.6..1.4", "--designs", "2", "--climbs", "0")
+    options = ("planar-3r", "--vary", "a2=0.6..1.4", "--vary", "a3=0.6..1.4", "--designs", "2", "--local-searches", "0")
     found = ask(
         "design", *options, "--maximise", "convergence", "--law", "damped:0.1", "--keep-reach", "--out", tmp_path / "new"
     )

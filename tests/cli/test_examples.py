@@ -40,13 +40,13 @@ FIRST = {  # commands before
     "study run": [STUDY],
     **{f"study {of}": DONE for of in ("status", "verify", "report")},
     "study merge": [STUDY, *(f"study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
-    "calibrate": ["rehearse panda --records 2 --duration 1 --out healthy"],
+    "calibrate": ["simulate-logs panda --records 2 --duration 1 --out healthy"],
     "diagnose": [
-        "rehearse panda --records 2 --duration 1 --out healthy",
+        "simulate-logs panda --records 2 --duration 1 --out healthy",
         "calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json",
     ],
-    "observe": [
-        "rehearse panda --records 2 --duration 1 --out healthy",
+    "predict-detection": [
+        "simulate-logs panda --records 2 --duration 1 --out healthy",
         "calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json",
     ],
     **{f"certificate {of}": ["certify reach planar-3r --box '1.5 0.5' --size 0.2"] for of in ("check", "show")},
@@ -60,11 +60,11 @@ CHEAPER = {  # options at the end, the last of which counts
     "compare-laws": "--motions 2",
     "convergence-map": "--starts 2 --configurations 2 --time-limit 60",
     "optimise": "--starts 2",
-    "design": "--designs 4 --climbs 1 --poses 8 --fresh 32",
+    "design": "--designs 4 --local-searches 1 --poses 8 --check-poses 32",
     "follow": "--samples 11",
-    "endure": "--samples 5 --spacing 0.3",
+    "plan-motion": "--samples 5 --spacing 0.3",
     "recover": "--samples 0",
-    "rehearse": "--records 1 --duration 0.2",
+    "simulate-logs": "--records 1 --duration 0.2",
     "free-swing": "--duration 0.2",
     "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",
     "teleop run": "--operators 2",
@@ -74,7 +74,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
-QUICK = {"arms", "ceiling", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
+QUICK = {"arms", "upper-bound", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {
     "synthesise",
     "certify reach",

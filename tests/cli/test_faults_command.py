@@ -32,15 +32,15 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     panda = hf.arms.load("panda")
     friction = {"coulomb": [0.5] * 7, "viscous": [0.3] * 7}
     hf.diagnosis.calibrate(panda, [hf.diagnosis.simulate_log(panda, 1.0, robot=0)], factor=3, **friction).to_json("bounds.json")
-    found = ask(*CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--out", "chain")
+    found = ask(*CALL, "--physics", "--faults", "faults.yaml", "--monitor", "bounds.json", "--out", "chain")
     assert (found["ok"], found["react"], list(found["braked"])) == (True, "chain", ["panda_joint4"])
     assert found["noticed_s"] > 0.4
-    ask(*CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--csv", "motion.csv")
+    ask(*CALL, "--physics", "--faults", "faults.yaml", "--monitor", "bounds.json", "--csv", "motion.csv")
     motion = np.genfromtxt("motion.csv", delimiter=",", names=True)
     k = np.searchsorted(motion["time_s"], 1.2)  # the brake is at 0.5 s, the end at 2 s and more
     hf.Cell([hf.cell.Sphere("lamp", 0.03, pose=placed(*(motion[f"tool_{axis}_m"][k] for axis in "xyz")))]).save("cell.yaml")
     clear = ask(
-        *CALL, "--physics", "--faults", "faults.yaml", "--notice", "bounds.json", "--cell", "cell.yaml", "--out", "cell"
+        *CALL, "--physics", "--faults", "faults.yaml", "--monitor", "bounds.json", "--cell", "cell.yaml", "--out", "cell"
     )
     assert (clear["ok"], clear["contacts"]) == (True, [])
     page = (tmp_path / "cell" / "report.html").read_text(encoding="utf-8")
@@ -50,7 +50,7 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
     assert "no certified safety function" in page
     assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
-    assert "--notice is of an arm with bodies, motors and sensors; add --physics" in refused(*CALL, "--notice", "bounds.json")
+    assert "--monitor is of an arm with bodies, motors and sensors; add --physics" in refused(*CALL, "--monitor", "bounds.json")
     assert "--stop-at-contact does not go with" in refused(*CALL, "--physics", "--record", "run.npz", "--stop-at-contact")
     assert "--record is of an arm" in refused(*CALL, "--record", "run.npz")
     assert "--lock does not go with --faults" in refused(*CALL, "--physics", "--lock", "1", "--faults", "faults.yaml")
@@ -65,10 +65,10 @@ def test_bounds_of_its_own_loop(ask, cli, tmp_path, monkeypatch):
     alike = hf.faults.Log.load("left.npz"), hf.faults.Log.load("right.csv")
     assert [log.q.shape[1] for log in alike] == [7, 7]
     cli("calibrate", "left.npz", "right.csv", "--arm", "panda", "--out", "bounds.json")
-    assert ask(*CALL, "--physics", "--notice", "bounds.json")["noticed_s"] is None
+    assert ask(*CALL, "--physics", "--monitor", "bounds.json")["noticed_s"] is None
     bounds = hf.diagnosis.load("bounds.json")
     replace(bounds, torque=bounds.torque / 4).to_json("narrow.json")
-    found = cli(*CALL, "--physics", "--notice", "narrow.json")[1]
+    found = cli(*CALL, "--physics", "--monitor", "narrow.json")[1]
     assert "no fault in this episode" in found
     assert "the first alarm is false, nothing had failed" in found
 

@@ -217,7 +217,7 @@ def test_a_person_reads_joints_in_rad_and_degrees(cli):
 
 
 def test_the_best_of_all_poses(ask, cli):
-    given = ("optimise", "planar-3r", "--maximise", "relative-manipulability", "--anywhere", "--starts", "50")
+    given = ("optimise", "planar-3r", "--maximise", "relative-manipulability", "--any-pose", "--starts", "50")
     (row,) = ask(*given)["poses"]
     assert row["value"] == pytest.approx(1 / np.sqrt(3), abs=1e-6)
     words = " ".join(cli(*given)[1].split())
@@ -240,7 +240,7 @@ def test_positions_need_no_orientation(ask):
         (["--at", IN_RADIANS, "--minimise", "torque", "--maximise", "torque"], "give one of --minimise and --maximise"),
         (["--minimise", "torque"], "give one of --pose"),
         (["--minimise", "torque", "--at", IN_RADIANS, "--pose", "1,0,0"], "give one of --pose"),
-        (["--minimise", "torque", "--at", IN_RADIANS, "--anywhere"], "give one of --pose"),
+        (["--minimise", "torque", "--at", IN_RADIANS, "--any-pose"], "give one of --pose"),
         (["--minimise", "torque", "--at", "1 2"], "has 2 values per configuration"),
         (["--minimise", "torque", "--at", "1 2 3 4 5 6 nan"], "--at holds NaN"),
         (["--minimise", "torque", "--pose", "1,2"], "--pose has 2 numbers; give x,y,z,roll,pitch,yaw"),

@@ -166,7 +166,7 @@ def test_a_target_by_angles_is_that_by_a_quaternion(cli):
 
 
 def test_a_lock_with_bounds_is_a_fault_of_the_robot(cli, monkeypatch, tmp_path):
-    """With --physics and --record or --notice, --lock is a locked fault, as a faults file would have it."""
+    """With --physics and --record or --monitor, --lock is a locked fault, as a faults file would have it."""
     asked = {}
 
     class StoppedError(Exception):

@@ -96,7 +96,7 @@ def test_the_command_is_the_search(found):
         assert (a.lower, a.upper) == pytest.approx((b.lower, b.upper), abs=1e-9)
     assert dict(options) | {"--vary": ""} == {
         "--vary": "", "--maximise": "relative-manipulability", "--region": "region.yaml", "--task": "planar", "--level": "0.95",
-        "--poses": "64", "--designs": "2", "--climbs": "1", "--fresh": "200", "--seed": "3",
+        "--poses": "64", "--designs": "2", "--local-searches": "1", "--check-poses": "200", "--seed": "3",
     }  # fmt: skip
 
 

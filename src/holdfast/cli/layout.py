@@ -14,7 +14,7 @@ _MIN_OPTIONS_FOR_PANELS = 8  # options that stay in one panel
 _PANEL_OPTIONS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance cell",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
-    "climbs fresh designs chunk rotation spacing metric",
+    "local-searches check-poses designs chunk rotation spacing metric",
     "Output": "out json csv parquet plot at-least",
 }
 _PANEL_BY_OPTION = {f"--{name}": choose_panel for choose_panel, names in _PANEL_OPTIONS.items() for name in names.split()}

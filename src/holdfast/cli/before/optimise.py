@@ -47,7 +47,7 @@ def command(
     failures: FailuresOption = "single",
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     starts: Annotated[
-        int | None, "Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --anywhere."
+        int | None, "Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --any-pose."
     ] = None,
     apart: ClearanceOptions = ClearanceOptions(),
     placement: MountingOptions = MountingOptions(),
@@ -56,7 +56,7 @@ def command(
     csv: Annotated[Path | None, "Write the configurations to this file."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Find the most fault-tolerant configuration of a tool pose, or of all poses (--anywhere).
+    """Find the most fault-tolerant configuration of a tool pose, or of all poses (--any-pose).
 
     Example: holdfast optimise panda --at "0 -45 0 -135 0 90 45" --degrees --minimise torque:effort
     """
@@ -71,7 +71,7 @@ def command(
     option_and_text = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *option_and_text, pose_task, read_failures(model, failures))
     if [pose is not None, poses is not None, at is not None, any_pose].count(True) != 1:
-        raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv, --at "joint values" and --anywhere')
+        raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv, --at "joint values" and --any-pose')
     initial = None if at is None else np.array([read_configuration(model, numbers, degrees, "--at") for numbers in at])
     targets = None
     if not any_pose:

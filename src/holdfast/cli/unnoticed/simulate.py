@@ -46,7 +46,7 @@ def command(
     ] = None,
     lock: Annotated[
         list[str] | None,
-        "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --notice a fault. May be given again.",
+        "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --monitor a fault. May be given again.",
     ] = None,
     failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
@@ -93,7 +93,7 @@ def command(
             "--cycles": cycles,
             "--time-limit": time_limit,
             "--faults": faults,
-            "--notice": monitor,
+            "--monitor": monitor,
             "--record": record,
         }
         _reject_options(other_options | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
@@ -138,7 +138,7 @@ def command(
             fault_run, json_, write_outputs(fault_run, plot, out) + records + ([] if csv is None else [fault_run.to_csv(csv)])
         )
         return
-    for name, file in {"--notice": monitor, "--record": record}.items():
+    for name, file in {"--monitor": monitor, "--record": record}.items():
         if file is not None:
             raise InputError(f"{name} is of an arm with bodies, motors and sensors; add --physics")
     if drawn_faults is not None:
@@ -167,7 +167,7 @@ def command(
     print_result(result, json_, files)
 
 
-def _reject_options(options: Mapping[str, object], chosen_option: str = "--faults, --notice or --record") -> None:
+def _reject_options(options: Mapping[str, object], chosen_option: str = "--faults, --monitor or --record") -> None:
     given_option = next((name for name, value in options.items() if value), None)
     if given_option is not None:
         raise InputError(f"{given_option} does not go with {chosen_option}; leave it out")

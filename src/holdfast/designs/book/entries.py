@@ -150,7 +150,7 @@ class DesignRecord(Result):
             InputError: It is a null space alone.
         """
         if self.arm is None:
-            raise InputError(f"'{self.id}' is a null space alone; make an arm that has it: holdfast ceiling --arm")
+            raise InputError(f"'{self.id}' is a null space alone; make an arm that has it: holdfast upper-bound --arm")
         return urdf_text(self.arm)
 
     @property
@@ -363,7 +363,7 @@ def record_design(name: str) -> DesignRecord:
     entries = record_designs()
     if name not in entries:
         raise InputError(
-            f"there is no record '{name}'; `holdfast records list` shows all, and the name of a file ends in .yaml"
+            f"there is no record '{name}'; `holdfast record-designs list` shows all, and the name of a file ends in .yaml"
         )
     return entries[name]
 
@@ -422,9 +422,9 @@ def _make_null_space_record(bound: UpperBound) -> DesignRecord:
         "class": record_class,
         "value": bound.best_known,
         "proven_bound": {"value": bound.bound, "by": bound.bound_by},
-        "found": {"by": "holdfast", "date": "2026-11-25", "how": "holdfast ceiling --search"},
+        "found": {"by": "holdfast", "date": "2026-11-25", "how": "holdfast upper-bound --search"},
         "null_space": bound.null_space.tolist(),
-        "check": {"command": f"holdfast records check {record_id}", "tolerance": 1e-9},
+        "check": {"command": f"holdfast record-designs check {record_id}", "tolerance": 1e-9},
         "licence": "CC0-1.0",
     }
     return parse_record(content, "".join(f"{key}: {json.dumps(value)}\n" for key, value in content.items()), record_id)

@@ -90,7 +90,7 @@ def new_record(
         f"proven_bound: {{value: {bound.bound!r}, by: {bound.bound_by}}}\n"
         f"found: {{by: {json.dumps(by)}, date: {json.dumps(date.today().isoformat())}, how: {json.dumps(how)}}}\n"
         f"{arm_text}at: {'home' if q is None else configuration.tolist()}\n"
-        f"check: {{command: holdfast records check {name}, tolerance: {tolerance}}}\n"
+        f"check: {{command: holdfast record-designs check {name}, tolerance: {tolerance}}}\n"
         "licence: CC0-1.0\n"
     )
     record_text += f"digest: {digest_record_text(record_text)}\n"

@@ -215,5 +215,5 @@ def format_command(designs: ConvergenceDesigns) -> tuple[str, str]:
     words += [f"--vary {shlex.quote(parameter.option_text)}" for parameter in designs.space.parameters] + [
         "--keep-reach"
     ] * bool(settings.get("keep_reach"))
-    words.append(f"--designs {settings['designs']} --climbs {settings['climbs']} --seed {settings['seed']}")
+    words.append(f"--designs {settings['designs']} --local-searches {settings['climbs']} --seed {settings['seed']}")
     return " \\\n    ".join([f"holdfast design {shlex.quote(arm_spec)}", *words]), remark

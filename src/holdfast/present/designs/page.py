@@ -382,9 +382,9 @@ def format_command(designs: Designs) -> tuple[str, str]:
         f"--level {format_as_given(designs.level)}",
         f"--poses {designs.poses}",
         f"--designs {designs.screened}",
-        f"--climbs {designs.climbs}",
+        f"--local-searches {designs.climbs}",
     ]
-    words += [f"--fresh {designs.checked.best.distribution.samples}", f"--seed {designs.seed}"]
+    words += [f"--check-poses {designs.checked.best.distribution.samples}", f"--seed {designs.seed}"]
     return wrap_command(f"holdfast design {shlex.quote(arm_spec)}", words), remark
 
 

@@ -1,4 +1,4 @@
-"""``holdfast ceiling``."""
+"""``holdfast upper-bound``."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def command(
 
     It holds for every arm of so many joints, revolute or prismatic: only these three numbers count.
 
-    Example: holdfast ceiling 9 6 2
+    Example: holdfast upper-bound 9 6 2
     """
     if table:
         print_result(hf.ceilings.bound_table(None if task is None else _read_row_count(task)), json_)

@@ -1,4 +1,4 @@
-"""``holdfast observe``."""
+"""``holdfast predict-detection``."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def command(
 ) -> None:
     """Predict which locks a motion would reveal, and how soon.
 
-    Example: holdfast observe healthy/000000.npz --arm panda --bounds bounds.json
+    Example: holdfast predict-detection healthy/000000.npz --arm panda --bounds bounds.json
     """
     model = chain.resolve_arm(arm)
     q, rate = hf.diagnosis.read_motion(model, motion)

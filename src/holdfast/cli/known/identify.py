@@ -1,4 +1,4 @@
-"""``holdfast probe``."""
+"""``holdfast identify``."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def command(
     What it can tell apart and what not is printed before anything moves. With --record: exit code 0 if none of the suspects is
     locked, 3 otherwise.
 
-    Example: holdfast probe panda --at "0 -0.4 0.3 -2 0.2 1.8 0.5" --csv probe.csv
+    Example: holdfast identify panda --at "0 -0.4 0.3 -2 0.2 1.8 0.5" --csv probe.csv
     """
     model = chain.resolve_arm(arm)
     candidate_joints = None if suspects is None else [read_joint(model, text) for text in suspects.split(",")]

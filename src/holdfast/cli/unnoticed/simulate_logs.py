@@ -1,4 +1,4 @@
-"""``holdfast rehearse``."""
+"""``holdfast simulate-logs``."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def command(
 
     Masses and friction of a robot are off by up to 20 % of the arm's model (needs the extra 'physics').
 
-    Example: holdfast rehearse panda --records 2 --out healthy
+    Example: holdfast simulate-logs panda --records 2 --out healthy
     """
     model = chain.resolve_arm(arm)
     fault_model = None if faults is None else hf.faults.load(faults)

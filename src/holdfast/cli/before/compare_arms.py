@@ -1,4 +1,4 @@
-"""``holdfast judge``."""
+"""``holdfast compare-arms``."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def command(
 
     An index at one configuration says little about the rest of an arm.
 
-    Example: holdfast judge panda xarm7 --measures fraction-above
+    Example: holdfast compare-arms panda xarm7 --measures fraction-above
     """
     candidates = read_candidates(chains.resolve_arms(arm), [], [] if task is None else [task])
     first = candidates[0]

@@ -1,4 +1,4 @@
-"""``holdfast endure``."""
+"""``holdfast plan-motion``."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def command(
         list[str] | None,
         f"Another motion beside it: least-norm, or what gradient projection serves: {OBJECTIVES_HELP}. May be given again.",
     ] = None,
-    test_locks: Annotated[int, typer.Option("--inject", min=0, help="Try so many locks at random times.")] = 0,
+    test_locks: Annotated[int, typer.Option("--test-locks", min=0, help="Try so many locks at random times.")] = 0,
     keep: KeepOption = None,
     apart: ClearanceOptions = ClearanceOptions(),
     seed: SeedOption = 0,
@@ -49,7 +49,7 @@ def command(
 ) -> None:
     """Plan the motion along a path that tolerates the most single-joint locks.
 
-    Example: holdfast endure panda line.yaml --out endured
+    Example: holdfast plan-motion panda line.yaml --out endured
     """
     from holdfast.arm.task import task_of_path
     from holdfast.endurance.given import LEAST_NORM

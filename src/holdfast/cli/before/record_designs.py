@@ -1,4 +1,4 @@
-"""``holdfast records``: list, show, check."""
+"""``holdfast record-designs``: list, show, check."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def list_(
 ) -> None:
     """List the best known arms with their upper bounds.
 
-    Example: holdfast records list
+    Example: holdfast record-designs list
     """
     record_book = hf.designs.record_designs()
     print_result(record_book, json_, [] if out is None else record_book.save(out)[-1:])
@@ -43,7 +43,7 @@ def show(
 ) -> None:
     """Print one record as YAML or URDF.
 
-    Example: holdfast records show pose-9R-k2-001
+    Example: holdfast record-designs show pose-9R-k2-001
     """
     best_known = hf.designs.record_design(record)
     typer.echo(best_known.urdf() if urdf else best_known.text, nl=False)
@@ -61,7 +61,7 @@ def new(
 ) -> None:
     """Create a record file for an arm.
 
-    Example: holdfast records new planar-3r --task planar --at "0 0.6 0.9"
+    Example: holdfast record-designs new planar-3r --task planar --at "0 0.6 0.9"
     """
     model = ArmSourceOptions().resolve_arm(arm)
     q = None if at is None else read_configuration(model, at, False, "--at")
@@ -78,7 +78,7 @@ def check(
 
     The exit code is 3 if a claim does not hold. A file is also held against the current record of its class.
 
-    Example: holdfast records check pose-9R-k2-001
+    Example: holdfast record-designs check pose-9R-k2-001
     """
     if (record is None) != all_:
         raise InputError("give a record or --all, one of them")
