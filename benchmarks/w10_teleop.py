@@ -202,7 +202,7 @@ def one_cycle(chosen: argparse.Namespace) -> str:
         harness.progress(f"W10: control cycle, {name}")
 
         def ours(i: int, plant=plant) -> np.ndarray:
-            return plant.cycle(q[i], v[i], mask)[0]
+            return plant.step_one(q[i], v[i], mask)[0]
 
         def plain(i: int, tolerant=tolerant) -> np.ndarray:
             return cycle(q[i], v[i], mask, tolerant)[0]

@@ -123,10 +123,10 @@ def dragged(studio, browser, drawn: bool, q, seconds: float) -> dict[str, float]
     goal = pose_numbers(window.machine.hand(q))
     window.state = replace(window.state, target=(goal[0] - 0.1, goal[1] + 0.2, *goal[2:]))
     window.ask("laws", None)
-    while not window.work.busy:
+    while not window.worker.busy:
         page.wait_for_timeout(5)
     rates, worst, begin_busy = [], 0.0, time.perf_counter()
-    while window.work.busy and time.perf_counter() - begin_busy < 120:
+    while window.worker.busy and time.perf_counter() - begin_busy < 120:
         rate, wait = moving(window, q, page, 0.5)
         rates.append(rate)
         worst = max(worst, wait)
@@ -153,7 +153,7 @@ def main() -> None:
     with serve(arm, State(chosen.arm, arm.joint_names, tuple(q)), port=0) as studio:
         studio.machine.evaluate(q, (), "relative-manipulability", "torque")
         out["numbers_per_s"] = live(studio.machine, q, chosen.seconds)
-        chromium = shutil.which("chromium") or shutil.which("google-chrome")
+        chromium = shutil.widest_joint("chromium") or shutil.widest_joint("google-chrome")
         if chromium is not None:
             from playwright.sync_api import sync_playwright
 

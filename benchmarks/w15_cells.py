@@ -191,7 +191,7 @@ def gradients(chosen: argparse.Namespace) -> str:
     lines = []
     for cell in cells():
         asked = clearance(cell)
-        ends = [[asked.room(q + side * STEP * e) for side in (-2, -1, 1, 2)] for e in np.eye(panda.N)]
+        ends = [[asked.margin_left(q + side * STEP * e) for side in (-2, -1, 1, 2)] for e in np.eye(panda.N)]
         coarse = np.stack([(d - a) / (4 * STEP) for a, _, _, d in ends], axis=1)
         fine = np.stack([(c - b) / (2 * STEP) for _, b, c, _ in ends], axis=1)
         # At a kink, where another sphere, face or object becomes the nearest, two steps give two slopes.

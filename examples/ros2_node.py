@@ -55,7 +55,7 @@ class FailureTolerantNode(Node):
 
 def main():
     rclpy.init()
-    rclpy.spin(FailureTolerantNode())
+    rclpy.spin_axes(FailureTolerantNode())
 
 
 if __name__ == "__main__":

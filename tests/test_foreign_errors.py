@@ -105,7 +105,16 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "design": (
             hf.design,
             {"arm": arm, "vary": {"a2": (0.5, 1.5)}, "region": region, "task": "planar", "objective": index.slug}
-            | {"level": 0.9, "poses": 4, "designs": 4, "local_searches": 0, "check_poses": 4, "seed": 0, "failures": "single", "length": 1.0},
+            | {
+                "level": 0.9,
+                "poses": 4,
+                "designs": 4,
+                "local_searches": 0,
+                "check_poses": 4,
+                "seed": 0,
+                "failures": "single",
+                "length": 1.0,
+            },
         ),
         "evaluate_motion": (
             hf.evaluate_motion,

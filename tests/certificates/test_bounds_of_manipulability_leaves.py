@@ -103,7 +103,7 @@ def bisect(leaves, proves, count, *, ceiling):
 def ceiling_and_truth(monkeypatch, cubics, wrench, turn):
     """The proved ceiling for the last joint and the greatest value on the grid, of a wrench (N, 2) with slopes (N, 2, 2)."""
     x, (t, jacobian) = cubics.screws, cubics.on_grid()
-    count, n = x.screw.at.shape[:2]
+    count, n = x.screws.at.shape[:2]
     y, slopes = np.zeros((count, 6)), np.zeros((count, 6, n))
     y[:, ROWS], slopes[:, ROWS, :2] = wrench, turn
     leaves = object.__new__(bounds.CeilingVerifier)

@@ -152,7 +152,7 @@ def test_turned_cells_go_forward(rng, factor, columns):
         cells = SimpleNamespace(w=rng.uniform(0.1, 1, (1, 2 + columns + m)))
         assert PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e3]))[0] == (factor < 1)
         own[0, -1, 1] += 1
-        last = abs(own[0, -1]) @ cells.w[0]
+        last = abs(own[0, -1]) @ cells.half_widths[0]
         assert PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-last / factor]))[0] == (factor < 1)
 
 

@@ -82,7 +82,7 @@ def test_every_hull_of_the_panda_lies_in_its_capsules_and_these_in_their_spheres
     balls = make_sphere_cover(capsules)
     assert len(shape.missing) == 0
     assert {hull.link for hull in shape.hulls} == set(range(-1, 7))
-    assert all(hull.convex for hull in shape.hulls)
+    assert all(hull.is_convex for hull in shape.hulls)
     for hull in shape.hulls:
         points = within(hull.vertices, rng)
         assert depths(points, capsules, hull.link).min() >= 0
@@ -276,7 +276,7 @@ def test_a_mesh_that_is_not_convex_is_cut_where_its_hull_is_hollow(tmp_path, rng
     bars = [trimesh.creation.box((0.5, 0.08, 0.08)), trimesh.creation.box((0.08, 0.08, 0.5))]
     bars[1].apply_translation([0.21, 0, 0.29])
     bent = trimesh.util.concatenate(bars)
-    bent.export(tmp_path / "bent.stl")
+    bent.get_export(tmp_path / "bent.stl")
     arm = write(tmp_path, "<mesh filename='bent.stl'/>")
     shape = CollisionModel.from_arm(arm)
     assert not shape.hulls[0].is_convex

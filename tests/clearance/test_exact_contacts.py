@@ -22,10 +22,10 @@ def panda():
 def test_the_first_exact_contact_is_the_one_that_mujoco_sees(panda, rng):
     clearance, mujoco = panda
     q = oracles.inside(clearance.arm, rng, 4000)
-    room, clear, count, kinds = clearance.room(q), clearance.sign(q), 1000, [0, 0]
+    room, clear, count, kinds = clearance.margin_left(q), clearance.sign(q), 1000, [0, 0]
     for end in np.concatenate([q[(room < 0) & clear][:5], q[~clear][:5]]):
         beside = end + rng.uniform(-0.2, 0.2, (100, 7))
-        beside = beside[clearance.room(beside) > 0.005]
+        beside = beside[clearance.margin_left(beside) > 0.005]
         if not len(beside):
             continue
         ends = np.stack([beside[0], end])

@@ -54,7 +54,9 @@ def test_a_search_for_a_new_record(tmp_path, cli):
     code, out, _ = cli("upper-bound", "5", "planar", "2", "--search", "0.3", "--arm", str(arm))
     assert code == 0
     assert f"written: {arm}" in out.replace("\n", " ").replace("  ", " ")
-    code, out, _ = cli("record-designs", "new", str(arm), "--task", "planar", "--failures", "2", "--name", "mine", "--by", "A: user")
+    code, out, _ = cli(
+        "record-designs", "new", str(arm), "--task", "planar", "--failures", "2", "--name", "mine", "--by", "A: user"
+    )
     assert code == 0
     file.write_text(out, encoding="utf-8")
     record = hf.designs.record_design(str(file))

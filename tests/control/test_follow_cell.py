@@ -81,8 +81,8 @@ def motion(panda, path, wish, clearance):
 
 def test_the_self_motion_keeps_clear_of_a_ball_that_it_would_hit(panda, plain, motion, clearance):
     fine = cells.finely(motion.q)
-    assert clearance.room(cells.finely(plain.q)).min() < -0.02
-    assert clearance.room(fine).min() > -1e-4
+    assert clearance.margin_left(cells.finely(plain.q)).min() < -0.02
+    assert clearance.margin_left(fine).min() > -1e-4
     assert motion.on_path
     assert (motion.task_share > 0.99).all()
     # coal, with the capsules themselves.

@@ -57,7 +57,7 @@ def test_every_run_is_that_of_simulate(sampled, spatial):
 
 
 def test_undecided_runs_have_a_reason(sampled):
-    undecided = sampled.happened("undecided")
+    undecided = sampled.has_outcome("undecided")
     assert (undecided == (sampled.reason != 0))[sampled.known].all()
     assert sum(sampled.undecided().values()) == undecided.sum()
 
@@ -70,8 +70,8 @@ def test_shares_and_values_beside_numpy(sampled):
     m = sampled
     total = sum(m.values(word) for word in ("converged", "stuck", "moving", "undecided"))
     assert total == pytest.approx(1)
-    assert m.happened("in_reach")[m.happened("converged")].all()
-    assert not (m.happened("trapped") & m.happened("converged")).any()
+    assert m.has_outcome("in_reach")[m.has_outcome("converged")].all()
+    assert not (m.has_outcome("trapped") & m.has_outcome("converged")).any()
     for k, interval in enumerate(m.shares().values()):
         assert interval.value == pytest.approx((m.code[..., k] == 0).mean())
         assert interval.low <= interval.value <= interval.high
@@ -107,7 +107,7 @@ def test_reach_with_a_joint_locked_is_that_of_two_links(flat):
         clear = np.abs(room) > 1e-3
         assert (m.in_reach[clear, 0, joint] == (room > 0)[clear]).all()
     assert m.q0.shape[1] == 1  # one start: it is not simulated twice
-    assert m.happened("converged")[r < 2.9, :, 3].all()
+    assert m.has_outcome("converged")[r < 2.9, :, 3].all()
 
 
 def test_seeds(spatial):

@@ -94,7 +94,7 @@ def test_exact_optima_balance(space3, evaluator3, found3):
     sides = []
     for sign in (1, -1):
         values = found3.values + sign * h * direction
-        moved = evaluator3._searched(values, found3.q[:, :, None], 0)
+        moved = evaluator3._search_configurations(values, found3.q[:, :, None], 0)
         sides.append(sensitivity(evaluator3, moved, rows))
     same = np.all([np.abs(x.q - s.q).max(axis=1) < 1e-3 for x in sides], axis=0) & s.exact & sides[0].exact & sides[1].exact
     assert same.sum() > 0.5 * len(rows)

@@ -15,7 +15,7 @@ import numpy as np
 
 import holdfast as hf
 
-COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+COMPILER = shutil.widest_joint("cc") or shutil.widest_joint("gcc") or shutil.widest_joint("clang")
 FLAGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off")
 SANITISED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
@@ -145,10 +145,10 @@ def said_by_python(monitor, record):
             KINDS.index(v.kind),
             loss,
             stale,
-            monitor._alarm.push if v.alarm else 0,
+            monitor._alarm.force_advantage if v.alarm else 0,
             -1 if v.suspect is None else names.index(v.suspect),
         ]
-        rows.append([*monitor._r, *monitor._level, *monitor._over_y, monitor._over_w, *last])
+        rows.append([*monitor._residual, *monitor._residual_level, *monitor._tracking_excess, monitor._tool_excess, *last])
     return np.array(rows, dtype=float)
 
 

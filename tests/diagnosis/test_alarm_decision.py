@@ -34,7 +34,7 @@ def test_the_next_joint_is_judged_by_least_squares(panda, decision, rng):
     jacobian, weight, left = panda.jacobian(q), np.repeat([1 / 0.5e-3, 1 / 2e-3], 3), np.zeros(7)
     for k in range(1, 9):
         residual = -0.002 * k * jacobian[:, 3] + rng.normal(0, 0.2, 6) / weight
-        decision.see(2.0, residual, jacobian)
+        decision.add_tool_pose(2.0, residual, jacobian)
         for joint in range(7):
             left[joint] += np.linalg.lstsq((jacobian * weight[:, None])[:, [joint]], residual * weight)[1][0]
         first, second = np.sort(left)[:2]
@@ -48,7 +48,7 @@ def test_the_next_joint_is_judged_by_least_squares(panda, decision, rng):
 
 def test_a_record_that_ends_with_its_alarm_names_the_joint_with_the_largest_residual(panda, decision):
     still, tracking = np.zeros(7), np.array([0.1, 0.2, 0.3, 0.2, 1.4, 0.3, 0.2])
-    decision._suspect = False
+    decision._sensor_suspected = False
     for _ in range(3):
         decision.add(still, still, (still, still, still, still), still, tracking)
     assert decision.verdict(last=True).joint == panda.joint_names[4]

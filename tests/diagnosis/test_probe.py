@@ -68,7 +68,7 @@ def test_the_elbow_is_invisible_for_ever(rng):
 
 
 def test_every_testable_lock_is_found_and_no_other_is(panda, probe, rng):
-    assert set(probe.told_apart) == set(panda.joint_names)
+    assert set(probe.isolable) == set(panda.joint_names)
     poses = panda.forward_kinematics(probe.q)
     assert np.linalg.norm(poses[:, :3, 3] - poses[0, :3, 3], axis=1).max() <= probe.tool + 1e-12 < 1e-4
     for i, name in enumerate(panda.joint_names):

@@ -54,4 +54,4 @@ def test_locks_come_as_the_rates_say(motion):
     assert found.time.mean() == pytest.approx(mean, abs=0.06)
     assert found.interval.low <= fast.survival <= found.interval.high
     with pytest.raises(hf.InputError, match="locks is 0"):
-        best.inject(0)
+        best.test_locks(0)

@@ -39,7 +39,7 @@ def test_a_lower_bound_is_called_so(four):
 def test_what_is_said_to_be_survived_another_integrator_survives(four):
     """It integrates the branch with the locked joint and one more held; the motion itself goes on where it holds the joint."""
     _, _, best = four
-    tried = best.inject(60, seed=3)
+    tried = best.test_locks(60, seed=3)
     assert tried.survived[tried.expected & tried.told].all()
     assert (~tried.survived).sum() > 3
     ((name, value),) = best.found.held.items()

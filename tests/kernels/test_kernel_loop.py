@@ -80,7 +80,7 @@ def test_rows_rest_where_they_converged(loop, rng):
 @pytest.mark.parametrize("rows", [1, 37])
 def test_a_walk_passes_every_state_of_the_plain_iteration(loop, rows, rng):
     state, parameters = draw(rng, rows)
-    way = loop.walk(state, parameters, 9)
+    way = loop.trace_states(state, parameters, 9)
     assert way.shape == (10, rows, 2)
     np.testing.assert_array_equal(way[0], state)
     for k in range(10):

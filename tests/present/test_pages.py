@@ -131,7 +131,7 @@ def test_how_a_recovery_ended(ending):
     found = MADE["Recovery"]()
     gone = replace(found, ending=ending, q=np.zeros((0, 3)), legs=(), left=None)
     for each in (replace(found, ending=ending), gone):
-        says_something(each._presented("story").answer)
+        says_something(each._present("story").answer)
 
 
 @pytest.mark.parametrize("outcome", list(swing.ENDS) if hasattr(swing, "ENDS") else ["rest", "stop", "balanced", "moving"])
@@ -180,6 +180,6 @@ def test_where_nothing_is_found_the_answer_says_so():
         "No configuration was found at any": replace(mapped, code=np.full_like(mapped.code, 255)),
     }  # fmt: skip
     for words, result in cases.items():
-        answer = result._presented("story").answer
+        answer = result._present("story").answer
         says_something(answer)
         assert words in answer, answer

@@ -55,7 +55,7 @@ def test_a_narrow_gap_is_passed_by_exact_distances_and_said_so(arm, slim, librar
     cell = beyond(0.0025)
     straight = cells.finely(ENDS)
     assert not cells.touches(arm, slim.capsules, cell, straight).any()
-    assert slim.with_cell(cell).room(straight).min() < 0
+    assert slim.with_cell(cell).margin_left(straight).min() < 0
     found = turned(arm, slim, cell)
     assert found.ending == RecoveryOutcome.GOAL_REACHED
     assert isinstance(found.clearance, ExactClearance)

@@ -53,7 +53,7 @@ def test_exhaustive_search_among_discs(index, clearance, rng):
             assert clear.mean() < 0.03  # at most slivers
             continue
         assert room(best.q[k][None])[0] >= MARGIN
-        assert clearance.room(best.q[k]) >= MARGIN
+        assert clearance.margin_left(best.q[k]) >= MARGIN
         assert best.value[k] <= free.value[k] + 1e-6
         if clear.any():
             short.append(values[clear].max() - best.value[k])

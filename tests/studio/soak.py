@@ -41,7 +41,7 @@ def one_round(window, page, rng: np.random.Generator, arm) -> None:
             page.wait_for_timeout(5)
     window.settle()
     for _ in range(30):
-        hand = np.array(pose_numbers(window.machine.hand(window.q)))
+        hand = np.array(pose_numbers(window.machine.tool_pose(window.q)))
         window.ask("hand", ("update", hand[:3] + rng.normal(0, 0.02, 3), hand[3:]))
         window.settle()
     k = int(rng.integers(arm.n))
@@ -52,7 +52,7 @@ def one_round(window, page, rng: np.random.Generator, arm) -> None:
     window.settle(120)
     window.ask("take0")
     window.ask("fail", (k, "locked"))
-    hand = np.array(pose_numbers(window.machine.hand(window.q)))
+    hand = np.array(pose_numbers(window.machine.tool_pose(window.q)))
     goal = (*(hand[:3] + rng.normal(0, 0.1, 3)).tolist(), *hand[3:].tolist())
     window.settle(120)
     window.live.put("goal", lambda: setattr(window, "state", replace(window.state, target=goal)))

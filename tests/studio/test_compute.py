@@ -30,7 +30,7 @@ def state(machine, q, **more):
 @pytest.mark.parametrize("objective", ["relative-manipulability", "condition-number"])
 def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objective):
     """A search that found nothing better or worse than the middling."""
-    index = machine.objectives(objective)[0]
+    index = machine.get_objectives(objective)[0]
     sign = 1.0 if index.better == "larger" else -1.0
     draws = np.random.default_rng(5).uniform(-2, 2, (200, 3))
     low, middle, high = draws[np.argsort(sign * np.asarray(index(draws)))[[5, 100, 195]]]
@@ -51,8 +51,8 @@ def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objecti
 
 def test_a_target_where_the_hand_is_is_no_error(machine):
     q = (0.3, 0.8, 0.9)
-    at = pose_numbers(machine.hand(np.array(q)))
-    assert machine.apart(np.array(q), machine.hand(np.array(q))) == 0
+    at = pose_numbers(machine.tool_pose(np.array(q)))
+    assert machine.apart(np.array(q), machine.tool_pose(np.array(q))) == 0
     motions = simulate_law_motions(
         machine, state(machine, q, target=tuple(at), laws=("pseudoinverse", "damped:0.1")), lambda *_: None
     )
@@ -62,6 +62,6 @@ def test_a_target_where_the_hand_is_is_no_error(machine):
 
 def test_how_far_the_hand_is_from_its_target_is_seen_by_the_task(machine):
     q = np.array([0.3, 0.8, 0.9])
-    pose = machine.hand(q)
+    pose = machine.tool_pose(q)
     pose[:3, 3] += [0.03, 0.04, 7.0]  # a planar task does not look up
     assert machine.apart(q, pose) == pytest.approx(0.05)

@@ -133,7 +133,7 @@ def test_the_tour_on_a_phone_in_the_dark(studio, visit):
     step(3)
     wait_for(page, lambda: window.state.failed == (worst,))
     np.testing.assert_array_equal(window.q, better)
-    np.testing.assert_allclose(window.machine.hand(better)[:2, 3], window.machine.hand(first)[:2, 3], atol=1e-6)
+    np.testing.assert_allclose(window.machine.tool_pose(better)[:2, 3], window.machine.tool_pose(first)[:2, 3], atol=1e-6)
     assert "of the manipulability is left, where it was" in step(4)
     wait_for(page, lambda: window.state.show == "laws" and len(window.player.ghosts) == 2)
     step(5)

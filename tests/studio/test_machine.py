@@ -20,31 +20,31 @@ def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
     for failed in ((), (3,)):
         there = q + 0.1 * rng.uniform(-1, 1, 7)
         there[list(failed)] = q[list(failed)]
-        pose = machine.hand(there)
+        pose = machine.tool_pose(there)
         found, on = machine.reach(q, pose, failed)
         assert on
-        np.testing.assert_allclose(machine.hand(found), pose, atol=1e-5)
+        np.testing.assert_allclose(machine.tool_pose(found), pose, atol=1e-5)
         assert (found[list(failed)] == q[list(failed)]).all()
         assert ((found >= machine.arm.lower) & (found <= machine.arm.upper)).all()
 
 
 def test_out_of_reach_the_arm_never_goes_away_from_the_pose(machine, rng):
     q = rng.uniform(-0.8, 0.8, 7)
-    pose = machine.hand(q)
+    pose = machine.tool_pose(q)
     far = pose.copy()
     far[:3, 3] += 10 * machine.size
     before = np.linalg.norm(far[:3, 3] - pose[:3, 3])
     for _ in range(5):
         q, on = machine.reach(q, far, ())
         assert not on
-        after = np.linalg.norm(far[:3, 3] - machine.hand(q)[:3, 3])
+        after = np.linalg.norm(far[:3, 3] - machine.tool_pose(q)[:3, 3])
         assert after <= before + 1.0  # orientation counts as well
         before = after
 
 
 def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
     q = rng.uniform(-0.5, 0.5, 7)
-    hand, along = machine.hand(q), machine.self_motions(q, ())[0]
+    hand, along = machine.tool_pose(q), machine.self_motions(q, ())[0]
     for _ in range(20):
         new, direction = machine.slide(q, 0.03 * along, ())
         if not direction.any():
@@ -52,7 +52,7 @@ def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
         assert np.linalg.norm(new - q) == pytest.approx(0.03, rel=0.2)
         assert direction @ along > 0.7
         q, along = new, direction
-        np.testing.assert_allclose(machine.hand(q), hand, atol=1e-4)
+        np.testing.assert_allclose(machine.tool_pose(q), hand, atol=1e-4)
 
 
 def test_without_redundancy_nothing_slides(machine, rng):
@@ -67,9 +67,9 @@ def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
     q = rng.uniform(-1, 1, 7)
     rho = hf.indices.relative_manipulability(machine.arm)
     reading = machine.read(q, (), "relative-manipulability", "torque")
-    assert reading.hit == (int(rho.worst_joint(q)),)
+    assert reading.failure_joints == (int(rho.worst_joint(q)),)
     np.testing.assert_array_equal(reading.bars.values, rho.by_joint(q))
-    assert machine.read(q, (5,), "relative-manipulability", "torque").hit == (5,)
+    assert machine.read(q, (5,), "relative-manipulability", "torque").failure_joints == (5,)
     assert isinstance(reading.weights, str)  # nothing is known of these bodies
     assert "link" in reading.weights
 

@@ -64,15 +64,15 @@ def test_a_joint_is_moved_by_its_slider_and_the_rest_stands(studio, visit):
 
 def test_the_hand_is_dragged_and_says_when_it_cannot_follow(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
-    pose = window.machine.hand(window.machine.arm.check_configurations([0.4, 0.7, 0.9]))
+    pose = window.machine.tool_pose(window.machine.arm.check_configurations([0.4, 0.7, 0.9]))
     numbers = np.array(pose_numbers(pose))
     window.ask("hand", ("update", numbers[:3], numbers[3:]))
     assert window.settle(60)
-    np.testing.assert_allclose(window.machine.hand(window.q)[:2, 3], pose[:2, 3], atol=1e-5)
+    np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], pose[:2, 3], atol=1e-5)
     window.ask("hand", ("end", numbers[:3] + np.array([50, 0, 0]), numbers[3:]))
     assert window.settle(60)
     wait_for(page, lambda: "Out of reach" in text_of(page))
-    np.testing.assert_allclose(window.stage.gizmo.position, window.machine.hand(window.q)[:3, 3], atol=1e-9)
+    np.testing.assert_allclose(window.stage.gizmo.position, window.machine.tool_pose(window.q)[:3, 3], atol=1e-9)
 
 
 def on_screen(camera, place):
@@ -86,7 +86,7 @@ def on_screen(camera, place):
 def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR), 900, 620)
     camera, machine = window.client.camera, window.machine
-    q, hand = window.q, machine.hand(window.q)
+    q, hand = window.q, machine.tool_pose(window.q)
 
     def grabbed():
         places = [hand[:3, 3] + hand[:3, 0] * 0.17 * machine.size * share for share in (0.55, 1.6)]
@@ -106,7 +106,7 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     wait_for(page, grabbed)  # again, as long as the handle is not drawn yet
     wait_for(page, lambda: window.held is None)
     assert window.settle(60)
-    np.testing.assert_allclose(window.stage.gizmo.position, machine.hand(window.q)[:3, 3], atol=1e-9)
+    np.testing.assert_allclose(window.stage.gizmo.position, machine.tool_pose(window.q)[:3, 3], atol=1e-9)
 
     window.ask("home")
     assert window.settle(60)
@@ -122,7 +122,7 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     assert window.settle(60)
     cloud = window.cloud
     at = np.array([on_screen(camera, place) for place in cloud.points])
-    hand_at = np.array(on_screen(camera, machine.hand(window.q)[:3, 3]))
+    hand_at = np.array(on_screen(camera, machine.tool_pose(window.q)[:3, 3]))
     far = np.isfinite(cloud.q).all(axis=1) & (np.linalg.norm(at - hand_at, axis=1) > 70) & (at[:, 0] < 480) & (at[:, 1] > 60)
     chosen = int(np.flatnonzero(far)[0])
 
@@ -208,7 +208,7 @@ def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):
     wait_for(page, lambda: "reaches the target" in text_of(page))
     assert len(window.player.ghosts) == 2
     # Asked for by a command line: no error either.
-    at = (*pose_numbers(window.machine.hand(window.q)),)
+    at = (*pose_numbers(window.machine.tool_pose(window.q)),)
     other, second = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=at, show="laws", **PLANAR))
     wait_for(other, lambda: "drag the second handle away" in text_of(other))
     assert second.settle(60)
@@ -219,13 +219,13 @@ def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit
     page, window = visit(studio("iiwa14", q=hf.arms.about("iiwa14").home, conditions=conditions))
     page.get_by_role("tab", name="Fail").click()
     page.get_by_role("button", name="Let the free joint swing").click()
-    wait_for(page, lambda: window.player.playing and window.state.time > 0.1)
+    wait_for(page, lambda: window.player.is_playing and window.state.time > 0.1)
     before = np.array(window.player.ghosts[0])
     wait_for(page, lambda: np.abs(window.player.ghosts[0] - before).max() > 0.01)
     assert np.argmax(np.abs(window.player.ghosts[0] - before)) == 1
     window.ask("time", 0.35)
     assert window.settle(60)
-    assert (window.player.playing, window.state.time) == (False, 0.35)
+    assert (window.player.is_playing, window.state.time) == (False, 0.35)
     assert window.panel.play.label == "Play"
 
 
@@ -247,7 +247,7 @@ def test_ghosts_do_not_outlive_what_they_are_of(studio, visit):
     assert haunted(lambda: window.ask("joint", (0, 0.5))) == 0
     assert haunted(lambda: window.ask("fail", (1, "locked"))) == 0
     assert haunted(lambda: window.ask("heal")) == 0
-    pose = np.array(pose_numbers(window.machine.hand(np.array([0.4, 0.7, 0.9]))))
+    pose = np.array(pose_numbers(window.machine.tool_pose(np.array([0.4, 0.7, 0.9]))))
     assert haunted(lambda: window.ask("hand", ("update", pose[:3], pose[3:]))) == 0
     assert haunted(lambda: window.ask("home")) == 0
     assert haunted(lambda: window.ask("region")) == 0
@@ -292,7 +292,7 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
         finally:
             given_up.set()
 
-    window.work.ask(endless)
+    window.worker.ask(endless)
     assert started.wait(10)
     before = window.updates
     box = page.get_by_role("textbox").first
@@ -308,12 +308,12 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
 
 def test_sliding_along_the_self_motion_leaves_the_hand(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
-    hand, q = window.machine.hand(window.q), window.q
+    hand, q = window.machine.tool_pose(window.q), window.q
     window.ask("slide", 1.0)
     wait_for(page, lambda: np.linalg.norm(window.q - q) > 0.1)
     window.ask("slide", 0.0)
     assert window.settle(60)
-    np.testing.assert_allclose(window.machine.hand(window.q)[:2, 3], hand[:2, 3], atol=1e-4)
+    np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], hand[:2, 3], atol=1e-4)
     window.ask("fail", (0, "locked"))
     window.ask("slide", 1.0)
     wait_for(page, lambda: "no self-motion" in text_of(page))

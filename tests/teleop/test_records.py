@@ -63,7 +63,7 @@ def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
         v = records.protocol.stick.limited(generator.normal(0, 0.03, 2))
         records.append(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
         written.append((v, q))
-        q, _ = plant.cycle(q, v, mask)
+        q, _ = plant.step_one(q, v, mask)
     if end is not None:
         records.finish(number, end, q)
     return number, written, q
@@ -135,8 +135,8 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
         training = made.entries(s.code, TrialKind.TRAINING)
         trials = made.trials(training)
         times = np.where(trials.completed, trials.cycles, np.nan).tolist()
-        assert protocol.training.trained(times)
-        assert not protocol.training.trained(times[:-1])
+        assert protocol.training.is_met_by(times)
+        assert not protocol.training.is_met_by(times[:-1])
         np.testing.assert_array_equal(
             np.stack([e.q0 for e in training]), training_tasks(protocol, s.number).q0[: len(training)]
         )

@@ -116,7 +116,7 @@ def test_code_for_single_cycles_is_made_when_one_is_asked_for(arm, monkeypatch):
 
 def test_singular_arm_stands(plants):
     q, v, healthy = np.zeros(3), np.array([0.05, 0.0]), np.ones(3)
-    after, actual = plants[0].cycle(q, v, healthy)
+    after, actual = plants[0].step_one(q, v, healthy)
     np.testing.assert_array_equal(after, q)
     np.testing.assert_array_equal(actual, [0, 0])
 

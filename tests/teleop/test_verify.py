@@ -137,7 +137,7 @@ def test_a_stranger_gets_the_same_digests(experiment):
 )
 def test_a_change_by_hand_is_named(changed, statement, said):
     found = changed(statement)
-    assert any(sentence.startswith(said) for sentence in found.damaged), found.damaged
+    assert any(sentence.startswith(said) for sentence in found.damages), found.damages
 
 
 def test_the_first_damaged_trial_comes_first(changed):
@@ -146,7 +146,7 @@ def test_the_first_damaged_trial_comes_first(changed):
         "UPDATE cycles SET time = 9 WHERE trial = 5 AND k = 1",
         "UPDATE cycles SET time = 9 WHERE trial = 3 AND k = 1",
     )
-    assert [s.split()[:2] for s in found.damaged] == [["trial", "3"], ["trial", "5"], ["subject", "S01"]]
+    assert [s.split()[:2] for s in found.damages] == [["trial", "3"], ["trial", "5"], ["subject", "S01"]]
 
 
 def test_a_changed_protocol_is_found(experiment, tmp_path):

@@ -154,7 +154,7 @@ def _check_leaves(
         map_chunks: Callable[..., Iterable[tuple[int, list[Any]]]] = map
         if workers > 1:
             map_chunks = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
-        for size, failed in map_chunks(leaf_verifier.rejected, iter(lambda: list(islice(chosen, chunk)), [])):
+        for size, failed in map_chunks(leaf_verifier.check_leaves, iter(lambda: list(islice(chosen, chunk)), [])):
             checked, rejected = checked + size, rejected + failed
             report_checked(size)
     return checked, rejected
@@ -165,12 +165,12 @@ def _verify_boxes(
 ) -> CertificateVerdict:
     """Verify any claim except those of paths and bundles: one tree, each leaf of which is proved alone."""
     started, claim_verifier, kind = time.perf_counter(), CLAIM_VERIFIERS[document["kind"]](document), document["kind"]
-    count, undecided, leaves = claim_verifier.leaves(document)
+    count, undecided, leaves = claim_verifier.read_leaves(document)
     undecided_volume = tree.compute_volume(undecided)
     volumes = {"proved": 1 - undecided_volume, "refuted": Fraction(0), "undecided": undecided_volume}
     volume_texts = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
     require(document["volumes"] == volume_texts, "volumes are not those of the tree")
-    lower, upper = claim_verifier.occurs(document["found"]) if "found" in document else (0.0, 0.0)
+    lower, upper = claim_verifier.enclose_attained(document["found"]) if "found" in document else (0.0, 0.0)
     picked = range(count) if sample is None else set(random.SystemRandom().sample(range(count), max(0, min(sample, count))))
     checked, rejected = _check_leaves(
         claim_verifier, (leaf for index, leaf in enumerate(leaves()) if index in picked), workers, report_checked

@@ -120,7 +120,7 @@ def test_a_lost_connection_loses_nothing(server, protocol, rng, draw):
         v = protocol.stick.limited(rng.normal(0, 0.03, 2))
         path.append(q)
         client.say("cycles", first=k, time=[k / 6], velocity=[v.tolist()], q=[q.tolist()])
-        q, _ = plant.cycle(q, v, np.ones(3))
+        q, _ = plant.step_one(q, v, np.ones(3))
     client.say("end", end="aborted", q=q.tolist())
     if client.socket is None:
         client.connect()
@@ -257,7 +257,7 @@ def test_a_killed_server_goes_on(start, tmp_path, protocol, rng):
             v = protocol.stick.limited(rng.normal(0, 0.03, 2))
             path.append(q)
             client.say("cycles", first=len(path) - 1, time=[len(path) / 6], velocity=[v.tolist()], q=[q.tolist()])
-            q, _ = plant.cycle(q, v, np.ones(3))
+            q, _ = plant.step_one(q, v, np.ones(3))
             if rng.random() < 0.3 and client.outbox:
                 client.receive()
         if round_ < 2:

@@ -156,9 +156,9 @@ class NarrowPhase:
             self._place_candidate(candidate, row, frames, placed_parts)
             part = self._placed[candidate.part]
             is_closer = (
-                candidate.opponent.distance(part) < allowed[candidate_index]
+                candidate.geometry.distance(part) < allowed[candidate_index]
                 if allowed[candidate_index] > 0
-                else candidate.opponent.hits(part)
+                else candidate.geometry.bodies_touch(part)
             )
             pairs[row] = candidate.pair if is_closer else -1
         return pairs
@@ -179,7 +179,7 @@ class NarrowPhase:
                     break
                 candidate = self._candidates[candidate_index]
                 self._place_candidate(candidate, row, frames, placed_parts)
-                smallest = min(smallest, candidate.opponent.distance(self._placed[candidate.part]))
+                smallest = min(smallest, candidate.geometry.distance(self._placed[candidate.part]))
             distances[row] = smallest
         return distances
 

@@ -66,7 +66,9 @@ def write(book: RecordBook, path: Path, command: str = "") -> Path:
         sections,
         subtitle="What is left of an arm or its workspace after the worst locks, or how far its joints turn on one self-motion",
         method=[
-            Text("Each record is one file, checked by code that shares nothing with what found it: holdfast record-designs check.")
+            Text(
+                "Each record is one file, checked by code that shares nothing with what found it: holdfast record-designs check."
+            )
         ],
         again=command or "holdfast record-designs check --all",
     )
