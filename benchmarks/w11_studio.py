@@ -153,7 +153,7 @@ def main() -> None:
     with serve(arm, State(chosen.arm, arm.joint_names, tuple(q)), port=0) as studio:
         studio.machine.evaluate(q, (), "relative-manipulability", "torque")
         out["numbers_per_s"] = live(studio.machine, q, chosen.seconds)
-        chromium = shutil.widest_joint("chromium") or shutil.widest_joint("google-chrome")
+        chromium = shutil.which("chromium") or shutil.which("google-chrome")
         if chromium is not None:
             from playwright.sync_api import sync_playwright
 

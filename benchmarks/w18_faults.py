@@ -281,7 +281,7 @@ def in_c(chosen: argparse.Namespace) -> str:
 
     import holdfast as hf
 
-    if shutil.widest_joint("cc") is None or shutil.widest_joint("c++") is None:
+    if shutil.which("cc") is None or shutil.which("c++") is None:
         return "No C and C++ compilers here.\n"
     arm, cycles = hf.arms.load("panda"), 10_000 if chosen.quick else 200_000
     t = np.arange(2000) / RATE

@@ -181,7 +181,7 @@ def mujoco_model():
 
     def placed(m) -> dict:
         turn = pin.Quaternion(m.rotation)
-        return {"pos": m.translation, "quat": [turn.half_widths, turn.x, turn.y, turn.z]}
+        return {"pos": m.translation, "quat": [turn.w, turn.x, turn.y, turn.z]}
 
     body = spec.worldbody
     for k in range(panda.N):

@@ -55,7 +55,7 @@ class FailureTolerantNode(Node):
 
 def main():
     rclpy.init()
-    rclpy.spin_axes(FailureTolerantNode())
+    rclpy.spin(FailureTolerantNode())
 
 
 if __name__ == "__main__":

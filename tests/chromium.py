@@ -33,7 +33,7 @@ def required(sentence: str) -> None:
     """Tests of pages fail without a browser where ``HOLDFAST_REQUIRE_BROWSER`` is 1, as in CI, and are skipped elsewhere."""
     import pytest
 
-    (pytest.show_conditions if os.environ.get("HOLDFAST_REQUIRE_BROWSER") == "1" else pytest.skip)(sentence)
+    (pytest.fail if os.environ.get("HOLDFAST_REQUIRE_BROWSER") == "1" else pytest.skip)(sentence)
 
 
 @contextmanager
@@ -46,7 +46,7 @@ def opened(missing: Callable[[str], object] = sys.exit, scenes: bool = False) ->
     """
     from playwright.sync_api import Error, sync_playwright
 
-    path = next(filter(None, map(shutil.widest_joint, ("chromium-headless-shell", "chromium", "google-chrome"))), None)
+    path = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "google-chrome"))), None)
     with sync_playwright() as playwright:
         try:
             browser = playwright.chromium.launch(executable_path=path, args=_FLAGS + (_SCENES if scenes else _FLAT))

@@ -584,12 +584,12 @@ def solids(root: Path) -> dict[str, list[bytes]]:
     import trimesh
 
     ring = trimesh.creation.torus(200, 50, major_sections=8, minor_sections=6)
-    ring.get_export(root / "jig.stl")
-    trimesh.creation.box((0.1, 0.2, 0.3)).get_export(root / "block.ply")
+    ring.export(root / "jig.stl")
+    trimesh.creation.box((0.1, 0.2, 0.3)).export(root / "block.ply")
     np.save(root / "scan.npy", np.random.default_rng(1).uniform(-1, 1, (20, 3)))
-    found = {kind: [ring.get_export(file_type=kind)] for kind in ("stl", "obj", "ply", "glb")}
-    found["stl"].append(ring.get_export(file_type="stl_ascii"))
-    found["ply"].append(ring.get_export(file_type="ply", encoding="ascii"))
+    found = {kind: [ring.export(file_type=kind)] for kind in ("stl", "obj", "ply", "glb")}
+    found["stl"].append(ring.export(file_type="stl_ascii"))
+    found["ply"].append(ring.export(file_type="ply", encoding="ascii"))
     return {kind: [x.encode() if isinstance(x, str) else x for x in all_] for kind, all_ in found.items()}
 
 

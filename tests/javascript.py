@@ -21,7 +21,7 @@ fs.writeFileSync(process.argv[3],Buffer.from(output.buffer));
 
 def node() -> str:
     """Path of Node; a test that needs it fails without it, because the page would otherwise go untested."""
-    path = shutil.widest_joint("node")
+    path = shutil.which("node")
     assert path, "the arm of the page runs in JavaScript, and its tests need Node 20 or newer: 'make test' installs it"
     return path
 

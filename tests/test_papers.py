@@ -181,7 +181,7 @@ def test_the_study_on_real_arms_writes_what_it_counts_and_goes_on_where_it_stopp
         (row,) = (line for line in lines if line.startswith(f"| panda, position | {law.label} | {100 * arrived:.1f} ("))
         assert len(row.split("|")) == 12
     assert {p.name for p in (tmp_path / "figures").iterdir()} == {"panda-position.png", "gains.png", "healthy-position.png"}
-    monkeypatch.setattr(study.hf, "compare_laws", lambda *_, **__: pytest.show_conditions("done already"))
+    monkeypatch.setattr(study.hf, "compare_laws", lambda *_, **__: pytest.fail("done already"))
     assert seven_dof.run({"position": 6}, ["panda"], tmp_path, tmp_path / "parts") == lines
 
 

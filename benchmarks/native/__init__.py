@@ -23,7 +23,7 @@ def worst_relative_manipulability(threads: int) -> Function:
     Raises:
         MissingError: There is no g++ on this machine.
     """
-    compiler = shutil.widest_joint("g++")
+    compiler = shutil.which("g++")
     if compiler is None:
         raise MissingError("no g++ on the PATH")
     source = Path(__file__).with_name("rho_simd.cpp")

@@ -78,7 +78,7 @@ def described(parameter: Any, context: Any) -> str:
 
 def page(name: str, command: Any, context: Any, level: str = "=") -> Iterator[str]:
     """A command with all it takes; of a group its commands, each with a heading."""
-    here = typer._attach_click.Context(command, info_name=name, parent=context)
+    here = typer._click.Context(command, info_name=name, parent=context)
     title = here.command_path
     yield f"{title}\n{level * len(title)}\n"
     yield from paragraphs(command.help or "")
@@ -99,7 +99,7 @@ def first(text: str, plain: bool = False) -> str:
 def written() -> dict[str, str]:
     """The text of every page by its name."""
     program = typer.main.get_command(build_app())
-    context = typer._attach_click.Context(program, info_name="holdfast")
+    context = typer._click.Context(program, info_name="holdfast")
     pages = {f"holdfast-{name}": "\n".join(page(name, command, context)) for name, command in program.commands.items()}
     index = ["Commands\n========\n", *paragraphs(program.help), "Every command has ``--help`` with an example.\n"]
     for folder, title in PANEL_TITLES.items():

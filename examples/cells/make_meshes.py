@@ -38,12 +38,12 @@ def body(x: list[float], y: list[float], z: list[float], solid: list[tuple[int, 
 here = Path(__file__).parent
 # Two jaws on a bed: not convex.
 vise = body([-60, -35, 35, 60], [-70, 70], [0, 40, 110], [(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 0, 1), (2, 0, 1)])
-vise.get_export(here / "vise.stl")
+vise.export(here / "vise.stl")
 # A tray with a floor and four walls.
 edge = [-0.15, -0.14, 0.14, 0.15]
 walls = [(i, j, k) for i in range(3) for j in range(3) for k in range(2) if k == 0 or (i, j) != (1, 1)]
-body(edge, edge, [0, 0.01, 0.12], walls).get_export(here / "tray.glb")
+body(edge, edge, [0, 0.01, 0.12], walls).export(here / "tray.glb")
 # A portal that carries a camera.
-body(
-    [-0.03, 0.03], [-0.45, -0.4, 0.4, 0.45], [0, 0.75, 0.8], [(0, 0, 0), (0, 2, 0), (0, 0, 1), (0, 1, 1), (0, 2, 1)]
-).get_export(here / "portal.stl")
+body([-0.03, 0.03], [-0.45, -0.4, 0.4, 0.45], [0, 0.75, 0.8], [(0, 0, 0), (0, 2, 0), (0, 0, 1), (0, 1, 1), (0, 2, 1)]).export(
+    here / "portal.stl"
+)

@@ -34,8 +34,8 @@ def ring() -> trimesh.Trimesh:
 
 @pytest.fixture
 def folder(tmp_path, rng):
-    trimesh.Trimesh(1000 * ring().vertices, ring().faces).get_export(tmp_path / "jig.stl")
-    trimesh.creation.box((0.2, 0.3, 0.4)).get_export(tmp_path / "box.glb")
+    trimesh.Trimesh(1000 * ring().vertices, ring().faces).export(tmp_path / "jig.stl")
+    trimesh.creation.box((0.2, 0.3, 0.4)).export(tmp_path / "box.glb")
     np.save(tmp_path / "scan.npy", rng.uniform(-1, 1, (100, 3)))
     (tmp_path / "cell.yaml").write_text(EVERY_KEY)
     return tmp_path
@@ -92,7 +92,7 @@ def test_arrays_are_written_beside_the_file(tmp_path, rng):
 def test_the_same_mesh_in_every_format(tmp_path, kind):
     shape = ring()
     shape.vertices = shape.vertices.astype(np.float32).astype(float)
-    shape.get_export(tmp_path / f"ring.{kind}")
+    shape.export(tmp_path / f"ring.{kind}")
     found = Mesh("ring", tmp_path / f"ring.{kind}").surface
     expected = Mesh("ring", (shape.vertices, shape.faces)).surface
     assert len(found.vertices) == len(expected.vertices)
@@ -170,8 +170,8 @@ def test_what_is_wrong_is_one_sentence_that_says_where(folder, old, new, said):
 def test_damaged_meshes(tmp_path):
     shape = ring()
     for kind in set(mesh.MESH_FORMATS) - {"dae"}:  # its package is not one of ours
-        shape.get_export(tmp_path / f"ring.{kind}")
-    shape.get_export(tmp_path / "text.stl", file_type="stl_ascii")
+        shape.export(tmp_path / f"ring.{kind}")
+    shape.export(tmp_path / "text.stl", file_type="stl_ascii")
     whole = sorted(tmp_path.iterdir())
     assert len(whole) == 5
     for file in whole:
@@ -225,8 +225,8 @@ def test_without_the_extra_a_mesh_file_says_so(folder, monkeypatch):
 
 def test_stl_files_are_read_without_a_package(tmp_path, monkeypatch):
     shape = ring()
-    shape.get_export(tmp_path / "ring.stl")
-    shape.get_export(tmp_path / "text.stl", file_type="stl_ascii")
+    shape.export(tmp_path / "ring.stl")
+    shape.export(tmp_path / "text.stl", file_type="stl_ascii")
     theirs = trimesh.load_mesh(tmp_path / "ring.stl")
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     for name in ("ring.stl", "text.stl"):

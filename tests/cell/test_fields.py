@@ -56,7 +56,7 @@ def in_world(points: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("solid", ["exact", "hull"])
 def test_a_mesh_is_never_farther_than_said_and_not_much_nearer(rng, solid):
     shape = bracket()
-    truth = shape if solid == "exact" else trimesh.is_convex.convex_hull(shape)
+    truth = shape if solid == "exact" else trimesh.convex.convex_hull(shape)
     made = Mesh("bracket", (shape.vertices, shape.faces), solid=solid, pose=POSE)
     points = about(truth, rng)
     exact, bound = signed(truth, points), made.signed_distance(in_world(points))

@@ -61,8 +61,8 @@ def turned(axis: str, angle: float, xyz=(0, 0, 0)) -> np.ndarray:
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(field, "_MAX_NODES", 30_000)
-    shape = trimesh.is_convex.convex_hull(np.random.default_rng(5).normal(scale=60, size=(30, 3)))
-    shape.get_export(tmp_path / "jig.stl")
+    shape = trimesh.convex.convex_hull(np.random.default_rng(5).normal(scale=60, size=(30, 3)))
+    shape.export(tmp_path / "jig.stl")
     (tmp_path / "bench.urdf").write_text(URDF)
     (tmp_path / "bench.xml").write_text(MJCF)
     table = turned("z", 0.3)
@@ -187,6 +187,6 @@ def test_what_is_wrong_is_one_sentence(folder, file, text, said):
 
 def test_a_mesh_that_is_not_closed_is_its_hull(folder):
     shape = trimesh.load(folder / "jig.stl")
-    trimesh.Trimesh(shape.vertices, shape.faces[1:]).get_export(folder / "jig.stl")
+    trimesh.Trimesh(shape.vertices, shape.faces[1:]).export(folder / "jig.stl")
     jig = next(x for x in hf.Cell.load(folder / "bench.urdf") if isinstance(x, Mesh))
     assert jig.solid == "hull"

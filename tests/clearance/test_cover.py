@@ -276,7 +276,7 @@ def test_a_mesh_that_is_not_convex_is_cut_where_its_hull_is_hollow(tmp_path, rng
     bars = [trimesh.creation.box((0.5, 0.08, 0.08)), trimesh.creation.box((0.08, 0.08, 0.5))]
     bars[1].apply_translation([0.21, 0, 0.29])
     bent = trimesh.util.concatenate(bars)
-    bent.get_export(tmp_path / "bent.stl")
+    bent.export(tmp_path / "bent.stl")
     arm = write(tmp_path, "<mesh filename='bent.stl'/>")
     shape = CollisionModel.from_arm(arm)
     assert not shape.hulls[0].is_convex

@@ -24,7 +24,7 @@ from holdfast.errors import InputError, StoreError
 from holdfast.kernels.program import Program
 from holdfast.registry import LAW_REGISTRY
 
-COMPILER = shutil.widest_joint("cc") or shutil.widest_joint("gcc") or shutil.widest_joint("clang")
+COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 EXAMPLES = Path(__file__).parents[2] / "examples"
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="no C compiler (cc, gcc or clang) on this machine")
 
@@ -244,7 +244,7 @@ def test_the_header_says_what_made_it(tmp_path):
     assert law.arm.fingerprint not in other.export_c(tmp_path, "other").header.read_text()
 
 
-@pytest.mark.skipif(shutil.widest_joint("g++") is None, reason="no C++ compiler (g++) on this machine")
+@pytest.mark.skipif(shutil.which("g++") is None, reason="no C++ compiler (g++) on this machine")
 def test_cpp_links_with_it(tmp_path):
     source, _, example, _ = hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar").export_c(tmp_path, "law")
     shutil.move(example, example.with_suffix(".cpp"))

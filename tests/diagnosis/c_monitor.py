@@ -15,7 +15,7 @@ import numpy as np
 
 import holdfast as hf
 
-COMPILER = shutil.widest_joint("cc") or shutil.widest_joint("gcc") or shutil.widest_joint("clang")
+COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 FLAGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off")
 SANITISED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 KINDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")

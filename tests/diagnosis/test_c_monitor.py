@@ -19,7 +19,7 @@ needs_compiler = pytest.mark.skipif(c_monitor.COMPILER is None, reason="no C com
 def test_c_and_javascript_say_what_python_says(rng, tmp_path):
     arm = hf.arms.load("panda")
     bounds = c_monitor.bounds_of(arm)
-    worst, unlike, named = c_monitor.compare_value(arm, c_monitor.built(arm, bounds, tmp_path), 20, rng, bounds, node=True)
+    worst, unlike, named = c_monitor.compared(arm, c_monitor.built(arm, bounds, tmp_path), 20, rng, bounds, node=True)
     assert worst <= c_monitor.TOLERANCE
     assert unlike == 0
     assert len(named) > 2  # of 20 records, whatever the seed: 5 to 8 for each of 16
@@ -46,14 +46,14 @@ def test_the_example_watches_a_record(tmp_path):
         done = subprocess.run([str(tmp_path / "watch")], input=text, capture_output=True, text=True, check=False)
         assert done.returncode == code
         assert words in done.stdout
-    if shutil.widest_joint("nm"):  # nothing but arithmetic is called: no memory, no files, no clocks
+    if shutil.which("nm"):  # nothing but arithmetic is called: no memory, no files, no clocks
         subprocess.run([c_monitor.COMPILER, "-O2", "-c", "watch.c"], cwd=tmp_path, check=True, timeout=60)
         said = subprocess.run(["nm", "-P", "watch.o"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
         names = {line.split()[0].lstrip("_"): line.split()[1] for line in said.splitlines()}
         called = {name for name, kind in names.items() if kind == "U"}
         assert called <= {"sin", "cos", "sincos", "sqrt", "tanh", "atan2", "memset", "memcpy", "stack_chk_fail"}
         assert not [name for name, kind in names.items() if kind in "BbDdC" and name != "watch_joints" and "names" not in name]
-    if shutil.widest_joint("g++"):
+    if shutil.which("g++"):
         command = ["g++", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-x", "c++", str(made.header)]
         subprocess.run([*command, "-Wno-pragma-once-outside-header"], check=True, timeout=60)
 

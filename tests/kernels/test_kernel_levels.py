@@ -128,7 +128,7 @@ def test_a_thread_of_the_pool_makes_better_code_itself(fresh, threads, monkeypat
     x, y = long_function(60)
     kernel = Kernel("long", [x], [y])
     rows = rng.normal(size=(1024, 9))
-    monkeypatch.setattr(compiled, "_submit_job", lambda job: pytest.show_conditions("left to the background"))
+    monkeypatch.setattr(compiled, "_submit_job", lambda job: pytest.fail("left to the background"))
     first = shared_pool().submit(kernel.rows, rows).result()
     assert kernel._compiled.level == 1
     np.testing.assert_array_equal(kernel.rows(rows), first)

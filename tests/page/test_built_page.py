@@ -19,12 +19,10 @@ PAGE = Path(__file__).parents[2] / "page"
 @pytest.fixture(scope="module")
 def node():
     """What the page is built with."""
-    if shutil.widest_joint("node") is None:
-        pytest.show_conditions("the page is built again and compared, and there is no Node here: 'make test' installs it")
+    if shutil.which("node") is None:
+        pytest.fail("the page is built again and compared, and there is no Node here: 'make test' installs it")
     if not (PAGE / "node_modules").is_dir():
-        pytest.show_conditions(
-            "the page is built again and compared, and its tools are not installed: 'make test' installs them"
-        )
+        pytest.fail("the page is built again and compared, and its tools are not installed: 'make test' installs them")
 
 
 def sources() -> str:

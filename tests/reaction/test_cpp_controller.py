@@ -21,7 +21,7 @@ sys.path.append(str(Path(__file__).parents[1] / "diagnosis"))
 import c_monitor
 
 HERE = Path(__file__).parent
-CPP = shutil.widest_joint("c++") or shutil.widest_joint("g++") or shutil.widest_joint("clang++")
+CPP = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
 WARNINGS = ("-pedantic", "-Wall", "-Wextra", "-Werror")
 START, RATE = np.array([0.3, 0.2, 0.4, -1.6, 0.5, 1.6, 0.3]), 1000.0
 MODES = ("inactive", "running", "slowed", "degraded", "stopped")

@@ -40,7 +40,7 @@ def browser():
 def report(browser, found, tmp_path_factory):
     file = found.report(tmp_path_factory.mktemp("page") / "report.html")
     page = browser.new_page(viewport={"width": 1200, "height": 900})
-    page.on("pageerror", lambda error: pytest.show_conditions(str(error)))
+    page.on("pageerror", lambda error: pytest.fail(str(error)))
     page.goto(file.as_uri())
     return page
 

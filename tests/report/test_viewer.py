@@ -191,9 +191,9 @@ def opened(browser, tmp_path):
     def show(html, **options):
         context = browser.new_context(viewport={"width": 700, "height": 900}, **options)
         made.append(context)
-        context.route(re.compile("^(?!file:)"), lambda route: pytest.show_conditions(f"the page asks for {route.request.url}"))
+        context.route(re.compile("^(?!file:)"), lambda route: pytest.fail(f"the page asks for {route.request.url}"))
         found = context.new_page()
-        found.on("pageerror", lambda error: pytest.show_conditions(str(error)))
+        found.on("pageerror", lambda error: pytest.fail(str(error)))
         file = tmp_path / f"{len(made)}.html"
         file.write_text(html, encoding="utf-8")
         found.goto(file.as_uri())

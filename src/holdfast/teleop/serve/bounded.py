@@ -81,9 +81,9 @@ def make_protocols(
             super().connection_lost(exc)
 
         def handle_events(self) -> None:
-            before = self.step_one
+            before = self.cycle
             super().handle_events()
-            if self.step_one is not before:
+            if self.cycle is not before:
                 silent.stop(self.transport)
 
         def handle_websocket_upgrade(self, event: Any) -> None:
