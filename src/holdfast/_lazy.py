@@ -9,6 +9,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from holdfast.renamed import PUBLIC_NAMES
+
 _OFFERED = re.compile(r"^from ([\w.]+) import (\w+) as \2$", re.MULTILINE)
 
 
@@ -33,7 +35,9 @@ def offer(package: str) -> None:
         elif not name.startswith("_") and find_spec(f"{home}.{name}") is not None:
             value = import_module(f"{home}.{name}")
         else:
-            raise AttributeError(f"module '{package}' has no attribute '{name}'")
+            successor = PUBLIC_NAMES.get(f"{package}.{name}")
+            hint = f"; it is now {successor}" if successor else ""
+            raise AttributeError(f"module '{package}' has no attribute '{name}'{hint}")
         setattr(module, name, value)
         return value
 

@@ -1,16 +1,18 @@
-"""Versions of what made a result."""
+"""Versions of the packages that produced a result."""
 
 from __future__ import annotations
 
 from importlib.metadata import version
 
+from holdfast import __version__
+
 
 def versions(*names: str) -> dict[str, str]:
-    """Versions of packages, of those that are installed."""
+    """Return the versions of the installed ones of these packages; that of ``holdfast`` is its own, whatever installed it."""
     found = {}
     for name in names:
         try:
-            found[name] = version(name)
+            found[name] = __version__ if name == "holdfast" else version(name)
         except ModuleNotFoundError:
             continue
     return found

@@ -219,7 +219,7 @@ def test_clouds_that_are_none():
 
 def test_without_the_extra_a_mesh_file_says_so(folder, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
-    with pytest.raises(hf.HoldfastError, match=r"holdfast\[cell\]"):
+    with pytest.raises(hf.HoldfastError, match=r"holdfast-arms\[cell\]"):
         hf.Cell.load(folder / "cell.yaml")
 
 

@@ -508,7 +508,7 @@ def test_no_file_and_no_flint(tmp_path, monkeypatch):
     with pytest.raises(verifier.CertificateRejected, match="cannot read none"):
         verifier.verify(tmp_path / "none")
     monkeypatch.setattr(balls, "flint", None)
-    with pytest.raises(verifier.CertificateRejected, match=re.escape("pip install 'holdfast[certify]'")):
+    with pytest.raises(verifier.CertificateRejected, match=re.escape("pip install 'holdfast-arms[certify]'")):
         verifier.verify(tmp_path / "none")
 
 

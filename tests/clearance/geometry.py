@@ -175,7 +175,7 @@ class InCoal:
         if not isinstance(shape, self._coal.BVHModelBase):
             return shape
         shape.buildConvexHull(True, "Qt")
-        return shape.is_convex
+        return shape.convex
 
     def _object(self, solid):
         coal = self._coal

@@ -203,5 +203,5 @@ def test_without_a_library_it_says_what_to_install(panda, monkeypatch):
     monkeypatch.setattr(engines, "find_spec", lambda name: None)
     clearance = hf.Clearance(arm, capsules, geometry.of_primitives(), itself=False)
     for ask in (clearance.sign, clearance.exact):
-        with pytest.raises(hf.HoldfastError, match=r"pip install 'holdfast\[cell\]'"):
+        with pytest.raises(hf.HoldfastError, match=r"pip install 'holdfast-arms\[cell\]'"):
             ask(drawn(arm, 2))

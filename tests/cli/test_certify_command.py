@@ -205,7 +205,7 @@ def test_python_flint_is_asked_for_before_the_search(refused, monkeypatch, tmp_p
     monkeypatch.setitem(sys.modules, "flint", None)
     for search in ("certify", "find_working_ranges"):
         monkeypatch.setattr(hf, search, lambda *_, **__: pytest.fail("the search begins"))
-    assert "pip install 'holdfast[certify]'" in refused("certify", *shlex.split(words))
+    assert "pip install 'holdfast-arms[certify]'" in refused("certify", *shlex.split(words))
     assert not list(tmp_path.iterdir())
 
 

@@ -107,7 +107,7 @@ def test_without_the_extra_it_says_what_to_install(refused, tmp_path, monkeypatc
     for name in [n for n in sys.modules if n.startswith("holdfast.teleop.serve")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setattr(builtins, "__import__", missing)
-    assert "pip install 'holdfast[teleop]'" in refused("teleop", "serve", "--data", tmp_path / "experiment")
+    assert "pip install 'holdfast-arms[teleop]'" in refused("teleop", "serve", "--data", tmp_path / "experiment")
     assert not list(tmp_path.iterdir())
 
 

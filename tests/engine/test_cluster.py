@@ -141,5 +141,5 @@ def test_schedulers_that_are_none():
 
 def test_without_dask_a_sentence(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(InputError, match=r"pip install 'holdfast\[cluster\]'"):
+    with pytest.raises(InputError, match=r"pip install 'holdfast-arms\[cluster\]'"):
         Cluster("local:2")

@@ -149,7 +149,7 @@ def test_the_notebook_learns_to_fold(monkeypatch, tmp_path):
     monkeypatch.setenv("MPLBACKEND", "agg")
     file = Path(__file__).parents[2] / "examples/learn_elbow_angles.ipynb"
     install, *cells = ["".join(c["source"]) for c in json.loads(file.read_text())["cells"] if c["cell_type"] == "code"]
-    assert install == "%pip install --quiet 'holdfast[torch]'"
+    assert install == "%pip install --quiet 'holdfast-arms[torch]'"
     made: dict[str, object] = {}
     for cell in cells:
         exec(cell.replace("STEPS, BATCH = 1500", "STEPS, BATCH = 300"), made)

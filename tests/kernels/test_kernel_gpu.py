@@ -200,7 +200,7 @@ def test_a_machine_without_gpu_is_a_sentence(missing, monkeypatch):
     monkeypatch.setattr(builtins, "__import__", imported)
     driver._driver_functions.cache_clear()
     driver.get_device.cache_clear()
-    said = {"bindings": r"holdfast\[gpu\]", "driver": "no NVIDIA driver .*: libcuda", "device": "NO_DEVICE.*no GPU here"}
+    said = {"bindings": r"holdfast-arms\[gpu\]", "driver": "no NVIDIA driver .*: libcuda", "device": "NO_DEVICE.*no GPU here"}
     for ask in (lambda: kernels.set_backend("cuda"), lambda: pair("cuda")):
         with pytest.raises(KernelError, match=said[missing]):
             ask()

@@ -292,5 +292,5 @@ def test_without_mujoco_it_says_what_to_install(monkeypatch):
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(hf.HoldfastError, match=r"holdfast\[physics\]"):
+    with pytest.raises(hf.HoldfastError, match=r"holdfast-arms\[physics\]"):
         hf.free_swing(pendulum(), [0.0], 0)

@@ -150,7 +150,7 @@ def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
 
 def test_without_viser_there_is_a_sentence(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "viser", None)
-    with pytest.raises(hf.HoldfastError, match=r"holdfast\[view\]"):
+    with pytest.raises(hf.HoldfastError, match=r"holdfast-arms\[view\]"):
         serve(hf.arms.load("panda"))
 
 

@@ -444,5 +444,5 @@ def test_only_planar_arms_have_a_ring():
 
 def test_without_statsmodels_it_is_said_what_to_install(table, monkeypatch):
     monkeypatch.setattr(sys.modules["holdfast.teleop.analysis.computation"], "find_spec", lambda name: None)
-    with pytest.raises(HoldfastError, match=r"pip install 'holdfast\[stats\]'"):
+    with pytest.raises(HoldfastError, match=r"pip install 'holdfast-arms\[stats\]'"):
         analyse(table)

@@ -4,7 +4,7 @@ An experiment without people
 
 Six simulated operators do a whole experiment: training, four scenarios of four tasks each,
 ratings. The records are those of a real session, marked *simulated*. Six are enough for a
-picture, not for a result. Needs ``holdfast[stats]``.
+picture, not for a result. Needs ``holdfast-arms[stats]``.
 """
 
 import tempfile

@@ -36,7 +36,7 @@ def import_mujoco() -> ModuleType:
         import mujoco
     except ImportError as error:
         raise HoldfastError(
-            "MuJoCo is needed here and is not installed; install holdfast[physics] (pip install 'holdfast[physics]')"
+            "MuJoCo is needed here and is not installed; install holdfast-arms[physics] (pip install 'holdfast-arms[physics]')"
         ) from error
     return mujoco  # type: ignore[no-any-return, unused-ignore]
 
@@ -61,7 +61,7 @@ def load_mjcf(
     hold: Mapping[str, float] | None = None,
     name: str | None = None,
 ) -> ArmData:
-    """Return the serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast[physics]``).
+    """Return the serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast-arms[physics]``).
 
     As :func:`holdfast.arm.urdf.load_urdf` does it: bodies without a joint are folded away, and what hangs on the chain without
     being part of it becomes part of the body it hangs on, its own joints held where the file puts them. Hinges are

@@ -81,7 +81,7 @@ class Arm(Presentable, ArmData):
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the body or joint.
-            HoldfastError: MuJoCo is not installed; it comes with ``holdfast[physics]``.
+            HoldfastError: MuJoCo is not installed; it comes with ``holdfast-arms[physics]``.
         """
         from holdfast.arm.mjcf import load_mjcf
 

@@ -153,7 +153,7 @@ class UpperBound(Result):
             InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong; or the
                 certificates prove less than what is said.
             ValueError: A certificate proves nothing.
-            ImportError: The proof by R4 needs python-flint (``pip install "holdfast[certify]"``).
+            ImportError: The proof by R4 needs python-flint (``pip install "holdfast-arms[certify]"``).
         """
         for theorem, n, p in best_proved_bound(self.n, self.m, self.k).replayed if proof else ():
             stored_bound = ARRANGEMENT_BOUNDS[n] if theorem == "R4" else PAIR_BOUNDS[n, n - p]

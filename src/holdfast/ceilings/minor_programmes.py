@@ -59,7 +59,7 @@ class MinorCertificate:
         """Return the bound in ball arithmetic, a number that is certainly not less than the least minor of this class.
 
         Raises:
-            ImportError: python-flint is not installed (``pip install "holdfast[certify]"``).
+            ImportError: python-flint is not installed (``pip install "holdfast-arms[certify]"``).
             ValueError: The signs are of no oriented matroid, or the point proves nothing.
         """
         import flint
@@ -189,7 +189,7 @@ def bounds_by_arrangement(n: int, enough: float = 0.0) -> list[float]:
         enough: A class whose bound is at or below this is not bounded more tightly; 0 bounds each as tightly as can be.
 
     Raises:
-        ImportError: python-flint is not installed (``pip install "holdfast[certify]"``).
+        ImportError: python-flint is not installed (``pip install "holdfast-arms[certify]"``).
 
     Source: derived here.
     """

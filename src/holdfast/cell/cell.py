@@ -166,7 +166,7 @@ class Cell:
         do not move with it.
 
         The bodies from ``base`` to the first joint that moves are the arm's, but for the world. A mesh is its hull, as MuJoCo
-        has it. What the base touches it may touch: neither moves. Needs ``holdfast[physics]``.
+        has it. What the base touches it may touch: neither moves. Needs ``holdfast-arms[physics]``.
 
         Args:
             path: The file.

@@ -112,7 +112,7 @@ def require_flint() -> None:
         InputError: It is not.
     """
     if find_spec("flint") is None:
-        raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'")
+        raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast-arms[certify]'")
 
 
 def _make_time_guard(time_limit: float | None) -> Callable[[int], None]:

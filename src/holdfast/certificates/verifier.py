@@ -306,7 +306,8 @@ def verify(
         Refused: A file that cannot be checked.
     """
     require(
-        balls.flint is not None, "checking a certificate needs python-flint; install it with: pip install 'holdfast[certify]'"
+        balls.flint is not None,
+        "checking a certificate needs python-flint; install it with: pip install 'holdfast-arms[certify]'",
     )
     path, document, options = Path(path), load_certificate(Path(path)), (sample, workers, progress or (lambda size: None))
     if document["kind"] == "bundle":

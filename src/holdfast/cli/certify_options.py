@@ -28,7 +28,7 @@ RowsOption = Annotated[str, "pose; planar-pose for arms in a plane."]
 AnglesOption = Annotated[bool, "Angles are in degrees (slides stay in m)."]
 HalvingsOption = Annotated[int, "Of each axis of the box, at most."]
 JointHalvingsOption = Annotated[int, "Of each joint, at most."]
-CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast[certify]).")]
+CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast-arms[certify]).")]
 CertificateOption = Annotated[Path, "Certificate to write."]
 
 

@@ -97,5 +97,5 @@ def _wrap_command(text: str) -> str:
 
 
 def _escape_brackets(text: str) -> str:
-    """Escape brackets as in ``holdfast[parquet]``, which rich would take for a style."""
+    """Escape brackets as in ``holdfast-arms[parquet]``, which rich would take for a style."""
     return re.sub(r"(?<!\\)\[(?=[a-zA-Z/@#])", r"\\[", text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import sys
 from importlib import import_module
@@ -19,6 +20,7 @@ from holdfast.cli.declaration import as_typer
 from holdfast.cli.interrupt import STOPPED_EXIT_CODE
 from holdfast.cli.layout import PanelCommand, PanelGroup
 from holdfast.errors import ArmError, HoldfastError
+from holdfast.renamed import COMMANDS, OPTIONS
 
 PANEL_TITLES = {  # of the help, in its order, by the folder
     "start": "Start here",
@@ -159,7 +161,7 @@ def main() -> None:
         message = getattr(error, "format_message", error.__str__)().rstrip(".")
         if not message:  # no arguments: the help was shown
             sys.exit(2)
-        _exit_with_error(message + hint)
+        _exit_with_error(message + (_name_successor(message) or hint))
     except (KeyboardInterrupt, typer.Abort):
         _exit_stopped()
     except ValueError as error:
@@ -179,6 +181,14 @@ def main() -> None:
     if exit_code == STOPPED_EXIT_CODE:  # typer's answer to Ctrl-C
         _exit_stopped()
     sys.exit(exit_code if isinstance(exit_code, int) else 0)
+
+
+def _name_successor(message: str) -> str:
+    """Return the new name of a command or option that the error message calls unknown; empty if it was never known."""
+    unknown = re.search(r"No such (?:command|option):? '?([\w-]+)", message)
+    name = unknown.group(1) if unknown else ""
+    successor = COMMANDS.get(name) or OPTIONS.get(name)
+    return f"; it is now '{successor}'" if successor else ""
 
 
 def _exit_stopped() -> None:

@@ -67,7 +67,7 @@ def simulate_log(
     viscous: float = 0.3,
     pose: bool = True,
 ) -> Log:
-    """Simulate a recording of an arm that swings each joint to and fro, with noise (needs ``holdfast[physics]``).
+    """Simulate a recording of an arm that swings each joint to and fro, with noise (needs ``holdfast-arms[physics]``).
 
     Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a motion. Each
     drive closes its velocity loop faster than the control cycle of 1 kHz; at random configurations of every built-in arm with

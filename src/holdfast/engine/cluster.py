@@ -33,7 +33,7 @@ class Cluster:
             import distributed
         except ImportError as error:
             raise InputError(
-                "a scheduler needs Dask, which is not installed; install it with: pip install 'holdfast[cluster]'"
+                "a scheduler needs Dask, which is not installed; install it with: pip install 'holdfast-arms[cluster]'"
             ) from error
         for part in ("client", "core", "comm"):  # its tracebacks; what matters comes back as one sentence
             logging.getLogger(f"distributed.{part}").setLevel(logging.CRITICAL)

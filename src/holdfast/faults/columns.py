@@ -145,7 +145,7 @@ def import_pyarrow() -> tuple[Any, Any]:
         import pyarrow
         from pyarrow import parquet
     except ImportError as error:
-        raise InputError("Parquet needs pyarrow; install holdfast[parquet], or give an .npz or .csv file") from error
+        raise InputError("Parquet needs pyarrow; install holdfast-arms[parquet], or give an .npz or .csv file") from error
     return pyarrow, parquet
 
 

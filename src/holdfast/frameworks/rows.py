@@ -77,12 +77,12 @@ class Differentiable:
 
         Inputs are tensors (..., n), and (..., m) for a law's velocity; axes before the last are batches and are broadcast.
         The result, (...) or (..., n), has their type and device. On the processor double-precision tensors are used where they
-        are, without a copy, as are those on an NVIDIA GPU (``holdfast[gpu]``) by laws, susceptibilities and the indices of
+        are, without a copy, as are those on an NVIDIA GPU (``holdfast-arms[gpu]``) by laws, susceptibilities and the indices of
         determinants, of which nearly singular rows alone go through the processor; of other indices all do. First derivatives
         are exact, those of ``gradient`` or of the law's graph; there are no second ones. A row with NaN gives NaN.
 
         Raises:
-            HoldfastError: PyTorch is not installed (``holdfast[torch]``). When called for second derivatives.
+            HoldfastError: PyTorch is not installed (``holdfast-arms[torch]``). When called for second derivatives.
             InputError: When called, a wrong shape.
         """
         return _wrap_for_framework("torch", "PyTorch", self.row_function())
@@ -94,7 +94,7 @@ class Differentiable:
         precision unless ``jax_enable_x64`` is set: results are then rounded to that.
 
         Raises:
-            HoldfastError: JAX is not installed (``holdfast[jax]``).
+            HoldfastError: JAX is not installed (``holdfast-arms[jax]``).
             InputError: When called, a wrong shape.
         """
         return _wrap_for_framework("jax", "JAX", self.row_function())
@@ -105,7 +105,7 @@ def _wrap_for_framework(framework: str, title: str, function: RowFunction) -> Ca
         module = import_module(f"holdfast.frameworks.{framework}_rows")
     except ImportError as error:
         raise HoldfastError(
-            f"{title} is not installed ({error}); install holdfast[{framework}] (pip install 'holdfast[{framework}]')"
+            f"{title} is not installed ({error}); install holdfast-arms[{framework}] (pip install 'holdfast-arms[{framework}]')"
         ) from error
     wrapper: Callable[..., Any] = module.wrap_row_function(function)
     return wrapper

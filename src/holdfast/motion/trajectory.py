@@ -232,7 +232,7 @@ class Trajectory(Result):
             with guard_writing(Path(path), "motion", "choose another path"):
                 parquet.write_table(pyarrow.table(self.columns()), Path(path))
         except ImportError as error:
-            raise StoreError(f"'{path}': Parquet needs pyarrow; install holdfast[parquet], or write CSV") from error
+            raise StoreError(f"'{path}': Parquet needs pyarrow; install holdfast-arms[parquet], or write CSV") from error
         return Path(path)
 
     def slowness(self, bound: float) -> list[SlowMotion]:

@@ -48,7 +48,7 @@ def execute(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
 ) -> Execution:
-    """Execute a timed joint motion in MuJoCo with servos, and evaluate it (needs ``holdfast[physics]``).
+    """Execute a timed joint motion in MuJoCo with servos, and evaluate it (needs ``holdfast-arms[physics]``).
 
     Bodies, motors and locks are those of :func:`holdfast.simulate_physics`: a joint that locks while it moves stops at once,
     and the jolt goes through the arm. The arm starts at rest where the motion begins. Until a lock is noticed the other joints

@@ -52,7 +52,7 @@ def simulate_physics(
     cell: CellLike | None = None,
     stop_at_contact: bool = False,
 ) -> PhysicalRun:
-    """Simulate one run of the closed loop on MuJoCo, next to the kinematic one (needs ``holdfast[physics]``).
+    """Simulate one run of the closed loop on MuJoCo, next to the kinematic one (needs ``holdfast-arms[physics]``).
 
     :func:`holdfast.simulation.simulate` lets healthy joints do what they are told. Here they have bodies and motors: at every
     control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor works),

@@ -51,7 +51,7 @@ def free_swing(
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
 ) -> FreeSwing:
-    """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast[physics]``).
+    """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast-arms[physics]``).
 
     The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
     exactly. Nothing is in the way but the objects of a cell, and no limit unless ``limits``; a prismatic joint always falls to

@@ -63,7 +63,7 @@ def simulate_faults(
     seed: int = 0,
 ) -> FaultRun:
     """Simulate one closed-loop run in MuJoCo in which joints fail and are detected, and the task continues (needs
-    ``holdfast[physics]``).
+    ``holdfast-arms[physics]``).
 
     At every control cycle the law is given what the joint sensors tell, and its rates, kept within the joints' limits and
     speeds and 10 rad/s^2, go to the servos, whose torques move a body that is not quite the arm's model. Faults begin and end

@@ -142,12 +142,12 @@ def serve(
         ready: Told the address as soon as a browser may open it; the arm comes while the browser loads the page.
 
     Raises:
-        HoldfastError: Viser is not installed; it comes with ``holdfast[view]``.
+        HoldfastError: Viser is not installed; it comes with ``holdfast-arms[view]``.
         InputError: The port is in use, the host is not an address of this machine, or the arm's base touches an object.
         TaskError: A task that does not fit the arm.
     """
     if find_spec("viser") is None:
-        raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'")
+        raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast-arms[view]'")
     if state is None:
         q = tuple(float(value) for value in generic_configuration(arm))
         state = State(arm.name, arm.joint_names, q, task=default_task(arm.name, arm))

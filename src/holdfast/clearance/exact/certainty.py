@@ -58,5 +58,5 @@ def describe_unknown_shape(clearance: Clearance | None) -> str:
         links = ", ".join(link_name(arm, link) for link in sorted({item.link for item in shape.missing}))
         return f"the shape of {links} was not read ({shape.missing[0].what})"
     if (shape is not None or clearance.cell is not None) and not is_library_installed():
-        return "exact distances need python-fcl, which is not installed (pip install 'holdfast[cell]')"
+        return "exact distances need python-fcl, which is not installed (pip install 'holdfast-arms[cell]')"
     return ""

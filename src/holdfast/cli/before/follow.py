@@ -53,7 +53,7 @@ def command(
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: Annotated[Path | None, "Folder for trajectory.csv and report.html."] = None,
     csv: MotionCsvOption = None,
-    parquet: Annotated[Path | None, "The same as Parquet (needs holdfast[parquet])."] = None,
+    parquet: Annotated[Path | None, "The same as Parquet (needs holdfast-arms[parquet])."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Track a tool path while the null-space motion optimises fault tolerance.

@@ -50,7 +50,7 @@ def serve(
     except ModuleNotFoundError as error:
         if error.name not in ("starlette", "uvicorn", "websockets"):
             raise
-        raise HoldfastError(f"the server needs {error.name}; pip install 'holdfast[teleop]'") from None
+        raise HoldfastError(f"the server needs {error.name}; pip install 'holdfast-arms[teleop]'") from None
     token = _read_token(token, token_file)
     if token is not None:
         check_token(token)

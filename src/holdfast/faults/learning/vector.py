@@ -28,7 +28,7 @@ LIMIT_MARGIN_FRACTION = 0.05  # of a joint's range, kept from its limits at the 
 
 
 class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
-    """N arms with a control law each, whose joints fail while they move to their targets (needs ``holdfast[learn]``).
+    """N arms with a control law each, whose joints fail while they move to their targets (needs ``holdfast-arms[learn]``).
 
     The loop is kinematic: joints do what they are told, within limits and speeds. A step of all arms is one call of one
     kernel. The action, (N, n) in -1 to 1, is added to the law's joint rates, in units of the velocity limits: with an action
@@ -81,7 +81,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         stream: int = 1,
     ) -> None:
         if VectorEnv is object:
-            raise HoldfastError("Gymnasium is not installed; pip install 'holdfast[learn]'")
+            raise HoldfastError("Gymnasium is not installed; pip install 'holdfast-arms[learn]'")
         from gymnasium.spaces import Box
         from gymnasium.vector import AutoresetMode
         from gymnasium.vector.utils import batch_space

@@ -69,7 +69,7 @@ class FaultInfo(Mapping[str, Any]):
 
 
 class FaultWrapper(Wrapper):  # type: ignore[misc]
-    """Environment whose joints fail, by its own clock (needs ``holdfast[learn]`` and ``holdfast[physics]``).
+    """Environment whose joints fail, by its own clock (needs ``holdfast-arms[learn]`` and ``holdfast-arms[physics]``).
 
     ``reset`` gives the model every number back before the environment resets, then draws the next episode;
     ``reset(options={"episode": 12})`` chooses one. What begins during a step takes effect with the next one; both times are
@@ -116,7 +116,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         record: str | Path | None = None,
     ) -> None:
         if Wrapper is object:
-            raise HoldfastError("Gymnasium is not installed; pip install 'holdfast[learn]'")
+            raise HoldfastError("Gymnasium is not installed; pip install 'holdfast-arms[learn]'")
         super().__init__(env)
         self._mujoco = import_mujoco()
         model, data = _find_model(env.unwrapped)

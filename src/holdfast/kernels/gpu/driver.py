@@ -27,7 +27,7 @@ def _driver_functions() -> Any:
         from cuda.bindings import driver
     except ImportError as error:
         raise KernelError(
-            "the cuda backend needs cuda-bindings; install holdfast[gpu] (pip install 'holdfast[gpu]')"
+            "the cuda backend needs cuda-bindings; install holdfast-arms[gpu] (pip install 'holdfast-arms[gpu]')"
         ) from error
     try:
         started = driver.cuInit(0)

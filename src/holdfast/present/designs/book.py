@@ -65,11 +65,7 @@ def write(book: RecordBook, path: Path, command: str = "") -> Path:
         "proven bound: those are open.",
         sections,
         subtitle="What is left of an arm or its workspace after the worst locks, or how far its joints turn on one self-motion",
-        method=[
-            Text(
-                "Each record is one file, checked by code that shares nothing with what found it: holdfast record-designs check."
-            )
-        ],
+        method=[Text("Each record is one file and is checked by independent code: holdfast record-designs check.")],
         again=command or "holdfast record-designs check --all",
     )
     return page.write(report, path)

@@ -1,6 +1,6 @@
 """Statistics of the teleoperation experiment: from a table of trials to a report.
 
-Needs statsmodels: ``pip install holdfast[stats]``.
+Needs statsmodels: ``pip install holdfast-arms[stats]``.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 7.
 """

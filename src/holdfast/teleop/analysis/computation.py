@@ -82,7 +82,7 @@ def analyse(
     """
     if find_spec("statsmodels") is None:
         raise HoldfastError(
-            "statsmodels is needed here and is not installed; install holdfast[stats] (pip install 'holdfast[stats]')"
+            "statsmodels is needed here and is not installed; install holdfast-arms[stats] (pip install 'holdfast-arms[stats]')"
         )
     for name, value, choices in (
         ("missing", missing, ("refuse", "complete", "mixed")),

@@ -292,7 +292,7 @@ def export_tables(records: Records, folder: str | Path, parquet: bool = False) -
         try:
             import pyarrow  # noqa: F401
         except ModuleNotFoundError:
-            raise HoldfastError("Parquet needs pyarrow; install 'holdfast[parquet]', or export CSV") from None
+            raise HoldfastError("Parquet needs pyarrow; install 'holdfast-arms[parquet]', or export CSV") from None
     subjects = [
         {
             "subject": subject.code,
