@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from holdfast.renamed import PUBLIC_NAMES
+from holdfast.renamed import find_successor
 
 _OFFERED = re.compile(r"^from ([\w.]+) import (\w+) as \2$", re.MULTILINE)
 
@@ -35,7 +35,7 @@ def offer(package: str) -> None:
         elif not name.startswith("_") and find_spec(f"{home}.{name}") is not None:
             value = import_module(f"{home}.{name}")
         else:
-            successor = PUBLIC_NAMES.get(f"{package}.{name}")
+            successor = find_successor(package, name)
             hint = f"; it is now {successor}" if successor else ""
             raise AttributeError(f"module '{package}' has no attribute '{name}'{hint}")
         setattr(module, name, value)

@@ -1,5 +1,7 @@
 """Names that changed before the first release, with their successors, for error messages."""
 
+import re
+
 COMMANDS = {
     "ceiling": "upper-bound",
     "endure": "plan-motion",
@@ -17,33 +19,58 @@ OPTIONS = {
     "--inject": "--test-locks",
     "--notice": "--monitor",
 }
-PUBLIC_NAMES = {
-    "holdfast.Endurance": "holdfast.LockSurvival",
-    "holdfast.endurance_of": "holdfast.evaluate_motion",
-    "holdfast.endure": "holdfast.plan_motion",
-    "holdfast.endure_to": "holdfast.plan_motion_to",
-    "holdfast.bench.Case": "holdfast.bench.BenchmarkCase",
-    "holdfast.bench.Motion": "holdfast.bench.BenchmarkMotion",
-    "holdfast.bench.trouble": "holdfast.bench.find_violation",
-    "holdfast.ceilings.Ceiling": "holdfast.ceilings.UpperBound",
-    "holdfast.ceilings.look_up": "holdfast.ceilings.upper_bound",
-    "holdfast.designs.Judgement": "holdfast.designs.ArmComparison",
-    "holdfast.designs.judge": "holdfast.designs.compare_arms",
-    "holdfast.designs.judge_orders": "holdfast.designs.compare_joint_orders",
-    "holdfast.designs.record": "holdfast.designs.record_design",
-    "holdfast.designs.records": "holdfast.designs.record_designs",
-    "holdfast.diagnosis.Probe": "holdfast.diagnosis.ProbingMotion",
-    "holdfast.diagnosis.Push": "holdfast.diagnosis.ExternalForce",
-    "holdfast.diagnosis.Verdict": "holdfast.diagnosis.FaultVerdict",
-    "holdfast.diagnosis.decide": "holdfast.diagnosis.identify",
-    "holdfast.diagnosis.observe": "holdfast.diagnosis.predict_detection",
-    "holdfast.diagnosis.plan_probe": "holdfast.diagnosis.plan_identification",
-    "holdfast.diagnosis.rehearse": "holdfast.diagnosis.simulate_log",
-    "holdfast.diagnosis.rehearse_many": "holdfast.diagnosis.simulate_logs",
-    "holdfast.faults.Faults": "holdfast.faults.FaultModel",
-    "holdfast.faults.recorded": "holdfast.faults.read_episodes",
-    "holdfast.faults.success": "holdfast.faults.success_rate",
-    "holdfast.keep.Kept": "holdfast.keep.ToolConstraint",
-    "holdfast.recovery.Ending": "holdfast.recovery.RecoveryOutcome",
-    "holdfast.recovery.WhatIsLeft": "holdfast.recovery.RemainingWorkspace",
-}
+_PUBLIC_NAMES = """
+holdfast: Endurance=LockSurvival Reach=PoseSolutions endurance_of=evaluate_motion endure=plan_motion
+  endure_to=plan_motion_to
+holdfast.bench: Case=BenchmarkCase Motion=BenchmarkMotion trouble=find_violation
+holdfast.ceilings: Average=AverageBound Ceiling=UpperBound CeilingSearch=UpperBoundSearch CeilingTable=UpperBoundTable
+  SingularValueCeiling=SingularValueBound best_average=bound_average look_up=upper_bound of_index=bound_of_index
+  search=search_null_space singular_value=bound_singular_value singular_value_of_index=bound_singular_value_of_index
+  table=bound_table
+holdfast.clearance: Capsule=LinkCapsule
+holdfast.designs: Book=RecordBook Check=HeldOutCheck Checked=HeldOutResult Judgement=ArmComparison Measured=ArmMeasures
+  Orders=JointOrders Parameter=DesignParameter PlanarRest=PlanarStationarySets Record=DesignRecord judge=compare_arms
+  judge_orders=compare_joint_orders record=record_design records=record_designs written=write_dh_table
+holdfast.diagnosis: Finding=Identification Probe=ProbingMotion Push=ExternalForce Verdict=FaultVerdict decide=identify
+  observe=predict_detection plan_probe=plan_identification rehearse=simulate_log rehearse_many=simulate_logs
+holdfast.enclosure: Finding=SearchOutcome parted=prove_leg_impossible
+holdfast.endurance: Compared=BaselineMotion Endurance=LockSurvival Found=SearchBounds Injection=LockTests
+  endurance_of=evaluate_motion endure=plan_motion endure_to=plan_motion_to
+holdfast.engine: Cell=SweepCell Damage=DamagedChunk Job=SweepJob Merged=MergeReport Result=ChunkResult Task=ChunkTask
+  Threads=ThreadRunner Verification=StudyVerification merge=merge_studies verify=verify_studies
+holdfast.failures: locks_given=locks_with_values
+holdfast.faults: Faults=FaultModel Success=SuccessRate recorded=read_episodes success=success_rate
+holdfast.indices: Evaluation=IndexEvaluation Opposite=NegatedObjective Part=ObjectivePart
+holdfast.indices.susceptibility: Evaluation=SusceptibilityEvaluation Formula=SusceptibilityFormula
+  Together=SusceptibilityBatch
+holdfast.keep: Kept=ToolConstraint
+holdfast.kernels: BACKENDS=BACKEND_NAMES Single=SingleRowKernel Step=ControlStep pool=shared_pool recalled=cached_kernel
+  recalled_data=cached_json settle=wait_for_compiler
+holdfast.recovery: Ending=RecoveryOutcome RowsGivenUp=RelaxedRows Verdict=RecoveryVerdict WhatIsLeft=RemainingWorkspace
+holdfast.report: binned=bin_positions finished=settle_layout together=join_units
+holdfast.simulation: Outcome=RunOutcome Path=RunPath
+holdfast.solvers: Reach=PoseSolutions
+holdfast.studies: read=read_study_file
+holdfast.teleop: Computer=ComputerOperator Detour=WaypointOperator Entry=TrialRecord Kind=TrialKind Next=NextTrial
+  Plant=JoystickPlant Recorded=RecordedOperator Rules=EndRules State=SubjectState Stick=Joystick Who=SubjectKind
+  binning=bin_tasks cpm=compute_cpm dictionary=describe_columns drive=drive_trials export=export_tables
+  measures=compute_measures most_disorienting=find_most_disorienting next_row=choose_next_row population=sample_people
+  random_tasks=sample_tasks rate=rate_comfort replay=replay_trials run=run_tasks scenario_orders=shuffle_scenarios
+  select=select_tasks task_bank=make_task_bank trapped=find_trapped_task williams=williams_square
+holdfast.teleop.analysis: Cells=CellMeans Groups=TaskGroups Mixed=MixedModel Observed=TrialTable Paired=PairedComparison
+  correlation=correlate holm=correct_by_holm paired=compare_pairs
+holdfast.teleop.bank: Detour=WaypointOperator binning=bin_tasks most_disorienting=find_most_disorienting
+  random_tasks=sample_tasks run=run_tasks select=select_tasks task_bank=make_task_bank trapped=find_trapped_task
+holdfast.teleop.protocol: next_row=choose_next_row scenario_orders=shuffle_scenarios williams=williams_square
+holdfast.teleop.records: Entry=TrialRecord Kind=TrialKind Next=NextTrial State=SubjectState Who=SubjectKind
+  dictionary=describe_columns export=export_tables replay=replay_trials
+holdfast.teleop.trials: Computer=ComputerOperator Plant=JoystickPlant Recorded=RecordedOperator Rules=EndRules
+  Stick=Joystick cpm=compute_cpm drive=drive_trials measures=compute_measures population=sample_people rate=rate_comfort
+"""
+
+
+def find_successor(package: str, name: str) -> str | None:
+    """Return the full new name of a public function or class that was renamed; None for any other name."""
+    table = re.search(rf"^{re.escape(package)}:(.*(?:\n  .*)*)", _PUBLIC_NAMES, re.MULTILINE)
+    pairs = dict(pair.split("=") for pair in table.group(1).split()) if table else {}
+    return f"{package}.{pairs[name]}" if name in pairs else None

@@ -13,7 +13,9 @@ from holdfast import renamed
 def test_a_renamed_command_names_its_successor(cli, old):
     code, out, error = cli(old)
     assert (code, out) == (2, "")
-    assert error == f"holdfast: No such command '{old}'; it is now '{renamed.COMMANDS[old]}'\n"
+    assert error.startswith(f"holdfast: No such command '{old}'")
+    assert error.endswith(f"; it is now '{renamed.COMMANDS[old]}'\n")
+    assert len(error.splitlines()) == 1
     assert cli(renamed.COMMANDS[old], "--help")[0] == 0
 
 
@@ -36,10 +38,17 @@ def test_a_renamed_option_names_its_successor(cli, command, old):
     assert renamed.OPTIONS[old] in cli(command, "--help")[1]
 
 
-@pytest.mark.parametrize("old", sorted(renamed.PUBLIC_NAMES))
-def test_a_renamed_public_name_names_its_successor(old):
-    package, _, name = old.rpartition(".")
-    with pytest.raises(AttributeError, match=f"it is now {renamed.PUBLIC_NAMES[old]}$"):
-        getattr(import_module(package), name)
-    package, _, name = renamed.PUBLIC_NAMES[old].rpartition(".")
-    assert getattr(import_module(package), name).__name__ == name
+def renamed_public_names():
+    package = ""
+    for word in renamed._PUBLIC_NAMES.split():
+        if word.endswith(":"):
+            package = word[:-1]
+        else:
+            yield package, *word.split("=")
+
+
+@pytest.mark.parametrize(("package", "old", "new"), list(renamed_public_names()))
+def test_a_renamed_public_name_names_its_successor(package, old, new):
+    with pytest.raises(AttributeError, match=f"it is now {package}.{new}$"):
+        getattr(import_module(package), old)
+    assert hasattr(import_module(package), new)

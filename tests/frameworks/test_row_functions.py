@@ -61,5 +61,5 @@ def test_shapes_that_do_not_fit_are_a_sentence(panda):
 def test_a_missing_framework_is_a_sentence(framework, ask, panda, monkeypatch):
     monkeypatch.setitem(sys.modules, framework, None)
     monkeypatch.delitem(sys.modules, f"holdfast.frameworks.{framework}_rows", raising=False)
-    with pytest.raises(HoldfastError, match=rf"pip install 'holdfast\[{framework}\]'"):
+    with pytest.raises(HoldfastError, match=rf"pip install 'holdfast-arms\[{framework}\]'"):
         getattr(hf.indices.relative_manipulability(panda), ask)()

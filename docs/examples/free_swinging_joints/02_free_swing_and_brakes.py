@@ -3,7 +3,8 @@ The fall, and brakes that catch it
 ==================================
 
 The elbow of a Panda loses its torque, all other joints hold. MuJoCo says what happens, and how
-far the tool has fallen when brakes close after 20, 50 or 100 ms. Needs ``holdfast-arms[physics]``.
+far the tool has fallen when brakes close after 20, 50 or 100 ms.
+Needs ``holdfast-arms[physics]``.
 """
 
 import numpy as np

@@ -3,7 +3,8 @@ A configuration that falls less
 ===============================
 
 The same tool pose, chosen so that the elbow accelerates as little as possible when it swings
-free. The formula chooses; MuJoCo, an independent program, judges. Needs ``holdfast-arms[physics]``.
+free. The formula chooses; MuJoCo, an independent program, judges.
+Needs ``holdfast-arms[physics]``.
 """
 
 import matplotlib.pyplot as plt

@@ -20,8 +20,8 @@ from holdfast.faults.kinds import slipping_clutch as slipping_clutch
 from holdfast.faults.kinds import weak as weak
 from holdfast.faults.learning.recording import Episode as Episode
 from holdfast.faults.learning.recording import read_episodes as read_episodes
-from holdfast.faults.learning.success_rate import SuccessRate as SuccessRate
-from holdfast.faults.learning.success_rate import success_rate as success_rate
+from holdfast.faults.learning.success_rates import SuccessRate as SuccessRate
+from holdfast.faults.learning.success_rates import success_rate as success_rate
 from holdfast.faults.learning.vector import FaultVectorEnv as FaultVectorEnv
 from holdfast.faults.learning.wrapper import FaultWrapper as FaultWrapper
 from holdfast.faults.log import Log as Log

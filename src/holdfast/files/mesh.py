@@ -62,7 +62,8 @@ def import_trimesh() -> ModuleType:
         import trimesh
     except ImportError as error:
         raise HoldfastError(
-            "meshes are read by trimesh, which is not installed; install holdfast-arms[cell] (pip install 'holdfast-arms[cell]')"
+            "meshes are read by trimesh, which is not installed; install holdfast-arms[cell] (pip install "
+            "'holdfast-arms[cell]')"
         ) from error
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # what is wrong is said once, by us
     return trimesh  # type: ignore[no-any-return, unused-ignore]
@@ -87,7 +88,8 @@ def read_mesh(path: Path) -> tuple[Triangles, bytes]:
         return make_triangles(*_read_stl(content, path.name), f"'{path.name}'"), content
     if kind == "dae" and find_spec("collada") is None:
         raise HoldfastError(
-            f"'{path.name}' is read by pycollada, which is not installed; install holdfast-arms[cell] (pip install 'holdfast-arms[cell]')"
+            f"'{path.name}' is read by pycollada, which is not installed; install holdfast-arms[cell] (pip install "
+            f"'holdfast-arms[cell]')"
         )
     trimesh = import_trimesh()
     try:

@@ -74,7 +74,8 @@ def is_library_installed() -> bool:
 
 def _raise_missing_library() -> CollisionLibrary:
     raise HoldfastError(
-        "exact answers about collisions need python-fcl, which is not installed; install it with: pip install 'holdfast-arms[cell]'"
+        "exact answers about collisions need python-fcl, which is not installed; install it with: pip install "
+        "'holdfast-arms[cell]'"
     )
 
 

@@ -15,7 +15,7 @@ from holdfast.errors import InputError
 from holdfast.present.results import print_result, print_results
 
 command = typer.Typer(
-    name="records",
+    name="record-designs",
     help="Browse, check and submit the best known arms and null spaces.",
     no_args_is_help=True,
 )
