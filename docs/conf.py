@@ -49,7 +49,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"holdfast\.(engine|shapes)\..*"),
     (r"py:.*", r"holdfast\.(studio\.scene|present\.arm)\.(machine|body)\..*"),
     (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
-    (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
+    (r"py:class", r"P|holdfast\.kernels\.recall\.K|holdfast\.typing\.[PT]"),
     # What a run keeps so that it can be run again.
     (
         r"py:class",

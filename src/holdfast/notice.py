@@ -15,10 +15,10 @@ import uuid
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from html import escape
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
-P = ParamSpec("P")
-T = TypeVar("T")
+from holdfast.typing import P, T
+
 Progress = Callable[[int, int], None]
 
 LONG_WORK_S = 1.0  # s

@@ -13,18 +13,16 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar, get_type_hints
+from typing import Any, get_type_hints
 
 from holdfast import grammar
 from holdfast.arguments import check_arguments
 from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, TaskError
+from holdfast.typing import P, T
 
 OWN_INDEX = "or a function of a file in the current folder, as module:function"
 _MODULE_FUNCTION = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*")
-
-P = ParamSpec("P")
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)

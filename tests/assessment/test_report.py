@@ -297,7 +297,7 @@ def test_every_section_is_in_the_list_and_has_what_the_page_asks_for() -> None:
     assert sorted(file.stem for file in folder.glob("[a-z]*.py")) == sorted(report.SECTION_MODULES)
     for name in report.SECTION_MODULES:
         section = import_module(f"holdfast.present.assessment.sections.{name}")
-        assert isinstance(section.TITLE, str)
+        assert isinstance(section.SECTION_TITLE, str)
         assert next(iter(inspect.signature(section.blocks).parameters.values())).annotation == "AssessmentFacts"
 
 

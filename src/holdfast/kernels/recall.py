@@ -7,17 +7,16 @@ import os
 import threading
 from collections.abc import Callable
 from functools import wraps
-from typing import ParamSpec, TypeVar, cast
+from typing import TypeVar, cast
 
 from holdfast.kernels import cache
 from holdfast.kernels.kernel import Kernel, default_backend
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import Program
 from holdfast.kernels.recipe import fingerprint
+from holdfast.typing import P, T
 
-P = ParamSpec("P")
 K = TypeVar("K", Kernel, Loop)
-T = TypeVar("T")
 
 _making: dict[str, threading.RLock] = {}  # by recipe: what a build needs in turn is of another recipe
 if hasattr(os, "register_at_fork"):

@@ -22,7 +22,7 @@ from holdfast.words import format_interval, format_number, format_percent, list_
 
 SMALL_REACH_FRACTION = 0.1  # of the poses that the healthy arm reaches
 
-# The sections, in order: files of `sections` with a TITLE and blocks(facts: Facts) -> list[Block]; one without is left out.
+# Sections in order: files of `sections` with a SECTION_TITLE and blocks(facts) -> list[Block]; empty ones are omitted.
 SECTION_MODULES = (
     "key_numbers",
     "structure",
@@ -48,7 +48,7 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
     modules = [import_module(f"holdfast.present.assessment.sections.{name}") for name in SECTION_MODULES]
     sections = [Section("", [_describe_single_points(facts)])]
     sections += [
-        Section(module.TITLE.format(noun=facts.noun, others=facts.collision_objects), module.blocks(facts))
+        Section(module.SECTION_TITLE.format(noun=facts.noun, others=facts.collision_objects), module.blocks(facts))
         for module in modules
     ]
     run = assessment

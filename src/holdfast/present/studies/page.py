@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -34,6 +34,7 @@ from holdfast.studies.ranking import (
 )
 from holdfast.studies.results import AssessedCell, DrivenCell
 from holdfast.studies.study_file import read_thresholds
+from holdfast.typing import T
 from holdfast.words import (
     format_as_given,
     format_count,
@@ -43,8 +44,6 @@ from holdfast.words import (
     format_percent,
     list_alternatives,
 )
-
-T = TypeVar("T")
 
 _OUTCOME_LABELS = ("reaches the target", "stops elsewhere", "keeps moving", "undecided")
 

@@ -8,7 +8,8 @@ from holdfast.arm.task import Task
 from holdfast.arms.serial import from_dict
 from holdfast.control.law import Law
 from holdfast.registry import LAW_REGISTRY
-from holdfast.studies.jobs.process import PlannedJob, T
+from holdfast.studies.jobs.process import PlannedJob
+from holdfast.typing import T
 
 
 @dataclass(frozen=True, eq=False)

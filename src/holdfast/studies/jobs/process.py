@@ -10,11 +10,10 @@ from collections.abc import Callable, Hashable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic
 
 from holdfast.kernels.threads import set_threads, thread_count
-
-T = TypeVar("T")
+from holdfast.typing import T
 
 # _TRIM_THRESHOLD and _MMAP_THRESHOLD: of malloc.h
 _TRIM_THRESHOLD = -1

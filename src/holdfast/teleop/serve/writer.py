@@ -16,17 +16,17 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.teleop.records.records import Records
+from holdfast.typing import T
 
 _GATHER_TIME_S = 0.008  # s that the first change of a transaction waits for others
 _MAX_TRANSACTION_JOBS = 512  # changes in one transaction
 
 _log = logging.getLogger(__name__)
 
-T = TypeVar("T")
 Job = tuple[Callable[[Records], Any], Callable[[Any], None]]
 
 

@@ -14,7 +14,7 @@ from holdfast.report import figures
 from holdfast.report.page import Block, Callout, Picture, Table, Text
 from holdfast.words import format_count, format_interval, format_percent, format_share
 
-TITLE = "Does the arm collide with {others}?"
+SECTION_TITLE = "Does the arm collide with {others}?"
 _MAX_NAMED_PAIRS = 6  # pairs that are not checked, by name
 
 

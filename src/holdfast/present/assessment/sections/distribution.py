@@ -8,7 +8,7 @@ from holdfast.report import figures
 from holdfast.report.page import Block, Picture, Text
 from holdfast.words import format_as_given, format_count, format_interval, format_percent
 
-TITLE = "How the index is distributed"
+SECTION_TITLE = "How the index is distributed"
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:

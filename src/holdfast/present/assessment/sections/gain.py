@@ -12,7 +12,7 @@ from holdfast.report.figures import Curve
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.words import format_as_given, format_count, format_half_width, format_interval, format_number
 
-TITLE = "What choosing configurations gains"
+SECTION_TITLE = "What choosing configurations gains"
 _MAX_DOTS = 20_000
 
 

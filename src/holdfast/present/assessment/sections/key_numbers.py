@@ -12,7 +12,7 @@ from holdfast.present.assessment.sections import collisions
 from holdfast.report.page import Block, Table
 from holdfast.words import format_half_width, format_interval, format_number, format_percent
 
-TITLE = "Key numbers"
+SECTION_TITLE = "Key numbers"
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:

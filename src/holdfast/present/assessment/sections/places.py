@@ -16,7 +16,7 @@ from holdfast.report.views import choose_side_and_top_views
 from holdfast.typing import FloatArray
 from holdfast.words import format_count, format_decimals, format_number
 
-TITLE = "The worst {noun}s, and where tolerance is low"
+SECTION_TITLE = "The worst {noun}s, and where tolerance is low"
 
 _MIN_POSES_FOR_MAP = 200
 

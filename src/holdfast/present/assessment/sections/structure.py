@@ -8,7 +8,7 @@ from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report.page import Block, Table, Text
 from holdfast.words import format_number, format_percent
 
-TITLE = "Single points of failure by structure"
+SECTION_TITLE = "Single points of failure by structure"
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:

@@ -15,7 +15,7 @@ from holdfast.report.views import View, choose_side_and_top_views
 from holdfast.typing import FloatArray
 from holdfast.words import format_as_given, format_decimals, format_interval, format_percent
 
-TITLE = "What survives a locked joint"
+SECTION_TITLE = "What survives a locked joint"
 
 _MIN_POSES_FOR_MAP = 200
 

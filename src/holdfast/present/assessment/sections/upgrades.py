@@ -7,7 +7,7 @@ from holdfast.present.assessment.console import rank_optimised_upgrades
 from holdfast.present.assessment.facts import AssessmentFacts
 from holdfast.report.page import Block, Table, Text
 
-TITLE = "Which joint deserves a redundant motor or brake"
+SECTION_TITLE = "Which joint deserves a redundant motor or brake"
 _MAX_TABLE_ROWS = 40
 
 

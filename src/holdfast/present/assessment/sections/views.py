@@ -11,7 +11,7 @@ from holdfast.report import figures, scenes
 from holdfast.report.page import Block, Picture
 from holdfast.words import format_count
 
-TITLE = "The arm and the region"
+SECTION_TITLE = "The arm and the region"
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:

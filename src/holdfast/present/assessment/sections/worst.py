@@ -12,7 +12,7 @@ from holdfast.report import figures
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.words import format_as_given, format_number, format_percent
 
-TITLE = "Which failure is the worst"
+SECTION_TITLE = "Which failure is the worst"
 _MAX_TABLE_ROWS = 40
 
 
