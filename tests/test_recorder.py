@@ -61,7 +61,7 @@ def test_what_varies_is_no_difference(old, new, compared):
 
 def test_what_is_said_of_long_work_is_no_difference():
     sources = [file.read_text(encoding="utf-8") for file in (Path(__file__).parents[1] / "src").rglob("*.py")]
-    names = {name for text in sources for name in re.findall(r'\b(?:says|working)\(f?"([^"]+)"', text)}
+    names = {name for text in sources for name in re.findall(r'\b(?:reports_progress|report_work)\(f?"([^"]+)"', text)}
     assert len(names) > 30
     left = {name for name in names if records.settled("1.err", f"holdfast: {name}\n".encode())}
     assert left == {"a chunk"}  # somebody else tells of it

@@ -233,7 +233,7 @@ def test_a_marked_function_is_checked():
 
     with pytest.raises(InputError, match="size is 'large'; it must be a number"):
         thing(PANDA, "large")
-    assert import_module("holdfast.registry").INDICES.usage.count("directional-velocity") == 1
+    assert import_module("holdfast.registry").INDEX_REGISTRY.usage.count("directional-velocity") == 1
 
 
 # ---- values, whatever computes them ---------------------------------------------------------------------------------------

@@ -88,7 +88,7 @@ def test_all_walks_in_one_copy(run, tmp_path):
     assert code == 1
     for _, name, _, _, kind in WALKS.values():
         assert f"{kind} '{name}' has no oracle: add its value by another route to ORACLES['{kind}'] in tests/oracles.py" in told
-    assert "no line of COMMANDS in src/holdfast/cli/program.py names before.price" in told
+    assert "no line of COMMAND_MODULES in src/holdfast/cli/program.py names before.price" in told
 
     for _, oracle, _ in walks.values():
         write(tmp_path, *oracle)

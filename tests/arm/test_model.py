@@ -182,7 +182,7 @@ def test_an_arm_has_all_that_its_machine_says() -> None:
         machine.source,
         machine.fingerprint,
     )
-    assert repr(machine) == "Machine('panda', 7 joints)"
+    assert repr(machine) == "ArmData('panda', 7 joints)"
 
 
 def test_an_arm_goes_to_another_process_without_what_was_compiled_from_it() -> None:

@@ -106,7 +106,7 @@ def test_a_cone_is_uniform_on_its_cap(axis, generator):
 def test_a_cone_in_a_file_and_in_a_stored_region(tmp_path):
     region = load(tmp_path, "format: 2\nbox: {center: [1, 0, 0], size: 0.2, cone: {axis: [0, 0, -2], within: 30}}\n")
     assert region.axis == (0, 0, -1)
-    assert np.rad2deg(region.within) == pytest.approx(30)
+    assert np.rad2deg(region.max_tilt) == pytest.approx(30)
     assert "within 30 deg of (0, 0, -1)" in region.describe()
     for again in (hf.Region.from_dict(json.loads(json.dumps(region.to_dict()))), load(tmp_path, format_region_file(region))):
         samples = next(region.blocks(0, 3))[:10]

@@ -34,7 +34,7 @@ def test_failures_have_the_shares_that_are_stated(draw, rng):
 
 @pytest.mark.parametrize("task", [t for t in CASE_MAKERS if "pointing" not in t])
 def test_a_case_begins_clear_within_what_is_left_and_is_the_same_again(draw, task):
-    case, again = (draw.case(task, np.random.default_rng(5)) for _ in range(2))
+    case, again = (draw.sample_case(task, np.random.default_rng(5)) for _ in range(2))
     assert case.to_dict() == again.to_dict()
     assert draw.clearance.sign(case.at)
     assert ((case.at >= case.degraded.lo) & (case.at <= case.degraded.hi)).all()
@@ -44,7 +44,7 @@ def test_a_case_begins_clear_within_what_is_left_and_is_the_same_again(draw, tas
 
 
 def test_an_upright_transfer_is_kept_or_refused(draw):
-    case = draw.case("upright", np.random.default_rng(2))
+    case = draw.sample_case("upright", np.random.default_rng(2))
     ends = np.stack([draw.arm.forward_kinematics(case.at), case.goal])
     np.testing.assert_allclose(ends[:, :3, 2], [[0, 0, -1]] * 2, atol=1e-5)
     bent = case.at + np.where(case.degraded.moves, 0.2, 0.0)
@@ -63,7 +63,7 @@ def test_the_judge_refuses_what_it_must(draw):
     begin = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.6, 0.8])
     end = begin + np.array([0.3, 0.1, 0.0, 0.1, -0.2, 0.0, 0.1])
     turn = np.eye(7)
-    base = draw.case("reach-pose", np.random.default_rng(0))
+    base = draw.sample_case("reach-pose", np.random.default_rng(0))
     degraded = hf.Degraded(arm, locked={"panda_joint3": 0.0}, ranges={"panda_joint2": (-0.5, 0.0)})
     case = type(base)("reach-pose", degraded, begin, rows=base.rows, goal=arm.forward_kinematics(end))
     none = np.zeros(0)
@@ -86,7 +86,7 @@ def test_the_judge_looks_between_waypoints_of_a_path(draw):
     arm = draw.arm
     begin = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.6, 0.8])
     end = begin + 0.5 * np.eye(7)[0]
-    base = draw.case("line", np.random.default_rng(0))
+    base = draw.sample_case("line", np.random.default_rng(0))
     path = line(arm.forward_kinematics(begin), arm.forward_kinematics(end))
     case = type(base)("line", hf.Degraded(arm, locked=["panda_joint3"]), begin, rows=base.rows, path=path)
     assert find_violation(case, BenchmarkMotion(np.array([begin, end]), share=np.array([0.0, 1.0])), None) == "path"

@@ -139,7 +139,7 @@ STENCILS = {
 def derivative(chain, q, way, order):
     """The length of a derivative of the tool point along a way, by finite differences."""
     step = 0.02
-    points = [chain.moved(at(*(q + k * step * way))).tip.at[0] for k in range(-3, 4)]
+    points = [chain.moved(at(*(q + k * step * way))).tip.center[0] for k in range(-3, 4)]
     return np.linalg.norm(STENCILS[order] @ points) / step**order
 
 
@@ -161,7 +161,7 @@ def derivative(chain, q, way, order):
 def test_derivatives_of_stretched_arms(chain, middle, far, order):
     """Of all corners of a box, and all ways along its edges, no derivative is longer."""
     middle, far = np.array(middle), np.array(far)
-    bound = chain.bend(order, far[None], chain.whole, middle[None])[0]
+    bound = chain.bound_derivative(order, far[None], chain.whole, middle[None])[0]
     corners = [np.array(signs) for signs in itertools.product((-1.0, 0.0, 1.0), repeat=2)]
     truth = max(derivative(chain, middle + a * far, b * far, order) for a in corners for b in corners)
     assert truth <= bound * (1 + 1e-5) + 1e-9
@@ -249,12 +249,12 @@ def screws_from_the_middle(chain, q, first, point):
 
     def frame(joints):
         moved = chain.moved(joints[:middle], 0, chain.origins[middle])
-        return moved.tip.at[0], moved.turn.at[0]
+        return moved.tip.center[0], moved.turn.center[0]
 
     (here, turn), (there, then) = frame(joints), frame(at(*first))
     moved, back = chain.moved(joints), then @ turn.T
-    z = moved.axes.at[0] @ back.T
-    places = (moved.places.at[0] - here) @ back.T + there
+    z = moved.axes.center[0] @ back.T
+    places = (moved.places.center[0] - here) @ back.T + there
     return np.concatenate([z, np.cross(places - point, z)], axis=1)
 
 
@@ -267,8 +267,8 @@ def test_screws_behind_the_first_and_second_order(rng, straight):
         q = np.zeros(n) if straight else rng.uniform(-2, 2, n)
         half = rng.uniform(0.02, 0.3, n) * rng.choice([0, 1], n)
         x = bounds.ScrewEnclosure(chain, at(*q, half=half))
-        point = chain.moved(at(*q)).places.at[0, n // 2]
-        tip, z = chain.moved(at(*q)).tip.at[0], chain.moved(at(*q)).axes.at[0, n // 2]
+        point = chain.enclose_point(at(*q)).places.center[0, n // 2]
+        tip, z = chain.enclose_point(at(*q)).tip.center[0], chain.enclose_point(at(*q)).axes.center[0, n // 2]
         point = point + ((tip - point) @ z) * z
         for signs in itertools.product((-1.0, 1.0), repeat=n):
             way = half * np.array(signs)
@@ -284,7 +284,7 @@ def test_screws_behind_the_first_and_second_order(rng, straight):
 def kept(chain, q, locks):
     """Relative manipulability after each lock, by singular values: sqrt(det(J_k J_k') / det(J J'))."""
     moved = chain.moved(at(*q))
-    jacobian = np.concatenate([moved.axes.at[0], moved.columns.at[0]], axis=1).T
+    jacobian = np.concatenate([moved.axes.center[0], moved.columns.center[0]], axis=1).T
     rows = jacobian[np.abs(jacobian).max(axis=1) > 1e-9]
     whole = np.prod(np.linalg.svd(rows)[1])
     return [np.prod(np.linalg.svd(np.delete(rows, k, axis=1))[1]) / whole for k in locks]
@@ -305,8 +305,8 @@ def test_manipulability_at_the_edge_of_a_leaf(rng, kind, width, planar):
         lock = int(rng.integers(n))
         box = [[(x - h).hex(), (x + h).hex()] for x, h in zip(q.tolist(), half.tolist(), strict=True)]
         arm = written.Chain(
-            [written.place(turn.at, origin) for turn, origin in zip(chain.turns[:-1], chain.origins[:-1], strict=True)],
-            written.place(chain.turns[-1].at, chain.origins[-1]),
+            [written.place(turn.center, origin) for turn, origin in zip(chain.turns[:-1], chain.origins[:-1], strict=True)],
+            written.place(chain.turns[-1].center, chain.origins[-1]),
             [[-4.0, 4.0]] * n,
         ).stored()
         given = {"joint_box": box, "arm": arm, "task": "planar-pose" if planar else "pose", "locks": [lock]}

@@ -58,7 +58,7 @@ def test_boxes_of_a_panda(panda, tmp_path, rng, degrees, greatest, times, most):
     values = kept(panda, rng.uniform(*claim.joint_box.T, (4000, 7))).min(axis=1)
     assert values.max() <= proof.value
     np.testing.assert_allclose(kept(panda, proof.extreme[None]).min(), proof.value, atol=1e-9)
-    assert f"{np.floor(proof.value * 1e6) / 1e6:.6f} occurs" in check.said
+    assert f"{np.floor(proof.value * 1e6) / 1e6:.6f} occurs" in check.summary
 
 
 @pytest.mark.parametrize("kind", ["RRRRRRR", "RRRRRRRR", "planar"])
@@ -151,7 +151,7 @@ def test_the_verifier_needs_nothing_of_holdfast(fine, tmp_path):
 def test_a_floor_above_what_occurs_is_refuted(panda, tmp_path):
     proof = hf.certify(floor_claim(panda, box_around(panda, 5), 0.05))
     assert proof.refuted
-    assert "Refuted: 0.0" in checked(proof, tmp_path).said
+    assert "Refuted: 0.0" in checked(proof, tmp_path).summary
 
 
 def test_no_floor_where_the_arm_is_singular(panda):
@@ -165,7 +165,7 @@ def test_a_ceiling_below_what_occurs_is_refuted(panda, tmp_path):
     proof = hf.certify(ceiling_claim(panda, box_around(panda, 5), 0.06))
     assert proof.refuted
     assert "Refuted by a witness" in proof.describe()[1]
-    assert "Refuted: 0.066" in checked(proof, tmp_path).said
+    assert "Refuted: 0.066" in checked(proof, tmp_path).summary
 
 
 # ---- forgers ---------------------------------------------------------------------------------------------------------

@@ -47,11 +47,11 @@ class Cubics:
             order=list(range(n)),
             half=np.pad(half, ((0, 0), (0, n - 2))),
             side=np.ones(n),
-            same=np.ones((n, n)),
+            same_side=np.ones((n, n)),
             moves=np.ones((n, n)),
-            screw=BallArray(screw),
-            bracket=BallArray(bracket),
-            operator=BallArray(operator),
+            screws=BallArray(screw),
+            brackets=BallArray(bracket),
+            operators=BallArray(operator),
             second=np.repeat(curved + abs(third), 3, axis=2),
             third=np.repeat(abs(third), 3, axis=2),
         )
@@ -103,7 +103,7 @@ def bisect(leaves, proves, count, *, ceiling):
 def ceiling_and_truth(monkeypatch, cubics, wrench, turn):
     """The proved ceiling for the last joint and the greatest value on the grid, of a wrench (N, 2) with slopes (N, 2, 2)."""
     x, (t, jacobian) = cubics.screws, cubics.on_grid()
-    count, n = x.screws.at.shape[:2]
+    count, n = x.screws.center.shape[:2]
     y, slopes = np.zeros((count, 6)), np.zeros((count, 6, n))
     y[:, ROWS], slopes[:, ROWS, :2] = wrench, turn
     leaves = object.__new__(bounds.CeilingVerifier)

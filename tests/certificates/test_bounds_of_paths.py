@@ -61,7 +61,7 @@ def bound_and_truth(task, arm, middle, columns, half, points):
     step, truth = 1e-4, []
     for column in [1, *range(2, 2 + m)]:
         moves, way = (points * half) @ columns.T, step * columns[:, column]
-        ahead, behind = (error(moves + sign * way).value.at[:, :m] for sign in (1, -1))
+        ahead, behind = (error(moves + sign * way).value.center[:, :m] for sign in (1, -1))
         own = np.eye(m)[column - 2] if column > 1 else np.zeros(m)
         truth.append(abs((ahead - behind) / (2 * step) - own).max(axis=0))
     return bound, np.stack(truth, 1)
@@ -127,8 +127,8 @@ def test_contraction(factor):
     """The box (1, 2) becomes (0.1 + 2 b, 0.4 + 2 c), of which one side is the box's own."""
     for b, c in ((0.4495 / factor, 0.1), (0.1, 0.799 / factor)):
         slope = np.array([[[9.0, 0.1, b], [9.0, 0.4, c]]])
-        faults = SimpleNamespace(m=2, slopes=lambda cells, half, slope=slope: slope)
-        cells = SimpleNamespace(w=np.ones((1, 4)))
+        faults = SimpleNamespace(m=2, bound_gradients=lambda cells, half, slope=slope: slope)
+        cells = SimpleNamespace(half_widths=np.ones((1, 4)))
         assert PathVerifier.is_contraction(faults, cells, np.array([[1.0, 2.0]]))[0] == (factor > 1)
 
 
@@ -148,8 +148,8 @@ def test_turned_cells_go_forward(rng, factor, columns):
         own = rng.normal(size=(1, m + 1, 2 + columns + m))
         fastest = np.linalg.solve(np.eye(m) - slope[0, :, 1:], slope[0, :, 0])
         own[0, -1, 1] = abs(own[0, -1, -m:]) @ fastest / factor
-        faults = SimpleNamespace(m=m, slopes=lambda cells, half, slope=slope: slope)
-        cells = SimpleNamespace(w=rng.uniform(0.1, 1, (1, 2 + columns + m)))
+        faults = SimpleNamespace(m=m, bound_gradients=lambda cells, half, slope=slope: slope)
+        cells = SimpleNamespace(half_widths=rng.uniform(0.1, 1, (1, 2 + columns + m)))
         assert PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e3]))[0] == (factor < 1)
         own[0, -1, 1] += 1
         last = abs(own[0, -1]) @ cells.half_widths[0]
@@ -158,10 +158,10 @@ def test_turned_cells_go_forward(rng, factor, columns):
 
 def test_turned_cells_whose_section_runs_away():
     """Slopes of 1 by the section bound nothing; the solution of the equations is negative where they are above 1."""
-    own, cells = np.ones((1, 2, 3)), SimpleNamespace(w=np.ones((1, 3)))
+    own, cells = np.ones((1, 2, 3)), SimpleNamespace(half_widths=np.ones((1, 3)))
     own[0, -1, 1] = 1e9
     for slope in (1.0, 1.5):
-        faults = SimpleNamespace(m=1, slopes=lambda cells, half, slope=slope: np.array([[[0.1, slope]]]))
+        faults = SimpleNamespace(m=1, bound_gradients=lambda cells, half, slope=slope: np.array([[[0.1, slope]]]))
         assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e12]))[0]
 
 
@@ -171,7 +171,7 @@ def test_turned_cells_whose_equations_are_solved_badly():
     (b, a, c), (e, d, f) = [list(map(Fraction, row)) for row in slope[0].tolist()]
     assert (b * (1 - f) + c * e) / ((1 - a) * (1 - f) - c * d) > 2e13
     own = np.array([[[0.0, 0, 0, 0], [0, 0, 0, 0], [0, 2e13, 1, 0]]])
-    faults, cells = SimpleNamespace(m=2, slopes=lambda cells, half: slope), SimpleNamespace(w=np.ones((1, 4)))
+    faults, cells = SimpleNamespace(m=2, bound_gradients=lambda cells, half: slope), SimpleNamespace(half_widths=np.ones((1, 4)))
     assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e30]))[0]
 
 
@@ -277,7 +277,7 @@ def test_rings_of_an_elbow(first, elbow, side):
     for gap, excluded in ((0.0, False), (2e-3, True)):
         ends = np.sort(elbow + side * np.array([gap, gap + 0.01]))
         ring = make_ring(ELBOW, q, [0.3, ends[0]], [0.3, ends[1]], turns=False)
-        assert ring.excludes([first, TIP], [((0, 0),) * 2])[0] == excluded
+        assert ring.exclude_cells([first, TIP], [((0, 0),) * 2])[0] == excluded
 
 
 @pytest.mark.parametrize("elbow", [-2.0, -0.7, 0.4, 1.5])
@@ -290,11 +290,11 @@ def test_rings_whose_base_is_not_known_exactly(elbow, angle, part):
         ends = np.sort(elbow + side * np.array([0, 0.01]))
         ring = make_ring(ELBOW, [0.3, elbow], [0.3, ends[0]], [0.3, ends[1]], turns=False)
         if part == "base":
-            ring._base = BallArray(ring._base[0].at + off, abs(off)), ring._base[1]
+            ring._base_frame = BallArray(ring._base_frame[0].center + off, abs(off)), ring._base_frame[1]
         else:
             ring.chain.origins[2] = ring.chain.origins[2] + off
             ring._off = abs(off)
-        assert not ring.excludes([ROOT if part == "base" else ASIDE, TIP], [((0, 0),) * 2])[0]
+        assert not ring.exclude_cells([ROOT if part == "base" else ASIDE, TIP], [((0, 0),) * 2])[0]
 
 
 @pytest.mark.parametrize("slides", [None, [False, True, False]])
@@ -309,7 +309,7 @@ def test_rings_of_random_arms(rng, slides, turns):
         high = np.maximum(high, low + 2 * half * (low == q))
         one, other = sorted(rng.integers(4, size=2)) if turns else (int(rng.integers(4)), 3)
         points = [(one, rng.normal(size=3)), (other, rng.normal(size=3) if turns else np.array(frames[-1][1]))]
-        assert not make_ring(arm, q, low, high, turns=turns).excludes(points, [((0, 0),) * 3])[0]
+        assert not make_ring(arm, q, low, high, turns=turns).exclude_cells(points, [((0, 0),) * 3])[0]
         elsewhere = make_ring(arm, q, q + 0.5, q + 0.51, turns=turns)
-        excluded += elsewhere.excludes(points, [((0, 0),) * 3])[0]
+        excluded += elsewhere.exclude_cells(points, [((0, 0),) * 3])[0]
     assert excluded > 5

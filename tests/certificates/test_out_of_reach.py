@@ -85,7 +85,7 @@ def test_closed_form_of_a_planar_arm(three, tmp_path, centre, fine):
         assert whole(check)
         return
     assert proof.refuted
-    assert "Refuted" in check.said
+    assert "Refuted" in check.summary
     tip = three.forward_kinematics(proof.witness)[:2, 3]
     assert ((tip > claim.box[:, 0]) & (tip < claim.box[:, 1])).all()
     assert 0.6 <= proof.witness[1] <= 0.8
@@ -343,7 +343,7 @@ def test_a_pose_of_a_locked_panda(panda, tmp_path):
     tip, still = panda.forward_kinematics(START), {3: (START[3], START[3])}
     proof = hf.certify(out_of_reach_claim(panda, tip[:3, 3], 0, rotation=tip[:3, :3], limits=still))
     assert proof.refuted
-    assert checked(proof, tmp_path).said.startswith("Refuted")
+    assert checked(proof, tmp_path).summary.startswith("Refuted")
     for task in (None, "pointing"):
         proof = hf.certify(
             out_of_reach_claim(panda, tip[:3, 3] + [0.3, 0, 0.3], 0, rotation=tip[:3, :3], task=task, limits=still)

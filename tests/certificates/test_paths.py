@@ -167,7 +167,7 @@ def test_an_arm_on_a_rail(tmp_path, rng):
     faults = motions.PathVerifier(proof.document)
     q, h = start + rng.normal(size=(2, 7)) * 0.05
     with motions.flint.ctx.workprec(64):
-        error, first, second = (x.at for x in between(faults, q, h))
+        error, first, second = (x.center for x in between(faults, q, h))
     for d in rng.normal(size=(100, 14)) * 0.1:
         far = np.abs(d)
         (place, _, _), (goal, _, _) = driven.tool(q + d[:7]), driven.tool(h + d[:6:-1])
@@ -210,7 +210,7 @@ def test_a_tool_that_points(panda, tmp_path, rng):
         return np.append(place - goal, across @ (turn - wanted)[:, 2])
 
     with motions.flint.ctx.workprec(64):
-        error, first, second = (x.at for x in between(faults, q, h))
+        error, first, second = (x.center for x in between(faults, q, h))
     assert error == pytest.approx(missed(np.zeros(14)), abs=1e-14)
     for a, b in e * np.eye(14)[rng.integers(14, size=(15, 2))]:
         assert first @ a == pytest.approx((missed(a) - missed(-a)) / 2, abs=1e-11)
@@ -504,7 +504,7 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
 
     steps = np.eye(14)
     slopes = np.array([missed(1e-6 * x) - missed(-1e-6 * x) for x in steps]).T / 2e-6
-    assert error.at == pytest.approx(missed(np.zeros(14)), abs=1e-14)
+    assert error.center == pytest.approx(missed(np.zeros(14)), abs=1e-14)
     assert (np.abs(error.at - missed(np.zeros(14))) <= error.off + 1e-15).all()
     assert error.off.max() < 1e-11
     assert first.at == pytest.approx(slopes, abs=1e-8)
@@ -526,7 +526,7 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     following = LockedTrackingEnclosure(chain, knots, "pose", driven=[1], tube=np.empty(0), limits=limits, slides=slides)
     q, goal = START[None] + 0.01, START[None]
     with motions.flint.ctx.workprec(64):
-        error, first, second = (x.at for x in between(faults, q[0], goal[0]))
+        error, first, second = (x.center for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
         now = following.compute_tracking_error(

@@ -27,7 +27,7 @@ def quiet():
 
 def holds(ball, truth):
     """Whether each number lies in its ball."""
-    return (abs(truth - exact(ball.at)) <= exact(ball.off)).all()
+    return (abs(truth - exact(ball.center)) <= exact(ball.off)).all()
 
 
 def draw_balls(rng, *shape):
@@ -87,9 +87,9 @@ def test_derivatives_of_points(rng, slides, order):
     far, out = rng.uniform(0, 1, (COUNT, 2)), rng.normal(size=(COUNT, 2))
     slid = exact(far) * np.array(slides)
     angle = np.cumsum(exact(far) * ~np.array(slides), axis=1)
-    reach = exact(chain.whole) + abs(exact(out)) * np.array(slides) + slid
+    reach = exact(chain.extent) + abs(exact(out)) * np.array(slides) + slid
     truth = (angle**order * reach + order * angle ** (order - 1) * slid).sum(axis=1)
-    assert (exact(chain.bend(order, far, chain.whole, out)) >= truth).all()
+    assert (exact(chain.bound_derivative(order, far, chain.extent, out)) >= truth).all()
 
 
 def test_lengths_of_links(rng):

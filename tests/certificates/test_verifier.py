@@ -68,7 +68,7 @@ def test_a_planar_arm_reaches_a_square(tmp_path, lengths, lock):
     splits = (2, 2) if lock < 0 else (2, 2, 2)
     verdict = bend(written.certificate(arm, "planar", box, start, locked=lock, angle=angle, splits=splits), tmp_path)
     assert whole(verdict)
-    assert "Proved: 100 %, undecided: 0 %" in verdict.sentence
+    assert "Proved: 100 %, undecided: 0 %" in verdict.summary
 
 
 @pytest.mark.parametrize("free", [False, True])
@@ -557,7 +557,7 @@ def test_a_bundle_with_a_part_that_is_rejected(bundle, tmp_path):
     verdict = bend(written.repaired(whole_file), tmp_path)
     assert verdict.rejected == 1
     assert verdict.undecided == Fraction(1, 16)  # of the box times the angles
-    assert verdict.tolerant == Fraction(3, 4)  # of the box
+    assert verdict.tolerant_fraction == Fraction(3, 4)  # of the box
     assert "undecided: 6.25" in verdict.sentence
 
 

@@ -141,7 +141,7 @@ def test_one_row_after_the_other_has_the_same_bits(rng):
 
 def room_of_the_end(clearance, poses, values):
     """(N, V) least room of the last two links with the tool at poses and the last joint at values, by frames and formulas."""
-    arm, balls, cell = clearance.arm, clearance.obstacles.balls, clearance.cell
+    arm, balls, cell = clearance.arm, clearance.obstacles.spheres, clearance.cell
     last = poses[:, None] @ np.linalg.inv(arm.tool)
     back = np.array([np.linalg.inv(arm.joints[-1].origin @ arm.joints[-1].motion(value)) for value in values])
     out = np.full((len(poses), len(values)), np.inf)

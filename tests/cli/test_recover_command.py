@@ -23,7 +23,7 @@ def test_the_command_writes_what_it_found(cli, tmp_path):
     out = tmp_path / "home"
     code, text, err = cli(*CALL, "--goal", "pose:1.5,1.5,0", "--samples", "100", "--out", out, "--csv", tmp_path / "w.csv")
     assert (code, err) == (0, "")
-    assert "Home: the whole goal is met" in text
+    assert "Goal reached: the whole goal is met" in text
     assert {f.name for f in out.iterdir()} == {"recovery.json", "waypoints.csv", "motion.png", "left.png", "report.html"}
     page = (out / "report.html").read_text(encoding="utf-8")
     check(page)
@@ -33,7 +33,7 @@ def test_the_command_writes_what_it_found(cli, tmp_path):
     q = read_waypoints(arm, tmp_path / "w.csv")
     np.testing.assert_array_equal(q, data["waypoints"])
     np.testing.assert_allclose(oracles.forward(arm, q[-1:])[0, :2, 3], [1.5, 1.5], atol=3e-6)
-    assert (data["ok"], data["ending"], data["check"]["ok"]) == (True, "home", True)
+    assert (data["ok"], data["ending"], data["check"]["ok"]) == (True, "goal_reached", True)
     code, text, err = cli("recover", "planar-3r", "--lock", "2=40", "--degrees", "--check", tmp_path / "w.csv")
     assert (code, err) == (0, "")
     assert "Limits and locks are kept" in text
@@ -73,9 +73,9 @@ def test_a_motion_is_timed_within_accelerations_and_its_file_is_checked(cli, tmp
 @pytest.mark.parametrize(
     ("more", "ending"),
     [
-        (["--goal", "pose:0.3,0.2,0"], "home_with_rows_given_up"),
-        (["--goal", "q:0 0 0"], "home_with_rows_given_up"),
-        (["--lock", "3=10"], "lock_elsewhere"),
+        (["--goal", "pose:0.3,0.2,0"], "goal_reached_with_relaxed_rows"),
+        (["--goal", "q:0 0 0"], "goal_reached_with_relaxed_rows"),
+        (["--lock", "3=10"], "lock_mismatch"),
     ],
     ids=["rows", "joint", "elsewhere"],
 )

@@ -57,7 +57,7 @@ def test_mount_gravity_and_payload(ask):
     text = " ".join(map(str, q))
     wall, ceiling = np.eye(4), np.diag([1.0, -1, -1, 1])
     wall[:3, :3] = [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]
-    for mount, base in (("floor", np.eye(4)), ("wall", wall), ("upper-bound", ceiling)):
+    for mount, base in (("floor", np.eye(4)), ("wall", wall), ("ceiling", ceiling)):
         data = ask("susceptibility", "panda", "--q", text, "--mount", mount)
         expected = arm.with_base(base @ arm.base).gravity_torque(q)
         np.testing.assert_allclose(list(data["by_joint"].values()), expected, rtol=1e-12)

@@ -74,7 +74,7 @@ def test_least_errors_are_those_of_the_triangle(compared, motions):
             clear = np.abs(least - 1e-5) > 9e-6
             np.testing.assert_array_equal(case.reachable[clear], (least <= 1e-5)[clear])
             assert (case.excess >= 0).all()
-            assert not (case.ended("converged") & ~case.reachable).any()
+            assert not (case.has_outcome("converged") & ~case.reachable).any()
 
 
 def test_the_healthy_pseudoinverse_costs_nothing_but_time(compared, motions):
@@ -117,7 +117,7 @@ def test_the_cost_of_damping_is_that_of_the_path(compared, laws, motions):
 def test_differences_are_paired(compared):
     name = "damped:0.3"
     for joint in compared.joints:
-        before, after = (compared.case(n, joint).ended("converged") for n in compared.names)
+        before, after = (compared.case(n, joint).has_outcome("converged") for n in compared.names)
         assert compared.gain(name, joint).value == pytest.approx(after.mean() - before.mean())
         errors = [compared.case(n, joint).error for n in compared.names]
         assert compared.change(name, "error", joint).value == pytest.approx((errors[1] - errors[0]).mean())

@@ -58,8 +58,8 @@ def test_every_run_is_that_of_simulate(sampled, spatial):
 
 def test_undecided_runs_have_a_reason(sampled):
     undecided = sampled.has_outcome("undecided")
-    assert (undecided == (sampled.reason != 0))[sampled.known].all()
-    assert sum(sampled.undecided().values()) == undecided.sum()
+    assert (undecided == (sampled.reason != 0))[sampled.has_configuration].all()
+    assert sum(sampled.count_undecided().values()) == undecided.sum()
 
 
 def test_joints_that_do_not_move_the_point_do_not_matter(sampled):

@@ -51,7 +51,7 @@ def test_a_record_that_ends_with_its_alarm_names_the_joint_with_the_largest_resi
     decision._sensor_suspected = False
     for _ in range(3):
         decision.add(still, still, (still, still, still, still), still, tracking)
-    assert decision.verdict(last=True).joint == panda.joint_names[4]
+    assert decision.current_verdict(last=True).joint == panda.joint_names[4]
     assert decision.verdict().joint is None
 
 

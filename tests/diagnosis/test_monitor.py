@@ -90,7 +90,7 @@ def test_pushes_on_links_are_nobodys_fault(panda, bounds):
         said = hf.diagnosis.diagnose(panda, log, bounds).verdict
         assert said.time > 0.8
         assert (said.kind, said.joint) == ("contact", None)
-    with pytest.raises(InputError, match="pushes are of 1 records and seeds of 2; give one for each"):
+    with pytest.raises(InputError, match="external_forces are of 1 records and seeds of 2; give one for each"):
         hf.diagnosis.simulate_logs(panda, 1.0, seeds=[1, 2], external_forces=[[]])
 
 

@@ -90,7 +90,7 @@ def test_nothing_survives_more_than_brute_force_finds(narrow):
     machine, path, best = narrow
     want, bound = brute_force(machine, path, 21, 0.1)
     assert best.survival == pytest.approx(want, abs=0.02)
-    assert best.bound == pytest.approx(bound, abs=0.01)
+    assert best.survival_bound == pytest.approx(bound, abs=0.01)
     assert 0.2 < best.survival <= best.bound + 1e-9 < 1
     assert not best.guaranteed
 
@@ -98,7 +98,7 @@ def test_nothing_survives_more_than_brute_force_finds(narrow):
 def test_a_survival_is_quoted_with_what_is_possible(narrow):
     """Also in the first line of the report: another motion may survive more than the one that was found."""
     _, _, best = narrow
-    assert best.survival <= best.bound + 1e-9 < 1
+    assert best.survival <= best.survival_bound + 1e-9 < 1
     assert f"no motion along this path survives more than {format_percent(best.bound)}" in best.headline
     assert best.headline in best.describe()[0]
 
@@ -186,13 +186,13 @@ def test_rates_weigh_joints_and_time(narrow):
     lost = np.trapezoid(weight * 3 * (1 - best.curve()), fast.time)
     assert fast.loss_probability == pytest.approx(lost, rel=1e-9)
     assert fast.survival == pytest.approx(np.trapezoid(weight * best.curve(), fast.time) / np.trapezoid(weight, fast.time))
-    assert best.lost is None
+    assert best.loss_probability is None
 
 
 def test_detours_survive_what_the_ranges_of_the_joints_say(narrow):
     machine, path, best = narrow
     wide = hf.plan_motion(machine, path, samples=21, spacing=0.1, mode="detour")
-    assert wide.survival_bound >= best.bound - 1e-9
+    assert wide.survival_bound >= best.survival_bound - 1e-9
     # A lock is survived if at every pose to come some configuration has the joint there: a scan of closed forms.
     points = places(path, 21)
     wrong = total = 0

@@ -52,7 +52,7 @@ def test_a_cone_is_kept_before_the_lock_and_after_it(kept):
     assert wrong <= 0.01 * total  # a branch may end between two samples and be met again behind
     assert best.kind == "exact"
     tried = best.test_locks(60, seed=2)
-    assert tried.alike >= 0.98
+    assert tried.agreement >= 0.98
     assert tried.interval.low <= best.survival <= tried.interval.high
 
 

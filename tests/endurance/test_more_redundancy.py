@@ -31,7 +31,7 @@ def test_a_lower_bound_is_called_so(four):
     assert best.kind == "lower bound"
     assert 0.3 < best.survival < 1
     assert best.headline.startswith("at least ")
-    assert best.bound is best.gap is best.never is None
+    assert best.survival_bound is best.gap is best.never is None
     assert len(best.found.held) == 1
     assert any("a lower bound" in line for line in best.describe())
 

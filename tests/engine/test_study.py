@@ -47,7 +47,7 @@ def test_a_notebook_says_how_far_it_is(straight):
 
 def test_the_rows_are_those_of_the_seeds_of_the_chunks(straight):
     for k in range(2):
-        store = straight.store(k)
+        store = straight.cell_store(k)
         found = np.concatenate([store.read(n, ["x"])["x"] for n in store.done])
         parts = [np.random.default_rng(np.random.SeedSequence(1, spawn_key=(n,))).random((s, 2)) for n, s in
                  enumerate([5, 5, 5, 5, 3])]  # fmt: skip
@@ -171,7 +171,7 @@ def test_a_full_disk_is_named_and_costs_the_chunk_in_hand(tmp_path, monkeypatch,
 
 
 def file_of(study, chunk, cell=0):
-    return study.folder(cell) / "samples.zarr" / "x" / "c" / str(chunk) / "0"
+    return study.cell_folder(cell) / "samples.zarr" / "x" / "c" / str(chunk) / "0"
 
 
 @pytest.mark.parametrize("how", ["cut", "flipped", "lost", "other rows"])

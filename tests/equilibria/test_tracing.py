@@ -43,7 +43,7 @@ def test_joint_1_stretched_and_folded(curves):
     assert loop.closed
     np.testing.assert_allclose(np.sin(loop.q[:, 2]), 0, atol=1e-9)
     # From the source's side of the fold: -9.1414 deg and its mirror image.
-    np.testing.assert_allclose(sorted((np.rad2deg(loop.locked[loop.folds]) + 180) % 360 - 180), [-9.1414, 99.1414], atol=1e-3)
+    np.testing.assert_allclose(sorted((np.rad2deg(loop.locked_values[loop.folds]) + 180) % 360 - 180), [-9.1414, 99.1414], atol=1e-3)
     np.testing.assert_allclose(np.abs(np.cos(loop.q[loop.rank_losses, 1])), 1, atol=1e-6)
     assert len(loop.rank_losses) == 2
     # Thales: the hand is at a right angle between the base and the target.
@@ -60,9 +60,9 @@ def test_joints_2_and_3_families(curves, k):
         if not c.degenerate:
             np.testing.assert_allclose(np.sin(c.q[:, other] + c.q[:, k] / 2), 0, atol=1e-6)
     fold = {1: 96.922, 2: 71.8487}[k]
-    folds = np.concatenate([c.locked[c.folds] for c in curves[k].curves])
+    folds = np.concatenate([c.locked_values[c.folds] for c in curves[k].curves])
     np.testing.assert_allclose(np.unique(np.abs((np.rad2deg(folds) + 180) % 360 - 180).round(3)), [fold], atol=2e-3)
-    met = np.concatenate([c.locked[c.solutions] for c in curves[k].curves])
+    met = np.concatenate([c.locked_values[c.solutions] for c in curves[k].curves])
     np.testing.assert_allclose(np.abs(np.cos(met)), np.abs(np.cos(2 * np.arccos((R - 1) / 2))), atol=1e-6)
 
 

@@ -147,7 +147,7 @@ def test_many_are_as_one_after_the_other_and_begin_anew(law, rng):
             episode = row + 3 * turn
             assert ids[9 * turn][row] == faults.draw(law.arm, episode=episode, horizon=0.4).id
             single = made(law, 1, FaultModel(faults.entries, faults.seed), horizon=0.4)
-            single._episode[:] = episode - 1
+            single._episode_numbers[:] = episode - 1
             alone = [single.reset()[0][0]]
             alone += [single.step(actions[9 * turn + k, row : row + 1])[0][0] for k in range(8)]
             assert np.array(rows)[9 * turn : 9 * turn + 9, row] == pytest.approx(np.array(alone), abs=1e-12)

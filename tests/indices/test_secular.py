@@ -16,7 +16,7 @@ def gram(d, w):
 
 def exact(name, d, w):
     sigma = np.sqrt(np.maximum(np.linalg.eigvalsh(gram(d, w)), 0))
-    return {"minimum": sigma[:, 0], "inverse_condition": sigma[:, 0] / sigma[:, -1], "mean": sigma.mean(axis=1)}[name]
+    return {"smallest_singular_value": sigma[:, 0], "inverse_condition": sigma[:, 0] / sigma[:, -1], "mean_singular_value": sigma.mean(axis=1)}[name]
 
 
 def compiled(name, m):
@@ -34,13 +34,13 @@ def draw(rng, count, m):
 
 
 @pytest.mark.parametrize("m", [1, 2, 3, 6])
-@pytest.mark.parametrize("name", ["minimum", "inverse_condition", "mean"])
+@pytest.mark.parametrize("name", ["smallest_singular_value", "inverse_condition", "mean_singular_value"])
 def test_values_and_derivatives(name, m, rng):
     d, w = draw(rng, 400, m)
     value, by_gram = compiled(name, m)(d, w)
     by_gram = by_gram.reshape(-1, m, m)
     # The mean is a quadrature that is good to 1e-7 in its range; the others are roots.
-    tolerance = 2e-6 if name == "mean" else 1e-9
+    tolerance = 2e-6 if name == "mean_singular_value" else 1e-9
     np.testing.assert_allclose(value, exact(name, d, w), rtol=tolerance)
     np.testing.assert_allclose(by_gram, by_gram.transpose(0, 2, 1), rtol=1e-12)
     # d G along a random way of d and w, by central differences
@@ -54,7 +54,7 @@ def test_values_and_derivatives(name, m, rng):
     assert np.median(error) < 1e-6
 
 
-@pytest.mark.parametrize("name", ["minimum", "inverse_condition", "mean"])
+@pytest.mark.parametrize("name", ["smallest_singular_value", "inverse_condition", "mean_singular_value"])
 def test_nothing_divides_by_zero(name, rng):
     m = 4
     d, w = draw(rng, 60, m)

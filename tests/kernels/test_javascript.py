@@ -67,7 +67,7 @@ EVERY = {**EXACT, **ROUNDED}
 
 
 def test_every_row_of_the_table_is_tested():
-    assert set(printer._FORMS) == set(EVERY)
+    assert set(printer._JAVASCRIPT_FORMS) == set(EVERY)
 
 
 def in_node(inputs, outputs, rows):
@@ -76,7 +76,7 @@ def in_node(inputs, outputs, rows):
 
 
 def forms(program):
-    graph = printer._Graph(program)
+    graph = printer._NamedGraph(program)
     return {graph.nodes[k].op for k in graph.needed}
 
 

@@ -308,7 +308,7 @@ def test_the_first_results_are_those_of_all(backend, rng):
 def test_columns_are_prepared_once(backend, rng, monkeypatch):
     """A call of a few microseconds has no time to look at its own scratch arrays again."""
     kernel = build(backend)
-    bound, prepared = kernel.bound, []
+    bound, prepared = kernel.bind_arrays, []
     monkeypatch.setattr(kernel, "bound", lambda *columns: prepared.append(1) or bound(*columns))
     monkeypatch.setattr(kernel, "evaluate_columns", None)
     rows = [draw(rng, 1) for _ in range(3)]
@@ -335,7 +335,7 @@ def test_a_single_row_has_the_bits_of_the_batch(name, rng, monkeypatch):
         monkeypatch.setenv("HOLDFAST_BACKEND", backend)
         kernel = row_function(name)
         rows = x if backend == "llvm" else x[:50]
-        one = kernel.single()
+        one = kernel.single_row()
         results = [one(row) for row in rows]
         np.testing.assert_array_equal(results, kernel.rows(rows))
         assert all(a is not b and not np.shares_memory(a, b) for a, b in pairwise(results))

@@ -47,7 +47,7 @@ def test_a_gpu_takes_over_what_was_made_before_but_not_what_was_told_where_to_be
             np.testing.assert_array_equal(a, c)
             np.testing.assert_array_equal(b, c)
         assert len(gpu.asked("cuLaunchKernel")) == launches
-        assert before.now().backend == (name if "cuda" in str(name) else "llvm")
+        assert before.current().backend == (name if "cuda" in str(name) else "llvm")
     assert [k for ((_, k),) in gpu.asked("cuDevicePrimaryCtxRetain")] == [1, 0]
 
 
@@ -66,7 +66,7 @@ def test_columns_and_single_rows(gpu, rng):
     on.evaluate_columns(inputs, found)
     off.evaluate_columns(inputs, expected)
     np.testing.assert_array_equal(found, expected)
-    np.testing.assert_array_equal(on.single()(inputs[:, 3]), expected[:, 3])
+    np.testing.assert_array_equal(on.single_row()(inputs[:, 3]), expected[:, 3])
 
 
 @pytest.mark.parametrize("ahead", [False, True])

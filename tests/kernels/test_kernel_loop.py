@@ -187,7 +187,7 @@ def test_who_is_told_hears_of_every_row_within_the_tolerance(loop, rng):
     state, parameters = draw(rng, 700)
     state[7], parameters[7] = 1.0, np.nan
     told = []
-    assert sum(loop.run(state, parameters, TOLERANCE, 60, over=told.append).done) == sum(told) == 699
+    assert sum(loop.run(state, parameters, TOLERANCE, 60, report=told.append).done) == sum(told) == 699
 
 
 def test_a_row_that_goes_on_and_on_tells_of_its_steps(loop, monkeypatch):
@@ -196,7 +196,7 @@ def test_a_row_that_goes_on_and_on_tells_of_its_steps(loop, monkeypatch):
     with notice.report_work("looking for roots"):
         told = []
         monkeypatch.setattr(
-            notice.ProgressCount, "add", lambda count, number: told.append((count.text("looking for roots"), number))
+            notice.ProgressCount, "add", lambda count, number: told.append((count.describe_progress("looking for roots"), number))
         )
         loop.run(np.ones((1, 2)), np.full((1, 2), np.nan), TOLERANCE, 2500)
     assert [number for text, number in told if "of at most 2,500 steps" in text] == [1000, 1000, 500]

@@ -41,7 +41,7 @@ class Robot:
 
     def hear(self, time, *, behind=0.0, v=0.1, wanted=0.1, gravity=0.0, alarm=True, **verdict):
         told = {"joint": JOINTS[1], "candidates": (), **verdict}
-        rows = {name: np.full(7, x) for name, x in (("behind", behind), ("v", v), ("wanted", wanted), ("gravity", gravity))}
+        rows = {name: np.full(7, x) for name, x in (("tracking_error", behind), ("v", v), ("commanded_rates", wanted), ("gravity", gravity))}
         self.controller.on_verdict(time, FaultVerdict(alarm, 1.0, **told), **rows)
 
     def did(self):
@@ -150,7 +150,7 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
 
 def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
     route = SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
-    monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *given, most: "no route" if given[3].locked else route)
+    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *given, most: "no route" if given[3].locked else route)
     robot = Robot(rates=0.0, plan=True)
     robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
     for time in (3.0, 3.1):
@@ -201,7 +201,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
             return "no route"
         return SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
 
-    monkeypatch.setattr("holdfast.reaction.controller.planned", some)
+    monkeypatch.setattr("holdfast.reaction.controller.plan_route", some)
     robot = Robot(rates=0.0, plan=True)
     for time in (1.0, 1.2):
         robot.hear(time, kind="limp", v=0.05, wanted=0.1)
@@ -225,7 +225,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
 
 
 def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
-    monkeypatch.setattr("holdfast.reaction.controller.planned", lambda *args, **options: "no route")
+    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, **options: "no route")
     robot = Robot(react="known", rates=0.0, plan=True)
     robot.controller.on_known_fault(1.0, "sensor_freeze", JOINTS[1], 0.3)
     robot.controller.rates(3.0, np.zeros(7))

@@ -69,7 +69,7 @@ def by_linear_programme(pieces, v, a, count):
     step = np.append(np.diff(s), 0.0)
     step = np.where(step > 0, step, pieces.length[of] - s)
     middle = s + step / 2
-    _, slope, bend = pieces.at(of, middle)
+    _, slope, bend = pieces.evaluate(of, middle)
     total = len(s) + 1
     rows, bounds = lil_array((2 * len(s) * len(v), total)), []
     r = 0
@@ -133,7 +133,7 @@ def test_rounded_corners_are_quadratic_b_splines(rng):
     begin, end = c + cut[1] * (a - c) / np.linalg.norm(a - c), c + cut[1] * (b - c) / np.linalg.norm(b - c)
     curve = BSpline(np.array([0, 0, 0, 1, 1, 1.0]), np.array([begin, c, end]), 2)
     share = np.linspace(0, 1, 11)
-    made, _, _ = pieces.at(np.full(11, 1), share * pieces.length[1])
+    made, _, _ = pieces.evaluate(np.full(11, 1), share * pieces.length[1])
     np.testing.assert_allclose(made, curve(share), atol=1e-12)
     seen = []
     find_corner_cuts(q, np.zeros(3, dtype=bool), lambda chords: seen.append(chords) or always(chords))
@@ -212,7 +212,7 @@ def round_the_corner(arm, start, goal, clearance):
 def test_rounded_corners_keep_clear(among_balls):
     bent, centres = among_balls
     timed = bent.timed
-    assert bent.verdict.solved
+    assert bent.verdict.is_solved
     dense = np.stack([np.interp(np.linspace(0, timed.time[-1], 20_000), timed.time, x) for x in timed.q.T], axis=1)
     assert links_to(centres, dense).min() >= 0.22 - 1e-6
     assert (timed.q[:, 1] == bent.q[0, 1]).all()

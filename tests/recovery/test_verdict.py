@@ -48,7 +48,7 @@ def test_what_is_solved_is_verified_by_other_code(moved):
     assert moved.ok
     assert moved.verified is not None
     assert moved.verified.goal_miss == pytest.approx(0, abs=3e-6)
-    assert moved.verified.looked_at >= np.abs(np.diff(moved.q, axis=0)).max() / 2e-3
+    assert moved.verified.checked >= np.abs(np.diff(moved.q, axis=0)).max() / 2e-3
 
 
 @pytest.mark.parametrize(

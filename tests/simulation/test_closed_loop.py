@@ -391,7 +391,7 @@ def test_many_runs_are_computed_by_better_code_from_the_first_step_on(tmp_path, 
     for calls, level in ((0, 0), (compiled.REPAYING_WORK, 1)):
         monkeypatch.setattr(batch, "LOOP_CALLS_PER_RUN", calls)
         runs = simulate(Pseudoinverse(arms.load("planar-3r"), "planar"), q0, target, locked=[1])
-        assert runs._simulator._steps.loop.step._compiled.level == level
+        assert runs._simulator._stepper.loop.step._compiled.level == level
         ends.append(runs.q_final)
     np.testing.assert_array_equal(*ends)
 

@@ -106,7 +106,7 @@ def test_what_is_said_of_the_tool_is_what_mujoco_has(native, run):
     assert run.goal_turn == pytest.approx(np.arccos(cosine), abs=1e-6)
     tilt = np.arccos(turns[:, 2, 2]).max()
     assert tilt > 0.3
-    assert run.kept == ((0.0, pytest.approx(tilt, abs=1e-6)),)
+    assert run.constraint_errors == ((0.0, pytest.approx(tilt, abs=1e-6)),)
     assert run.outcome == "moving", "a tenth of the weight is not compensated, and the servos are soft"
     assert not run.ok
     assert f"{np.rad2deg(tilt):.4g} deg, beyond 17.19 deg" in run.faults()[2]
@@ -196,5 +196,5 @@ def test_it_is_shown(arm, run, tmp_path):
     rows = np.loadtxt(run.to_csv(tmp_path / "motion.csv"), delimiter=",", skiprows=1)
     np.testing.assert_allclose(rows[:, 1:5], run.q, atol=1e-9)
     data = run.to_dict()
-    assert data["kept"][0]["turned"] == pytest.approx(run.kept[0][1])
+    assert data["kept"][0]["turned"] == pytest.approx(run.constraint_errors[0][1])
     assert (data["ok"], data["noticed_s"], data["lock_time_s"]) == (False, None, {"lift": 0.3})

@@ -53,7 +53,7 @@ def straight(tmp_path_factory) -> Study:
 
 
 def found(study, cell, number) -> dict:
-    store = study.store(cell)
+    store = study.cell_store(cell)
     return store.read(number, [c.name for c in store.columns])
 
 

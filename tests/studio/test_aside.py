@@ -69,7 +69,7 @@ def test_motions_are_those_of_the_closed_loop(aside, arm):
 
         found = solve_ivp(rate, (0, motion.time[-1]), state.q, t_eval=motion.time, rtol=1e-8, atol=1e-10)
         np.testing.assert_allclose(motion.q, found.y.T, atol=1e-6)
-        np.testing.assert_allclose(motion.at(1.234), [np.interp(1.234, motion.time, x) for x in motion.q.T])
+        np.testing.assert_allclose(motion.configuration_at(1.234), [np.interp(1.234, motion.time, x) for x in motion.q.T])
         assert "reaches the target" in motion.label or "stops elsewhere" in motion.label
 
 

@@ -52,7 +52,7 @@ def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objecti
 def test_a_target_where_the_hand_is_is_no_error(machine):
     q = (0.3, 0.8, 0.9)
     at = pose_numbers(machine.tool_pose(np.array(q)))
-    assert machine.apart(np.array(q), machine.tool_pose(np.array(q))) == 0
+    assert machine.pose_error_norm(np.array(q), machine.tool_pose(np.array(q))) == 0
     motions = simulate_law_motions(
         machine, state(machine, q, target=tuple(at), laws=("pseudoinverse", "damped:0.1")), lambda *_: None
     )
@@ -64,4 +64,4 @@ def test_how_far_the_hand_is_from_its_target_is_seen_by_the_task(machine):
     q = np.array([0.3, 0.8, 0.9])
     pose = machine.tool_pose(q)
     pose[:3, 3] += [0.03, 0.04, 7.0]  # a planar task does not look up
-    assert machine.apart(q, pose) == pytest.approx(0.05)
+    assert machine.pose_error_norm(q, pose) == pytest.approx(0.05)

@@ -21,7 +21,7 @@ def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
         there = q + 0.1 * rng.uniform(-1, 1, 7)
         there[list(failed)] = q[list(failed)]
         pose = machine.tool_pose(there)
-        found, on = machine.reach(q, pose, failed)
+        found, on = machine.solve_near(q, pose, failed)
         assert on
         np.testing.assert_allclose(machine.tool_pose(found), pose, atol=1e-5)
         assert (found[list(failed)] == q[list(failed)]).all()
@@ -35,7 +35,7 @@ def test_out_of_reach_the_arm_never_goes_away_from_the_pose(machine, rng):
     far[:3, 3] += 10 * machine.size
     before = np.linalg.norm(far[:3, 3] - pose[:3, 3])
     for _ in range(5):
-        q, on = machine.reach(q, far, ())
+        q, on = machine.solve_near(q, far, ())
         assert not on
         after = np.linalg.norm(far[:3, 3] - machine.tool_pose(q)[:3, 3])
         assert after <= before + 1.0  # orientation counts as well
@@ -44,7 +44,7 @@ def test_out_of_reach_the_arm_never_goes_away_from_the_pose(machine, rng):
 
 def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
     q = rng.uniform(-0.5, 0.5, 7)
-    hand, along = machine.tool_pose(q), machine.self_motions(q, ())[0]
+    hand, along = machine.tool_pose(q), machine.self_motion_directions(q, ())[0]
     for _ in range(20):
         new, direction = machine.slide(q, 0.03 * along, ())
         if not direction.any():
@@ -57,7 +57,7 @@ def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
 
 def test_without_redundancy_nothing_slides(machine, rng):
     q = rng.uniform(-0.5, 0.5, 7)
-    assert len(machine.self_motions(q, (2,))) == 0
+    assert len(machine.self_motion_directions(q, (2,))) == 0
     new, direction = machine.slide(q, np.full(7, 0.01), (2,))
     assert (new == q).all()
     assert not direction.any()
@@ -66,10 +66,10 @@ def test_without_redundancy_nothing_slides(machine, rng):
 def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
     q = rng.uniform(-1, 1, 7)
     rho = hf.indices.relative_manipulability(machine.arm)
-    reading = machine.read(q, (), "relative-manipulability", "torque")
+    reading = machine.evaluate(q, (), "relative-manipulability", "torque")
     assert reading.failure_joints == (int(rho.worst_joint(q)),)
     np.testing.assert_array_equal(reading.bars.values, rho.by_joint(q))
-    assert machine.read(q, (5,), "relative-manipulability", "torque").failure_joints == (5,)
+    assert machine.evaluate(q, (5,), "relative-manipulability", "torque").failure_joints == (5,)
     assert isinstance(reading.weights, str)  # nothing is known of these bodies
     assert "link" in reading.weights
 
@@ -85,7 +85,7 @@ def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():
 
 
 def test_laws_are_made_once_and_misspelt_ones_refused(machine):
-    assert machine.law("damped:0.2") is machine.law("damped:0.2")
+    assert machine.get_law("damped:0.2") is machine.get_law("damped:0.2")
     assert "damping 0.2" in machine.law("damped:0.2").describe()
     with pytest.raises(hf.InputError, match="'much' is not a number; give one: the damping"):
         machine.law("damped:much")

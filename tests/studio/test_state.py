@@ -131,7 +131,7 @@ def test_a_port_in_use_is_named():
 def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
     pytest.importorskip("viser")
     found, order = [], []
-    for name in ("_choose_camera", "body_of"):
+    for name in ("_choose_camera", "build_body"):
         real = getattr(server, name)
         monkeypatch.setattr(server, name, lambda *given, name=name, real=real: (order.append(name), real(*given))[1])
 

@@ -78,7 +78,7 @@ def test_who_is_led_away_tries_another_way(plant):
     angle = np.pi / 4 + np.arccos(1 / np.hypot(1.5, 1.5))
     q0 = (angle, *np.deg2rad([-66.0098, 155.7258]))
     trials = run(plant, sample_people(12, 2), q0=q0, target=(1.5, 1.5), healthy=(0, 1, 1))
-    assert trials.completed.sum() >= 3
+    assert trials.is_completed.sum() >= 3
     stubborn = [Person(noise=0, bias=0, look_back=130, gives_up=120)] * 3
     assert (run(plant, stubborn, q0=q0, target=(1.5, 1.5), healthy=(0, 1, 1)).end == End.ABORTED).all()
 

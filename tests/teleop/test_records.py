@@ -60,7 +60,7 @@ def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
     mask = todo.tasks.healthy_mask(records.protocol.scenarios[todo.scenario].failed)[0]
     q, written = todo.tasks.q0[0], []
     for k in range(cycles):
-        v = records.protocol.stick.limited(generator.normal(0, 0.03, 2))
+        v = records.protocol.stick.limit_velocity(generator.normal(0, 0.03, 2))
         records.append(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
         written.append((v, q))
         q, _ = plant.step_one(q, v, mask)
@@ -117,7 +117,7 @@ def test_replay_finds_a_trial_that_should_have_been_over(records):
     q = tasks.q0  # a target around the start, and a command to stand
     there = PointTasks(q, plant.position(q), tasks.joint)
     number = records.begin_trial(code, TrialKind.TRIAL, 0, scenario=0, tasks=there, task=0)
-    records.append(number, 0, np.zeros(1), velocity=np.zeros((1, 2)), q=q)
+    records.append_cycles(number, 0, np.zeros(1), velocity=np.zeros((1, 2)), q=q)
     records.finish(number, End.ABORTED, q[0])
     assert replay_trials(records).difference.tolist() == [np.inf]
 
@@ -128,7 +128,7 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
     assert sorted(s.row for s in subjects) == list(range(6))
     for s in subjects:
         assert s.state == SubjectState.COMPLETED
-        session = protocol.session(s.row, s.number)
+        session = protocol.session_order(s.row, s.number)
         entries = made.entries(s.code, TrialKind.TRIAL)
         assert [[e.task, e.scenario] for e in entries] == session.tolist()
         assert all(e.rating is not None for e in entries)
@@ -154,7 +154,7 @@ def test_tables_say_what_the_records_say(made, protocol, tmp_path):
     table = trial_table(made)
     assert len(table) == 6 * 3 * 4
     entries = made.entries(kind=TrialKind.TRIAL)
-    by_hand = compute_measures(made.trials(entries))
+    by_hand = compute_measures(made.read_trials(entries))
     np.testing.assert_array_equal(table[[f"M{k}" for k in range(1, 12)]].to_numpy(), by_hand)
     assert set(table["law"]) == {"pseudoinverse", "failure-tolerant"}
     files = export_tables(made, tmp_path / "csv")
@@ -418,7 +418,7 @@ def test_events_are_exported_as_json_and_text_is_no_formula(records, tmp_path):
     code = records.add_subject(answers={"job": '=HYPERLINK("http://127.0.0.1")', "age": 30, "hand": "-"}).code
     records.set_note(code, "@SUM(1)")
     data = {"count": 3, "why": "it's \u00fc", "ok": True}
-    records.event("dropped-frames", code, data=data)
+    records.add_event("dropped-frames", code, data=data)
     export_tables(records, tmp_path / "csv")
     events = pd.read_csv(tmp_path / "csv" / "events.csv")
     assert json.loads(events["data"][0]) == data

@@ -33,7 +33,7 @@ def _clock():
     """Stop the clock, so that equal experiments have equal records."""
     with pytest.MonkeyPatch.context() as patch:
         for module in (file, records):
-            patch.setattr(module, "now", lambda: "2026-11-29T00:00:00.000+00:00")
+            patch.setattr(module, "format_utc_now", lambda: "2026-11-29T00:00:00.000+00:00")
         patch.setattr(rehearsal, "OPERATORS_PER_BATCH", 3)
         patch.setenv("HOLDFAST_NOTICES", "on")
         yield

@@ -63,12 +63,12 @@ def test_bank_shows_the_published_pattern(bank):
         assert low <= m[k, 0] <= high
     assert 0.28 <= m[1, 6] <= 0.4
     assert 0.5 <= m[2, 6] <= 0.7
-    assert np.corrcoef(bank.difficulty[bank.completed()], bank.ratio[bank.completed()])[0, 1] < -0.3
+    assert np.corrcoef(bank.difficulty[bank.is_completed()], bank.ratio[bank.is_completed()])[0, 1] < -0.3
 
 
 def test_cells_cover_the_plane(bank):
     cells = bin_tasks(bank)
-    good = bank.completed()
+    good = bank.is_completed()
     np.testing.assert_array_equal(cells.cell >= 0, good)
     for k in np.flatnonzero(good):
         row, column = divmod(int(cells.cell[k]), 6)
@@ -120,7 +120,7 @@ def test_no_single_exchange_improves_the_selection(bank):
 def test_the_most_disorienting_is_the_largest_product(bank):
     first = find_most_disorienting(bank, np.empty(0, dtype=int))
     second = find_most_disorienting(bank, np.array([first]))
-    score = bank.measures[2, :, 9] * bank.measures[2, :, 4] * np.where(bank.completed(), 1, np.nan)
+    score = bank.measures[2, :, 9] * bank.measures[2, :, 4] * np.where(bank.is_completed(), 1, np.nan)
     assert [first, second] == list(np.argsort(-np.nan_to_num(score, nan=-1))[:2])
 
 

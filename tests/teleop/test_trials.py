@@ -56,7 +56,7 @@ def wandered(plants, tasks, rng):
         which,
         tasks.q0,
         target=tasks.target,
-        healthy=tasks.healthy(True),
+        healthy=tasks.healthy_mask(True),
         operator=Wanderer(rng),
         stick=Joystick(),
         rules=EndRules(at_rest=True),
@@ -71,7 +71,7 @@ def test_computer_drives_as_the_closed_loop_in_cycles(arm, tasks):
         np.zeros(len(tasks), int),
         tasks.q0,
         target=tasks.target,
-        healthy=tasks.healthy(True),
+        healthy=tasks.healthy_mask(True),
         operator=ComputerOperator(),
         stick=Joystick(0.05, 0.0),
     )
@@ -138,7 +138,7 @@ def test_replay_gives_the_same_bits(plants, tasks, rng):
         which,
         tasks.q0,
         target=tasks.target,
-        healthy=tasks.healthy(True),
+        healthy=tasks.healthy_mask(True),
         operator=RecordedOperator(trials),
         stick=None,
         rules=EndRules(at_rest=True),
@@ -208,7 +208,7 @@ def test_trial_that_begins_in_the_circle_has_no_cycles(plants, tasks):
         np.zeros(40, int),
         tasks.q0,
         target=start,
-        healthy=tasks.healthy(False),
+        healthy=tasks.healthy_mask(False),
         operator=ComputerOperator(),
         stick=Joystick(),
     )
@@ -233,6 +233,6 @@ def test_bad_input_is_refused(arm, plants, tasks):
     with pytest.raises(hf.InputError, match="dead zone"):
         Joystick(0.05, 0.06)
     with pytest.raises(hf.InputError, match="q0 has shape"):
-        drive_trials(plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy(True), operator=ComputerOperator())
+        drive_trials(plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy_mask(True), operator=ComputerOperator())
     with pytest.raises(hf.InputError, match="0 or more"):
         compute_cpm([[-1.0]])

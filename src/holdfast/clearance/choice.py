@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
@@ -16,7 +16,7 @@ from holdfast.errors import InputError
 if TYPE_CHECKING:
     from holdfast.clearance.shape import CollisionModel
 
-CellLike = Cell | str | Path
+CellLike: TypeAlias = Cell | str | Path
 """A cell, or the file that holds it."""
 
 

@@ -56,7 +56,7 @@ def folder(protocol, tmp_path_factory):
 def give_up(records, subject):
     """Let a subject abort every trial at once."""
     protocol = records.protocol
-    for position, (task, scenario) in enumerate(protocol.session(subject.row, subject.number).tolist()):
+    for position, (task, scenario) in enumerate(protocol.session_order(subject.row, subject.number).tolist()):
         tasks = protocol.tasks.take(np.array([task]))
         number = records.begin_trial(subject.code, TrialKind.TRIAL, position, scenario=scenario, tasks=tasks, task=task)
         records.finish(number, End.ABORTED, tasks.q0[0])

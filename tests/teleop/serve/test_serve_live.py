@@ -39,7 +39,7 @@ def hello(**change):
 async def settled(control):
     """Everything that was given to the threads so far is done."""
     for keeper in (control.writer, control.reader, control.writer):
-        await keeper.do(lambda _: None)
+        await keeper.run_job(lambda _: None)
 
 
 def test_slow_watchers_drop_old_messages_and_nobody_waits():

@@ -176,7 +176,7 @@ def test_records_are_those_of_the_model(shared, batches):
     for batch, fate in batches:
         before = copy.deepcopy(models)
         try:
-            with records.together():
+            with records.transaction():
                 for step in batch:
                     who = step[2]
                     message = made(models[who], step)
@@ -208,7 +208,7 @@ def test_the_plan_is_the_session_of_the_protocol(records, protocol):
     entered = admit_page(records, hello(code="P07"))
     subject = records.subject("P07")
     plan = Station(records, "P07").make_welcome(entered.key, False).plan
-    order, laws = protocol.session(subject.row, subject.number).tolist(), number_laws(protocol)
+    order, laws = protocol.session_order(subject.row, subject.number).tolist(), number_laws(protocol)
     assert [[t.task, t.law] for t in plan.trials] == [[task, laws[scenario]] for task, scenario in order]
     for t, (_, scenario) in zip(plan.trials, order, strict=True):
         assert t.joint == (protocol.tasks.joint[t.task] if protocol.scenarios[scenario].failed else -1)
@@ -272,7 +272,7 @@ def part(records):
 
 
 def test_a_failed_part_is_undone_and_the_rest_is_kept(records):
-    with records.together():
+    with records.transaction():
         records.event("one")
         with pytest.raises(hf.InputError, match="nobody"):
             part(records)

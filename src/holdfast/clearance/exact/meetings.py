@@ -179,7 +179,7 @@ class NarrowPhase:
                     break
                 candidate = self._candidates[candidate_index]
                 self._place_candidate(candidate, row, frames, placed_parts)
-                smallest = min(smallest, candidate.geometry.distance(self._placed[candidate.part]))
+                smallest = min(smallest, candidate.geometry.body_distance(self._placed[candidate.part]))
             distances[row] = smallest
         return distances
 
