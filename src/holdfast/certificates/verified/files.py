@@ -44,7 +44,7 @@ def load(path: Path | zipfile.Path) -> dict[str, Any]:
         with path.open("rb") as file:
             content = file.read(MOST_BYTES + 1)
         need(len(content) <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES >> 20} MB")
-        document = json.loads(content.decode(), object_pairs_hook=once, parse_constant=lambda x: need(0, f"{x} in it"))
+        document = json.loads(content.decode(), object_pairs_hook=once, parse_constant=lambda x: need(0, f"it contains {x}"))
         _check(document if isinstance(document, dict) else {})
     except Refused:
         raise
