@@ -89,7 +89,7 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     assert result.rest.graph > 0
     monkeypatch.setattr(continuation, "through_layers", lambda *_: Graph([], 0, 0))
     monkeypatch.setattr(continuation, "_FINER", 1)
-    for name in ("continued", "without_rows"):
+    for name in ("continue_unfinished_path", "without_rows"):
         monkeypatch.setattr(search, name, lambda made, *_: (made, []))
     alone = finished(three, low, high, here, path)
     assert not alone.ok

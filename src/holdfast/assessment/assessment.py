@@ -251,7 +251,7 @@ class Assessment(Result):
             InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
         """
         k, s = self.arm.joint_index(joint), self._sample(optimised)
-        return upgrade.distribution_without(self.index, s, self._without(k, s, optimised))
+        return upgrade.distribution_without(self.index, s, self._compute_values_without(k, s, optimised))
 
     @checked
     def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
@@ -269,15 +269,15 @@ class Assessment(Result):
         check_confidence(confidence)
         least = self.default_threshold() if threshold is None else threshold
         s = self._sample(optimised)
-        return upgrade.upgrades(self.index, s, lambda k: self._without(k, s, optimised), least, confidence)
+        return upgrade.upgrades(self.index, s, lambda k: self._compute_values_without(k, s, optimised), least, confidence)
 
     def _sample(self, optimised: bool) -> Sample:
         self.of(optimised)  # says so where the run was not optimised
         s = sample(self.index, self.columns, optimised)
         return s.first if optimised else s
 
-    def _without(self, k: int, s: Sample, optimised: bool) -> Array:
-        """Values (N,) of a sample if joint k, from 0, never failed; optimised ones are computed once."""
+    def _compute_values_without(self, k: int, s: Sample, optimised: bool) -> Array:
+        """Return the values (N,) of a sample if a joint, from 0, never failed; optimised values are computed once."""
         known: dict[int, Array] = self.__dict__.setdefault("_optimised_without", {})
         if optimised and k not in known:
             known[k] = upgrade.optimised_value_without(self.plan, self.columns, k, s)

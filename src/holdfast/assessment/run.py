@@ -152,7 +152,7 @@ def load(path: str | Path) -> Assessment:
     store = Store.open(folder)
     kind = store.plan.get("kind")
     if kind == "assess-counts":
-        return _counted(store)
+        return _load_counted(store)
     if kind != "assess":
         raise StoreError(f"'{folder}' is not an assessment; give the folder that `holdfast assess --out` wrote")
     plan = Plan.stored(store, store.rows)
@@ -174,7 +174,7 @@ def _cell_of(folder: Path) -> Path:
     raise StoreError(f"'{folder}' is a study of {len(study.cells)} cells; load one of them: {', '.join(cells)}{more}")
 
 
-def _counted(store: Store) -> Assessment:
+def _load_counted(store: Store) -> Assessment:
     """Build the assessment of a study's cell that kept counts instead of rows."""
     parent = store.path.resolve().parents[1]
     sizes = {}

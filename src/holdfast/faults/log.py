@@ -88,11 +88,13 @@ class Log:
                     object.__setattr__(self, name, whole)
         else:
             even = np.linspace(t[0], t[-1], len(t))
-            if np.abs(t - even).max() > _UNEVEN_FRACTION / self.rate and _bend(_at(even, t, self.q_ref)) < _bend(self.q_ref):
+            if np.abs(t - even).max() > _UNEVEN_FRACTION / self.rate and _bend(_interpolate_at(even, t, self.q_ref)) < _bend(
+                self.q_ref
+            ):
                 object.__setattr__(self, "t", even)
                 for name in ("q_ref", "q", "tau"):
                     if (value := getattr(self, name)) is not None:
-                        object.__setattr__(self, name, _at(even, t, value))
+                        object.__setattr__(self, name, _interpolate_at(even, t, value))
 
     @property
     def n(self) -> int:
@@ -224,7 +226,7 @@ def _rows_of(t: Array) -> NDArray[np.int64]:
     return min((gapped, even), key=lambda rows: float(np.std(t * (rows[-1] / (t[-1] - t[0])) - rows)))
 
 
-def _at(times: Array, t: Array, values: Array) -> Array:
+def _interpolate_at(times: Array, t: Array, values: Array) -> Array:
     """Return values (T, n), known at ``t``, at other times."""
     return np.stack([np.interp(times, t, column) for column in values.T], axis=1)
 

@@ -216,7 +216,7 @@ def _verdict(q: Array, rate: float, gain: float, turning: NDArray[np.bool_]) -> 
         turning: (n,) joints of which the values count modulo whole turns.
     """
     undecided: tuple[Ending, Why] = ("undecided", "time_limit")
-    away = _wrapped(q[-1] - q, turning)
+    away = _wrap_angles(q[-1] - q, turning)
     distance = np.linalg.norm(away, axis=1)[::-1]  # backwards in time, from 0
     extent = float(distance.max())
     far = int(np.argmax(distance > NEAR * extent))
@@ -233,11 +233,11 @@ def _verdict(q: Array, rate: float, gain: float, turning: NDArray[np.bool_]) -> 
         last = np.arange(len(q) - period, len(q))
         before = q[last - period - 1], q[last - period], q[np.minimum(last - period + 1, len(q) - 1)]
         earlier = before[1] + shift * (before[2] - before[0]) / 2 + shift**2 * (before[2] - 2 * before[1] + before[0]) / 2
-        missed = float(np.linalg.norm(_wrapped(q[last] - earlier, turning), axis=1).max())
+        missed = float(np.linalg.norm(_wrap_angles(q[last] - earlier, turning), axis=1).max())
         if missed < DRIFT_FRACTION * extent * min(period / rate * gain, 1.0):
             return "moving", "none"
     return undecided
 
 
-def _wrapped(q: Array, turning: NDArray[np.bool_]) -> Array:
+def _wrap_angles(q: Array, turning: NDArray[np.bool_]) -> Array:
     return np.where(turning, np.arctan2(np.sin(q), np.cos(q)), q)

@@ -1,10 +1,9 @@
-"""Working ranges under which a box of targets stays reachable wherever one joint locks: a search by samples."""
+"""A search by samples for working ranges under which a box of targets stays reachable wherever one joint locks."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 from time import perf_counter
 
 import numpy as np
@@ -14,7 +13,6 @@ from holdfast.arguments import checked
 from holdfast.arm.configurations import finite_limits, made_finite
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.arm.urdf import rpy_rotation
 from holdfast.certificates.claims import TolerantClaim, narrowed, tolerant_claim
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, single_joints
@@ -27,10 +25,10 @@ from holdfast.words import percent
 
 Array = NDArray[np.float64]
 
-_HALVINGS = 10  # of the distance between a value that passes and the next one of the grid, which fails
-_CANDIDATES = 20  # combinations of intervals for which the healthy arm is tried
-_NEARLY_ALL, _MORE_RESTARTS = 0.8, 400  # where so many are reached, the others are tried again from more starts
-_ROUNDS = 4  # of ranges that a fresh sample may shorten
+_BISECTION_STEPS = 10  # of the distance between a value that passes and the next one of the grid, which fails
+_MAX_CANDIDATES = 20  # combinations of intervals for which the healthy arm is tried
+_RETRY_FRACTION, _MORE_RESTARTS = 0.8, 400  # where so many are reached, the others are tried again from more starts
+_MAX_ROUNDS = 4  # of ranges that a fresh sample may shorten
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -62,49 +60,49 @@ class WorkingRanges(Result):
 
     @property
     def ranges(self) -> Array:
-        """(n, 2) rad and m, working ranges."""
+        """Working ranges (n, 2), rad and m."""
         return self.claim.working_ranges
 
     @property
     def relative_widths(self) -> Array:
-        """(n,) width of each range as a fraction of the width of the joint's limits, of which a full turn is enough."""
-        return _relative(self.claim.arm, self.ranges)
+        """Width of each range (n,) as a fraction of the width of the joint's limits, of which a full turn is enough."""
+        return _relative_widths(self.claim.arm, self.ranges)
 
     @property
     def limiting_joint(self) -> str:
         """Name of the joint whose locks lose most targets; if none is lost, of the joint with the smallest relative width."""
         locks, arm = list(self.claim.locks), self.claim.arm
-        lost, width = self.lost[locks], self.relative_widths[locks]
-        return arm.joint_names[locks[int(np.lexsort([width, -lost])[0])]]
+        lost_counts, widths = self.lost[locks], self.relative_widths[locks]
+        return arm.joint_names[locks[int(np.lexsort([widths, -lost_counts])[0])]]
 
     @property
     def options(self) -> list[str]:
-        """``JOINT=LOW..HIGH`` in degrees or m of each range that is narrower than the limits, as ``--range`` takes it."""
-        arm, written = self.claim.arm, []
-        for k, joint in enumerate(arm.joints):
-            if (self.ranges[k] != [joint.lower, joint.upper]).any():
-                low, high = (f"{round(joint.shown[0] * x, 10) + 0.0:.12g}" for x in self.ranges[k])
-                written.append(f"{joint.name}={low}..{high}")
-        return written
+        """Option text ``JOINT=LOW..HIGH`` in degrees or m of each range narrower than the limits, as ``--range`` takes it."""
+        arm, options = self.claim.arm, []
+        for index, joint in enumerate(arm.joints):
+            if (self.ranges[index] != [joint.lower, joint.upper]).any():
+                lower, upper = (f"{round(joint.shown[0] * limit, 10) + 0.0:.12g}" for limit in self.ranges[index])
+                options.append(f"{joint.name}={lower}..{upper}")
+        return options
 
     def describe(self) -> list[str]:
         """Return whether ranges were found, by which sample, and the limiting joint."""
-        arm, k = self.claim.arm, self.claim.arm.joint_index(self.limiting_joint)
-        factor, unit = arm.joints[k].shown
-        span = f"{factor * self.ranges[k, 0]:.4g} to {factor * self.ranges[k, 1]:.4g} {unit}"
+        arm, index = self.claim.arm, self.claim.arm.joint_index(self.limiting_joint)
+        factor, unit = arm.joints[index].shown
+        span = f"{factor * self.ranges[index, 0]:.4g} to {factor * self.ranges[index, 1]:.4g} {unit}"
         if self.ok:
             return [
                 f"Found working ranges: the healthy arm reaches all of {self.targets} sampled targets within them, and so does "
                 f"the arm with one joint locked at any of {self.values} sampled values of its range. A sample proves nothing.",
-                f"The limiting joint is {arm.joint_names[k]}: its range of {span} is "
-                f"{percent(float(self.relative_widths[k]))} of its limits.",
+                f"The limiting joint is {arm.joint_names[index]}: its range of {span} is "
+                f"{percent(float(self.relative_widths[index]))} of its limits.",
             ]
-        why = f"the healthy arm reaches {self.healthy} of them"
-        if self.lost[k]:
-            why += f", and locks of {arm.joint_names[k]}, whose range is {span}, lose {self.lost[k]}"
+        reason = f"the healthy arm reaches {self.healthy} of them"
+        if self.lost[index]:
+            reason += f", and locks of {arm.joint_names[index]}, whose range is {span}, lose {self.lost[index]}"
         return [
             f"Not found: with the best working ranges {self.passed} of {self.targets} sampled targets "
-            f"({percent(self.passed / self.targets)}) are reached whatever locks; {why}."
+            f"({percent(self.passed / self.targets)}) are reached whatever locks; {reason}."
         ]
 
 
@@ -135,11 +133,11 @@ def find_working_ranges(
 
     Args:
         arm: The arm.
-        centre: As of :func:`holdfast.certificates.tolerant_claim`.
-        size: Likewise.
-        rotation: Likewise.
-        rpy: Likewise.
-        task: Likewise.
+        centre: Center of the box as :func:`holdfast.certificates.tolerant_claim` takes it.
+        size: Size of the box.
+        rotation: Rotation matrix of the tool.
+        rpy: Roll, pitch, and yaw of the tool.
+        task: Task of the claim.
         working_ranges: ``{joint: (low, high)}``, rad or m, within which its range is looked for. Default: the joint's limits;
             a full turn, or 1 m to either side, where there are none.
         failures: Which joints may lock, one at a time. The others keep the ranges that are given.
@@ -158,7 +156,7 @@ def find_working_ranges(
 
     Source: Lewis and Maciejewski 1997 for the ranges (their artificial joint limits); the search is derived here.
     """
-    began = perf_counter()
+    start_time = perf_counter()
     if targets < 1 or values < 2 or not 0 <= margin < 0.5:
         raise InputError(
             f"targets is {targets}, values {values}, and margin {margin:g}; targets must be 1 or more, values 2 or more, and "
@@ -166,36 +164,38 @@ def find_working_ranges(
         )
     locks, bounds = single_joints(arm, failures), narrowed(arm, working_ranges or {})
     bounds[locks] = np.stack(made_finite(bounds[locks, 0], bounds[locks, 1], arm.prismatic[locks]), axis=1)
-    narrow = {*locks, *map(arm.joint_index, working_ranges or {})}
+    narrowed_joints = {*locks, *map(arm.joint_index, working_ranges or {})}
 
-    def claimed(ranges: Array) -> TolerantClaim:
-        pairs: dict[str | int, tuple[float, float]] = {k: (float(ranges[k, 0]), float(ranges[k, 1])) for k in narrow}
+    def make_claim(ranges: Array) -> TolerantClaim:
+        pairs: dict[str | int, tuple[float, float]] = {
+            joint: (float(ranges[joint, 0]), float(ranges[joint, 1])) for joint in narrowed_joints
+        }
         return tolerant_claim(arm, centre, size, rotation=rotation, rpy=rpy, task=task, working_ranges=pairs, failures=failures)
 
-    search = _Search(claimed(bounds), bounds, targets, values, seed)
-    ranges, found = search.widest(margin)
-    for fresh in range(1, _ROUNDS + 1):
-        healthy, survives = search.judged(ranges, fresh)
-        if not found or fresh == _ROUNDS:
+    search = _RangeSearch(make_claim(bounds), bounds, targets, values, seed)
+    ranges, all_pass = search.find_widest(margin)
+    for sample in range(1, _MAX_ROUNDS + 1):
+        healthy, survives = search.evaluate_ranges(ranges, sample)
+        if not all_pass or sample == _MAX_ROUNDS:
             break
         if not healthy.all():
-            search.enlarge(fresh)
-            ranges, found = search.widest(margin)
-        elif not search.shortened(ranges, survives):
+            search.add_sample(sample)
+            ranges, all_pass = search.find_widest(margin)
+        elif not search.shorten_ranges(ranges, survives):
             break
-    kept = np.stack([each.all(axis=1) for each, _ in survives], axis=1)
+    retained = np.stack([table.all(axis=1) for table, _ in survives], axis=1)
     return WorkingRanges(
-        claim=claimed(ranges),
+        claim=make_claim(ranges),
         targets=len(healthy),
         values=values,
         healthy=int(healthy.sum()),
-        lost=(~kept).sum(axis=0),
-        passed=int((healthy & kept.all(axis=1)).sum()),
-        seconds=perf_counter() - began,
+        lost=(~retained).sum(axis=0),
+        passed=int((healthy & retained.all(axis=1)).sum()),
+        seconds=perf_counter() - start_time,
     )
 
 
-class _Search:
+class _RangeSearch:
     """Samples of the box of a claim, and the ranges that they allow.
 
     Args:
@@ -210,191 +210,184 @@ class _Search:
         self._claim, self._arm, self._bounds, self._seed = claim, claim.arm, bounds, seed
         self._targets, self._values = targets, values
         self._task: Task = as_task(claim.arm, claim.task)
-        self._poses = self._drawn(0)
+        self._poses = samples.sample_box_poses(self._claim, self._targets, self._seed, 0)
         locks = np.isin(np.arange(claim.arm.n), claim.locks)
         width = bounds[:, 1] - bounds[:, 0]
-        self._circle = locks & joint_space.turning(claim.arm) & (width >= 2 * np.pi - 1e-9)
+        self._is_periodic = locks & joint_space.turning(claim.arm) & (width >= 2 * np.pi - 1e-9)
         turns = np.where(claim.arm.prismatic | ~locks, 1, np.maximum(np.nan_to_num(width) / (2 * np.pi), 1))
         self._grids = [
-            np.linspace(low, high, int(np.ceil(values * turn)) + wraps)[: int(np.ceil(values * turn))] if lock else np.empty(0)
-            for (low, high), turn, wraps, lock in zip(bounds, turns, self._circle, locks, strict=True)
+            np.linspace(lower, upper, int(np.ceil(values * turn_count)) + is_periodic)[: int(np.ceil(values * turn_count))]
+            if is_locked
+            else np.empty(0)
+            for (lower, upper), turn_count, is_periodic, is_locked in zip(bounds, turns, self._is_periodic, locks, strict=True)
         ]
 
-    def _drawn(self, sample: int) -> Array:
-        """Poses (N, 4, 4) of the corners of the box, and of targets inside."""
-        from scipy.stats import qmc
+    def add_sample(self, sample: int) -> None:
+        """Add a sample to the poses for which ranges are searched."""
+        self._poses = np.concatenate([self._poses, samples.sample_box_poses(self._claim, self._targets, self._seed, sample)])
 
-        box = self._claim.box
-        axes = box[:, 0] < box[:, 1]
-        corners = np.array(list(product(*([low, high] if low < high else [low] for low, high in box))))
-        inside = np.tile(box[:, 0], (self._targets if axes.any() else 0, 1))
-        if axes.any():
-            halton = qmc.Halton(int(axes.sum()), rng=np.random.default_rng([self._seed, sample]))
-            inside[:, axes] = qmc.scale(halton.random(len(inside)), *box[axes].T)
-        rows = np.vstack([corners, inside])
-        linear = 2 if self._claim.task.startswith("planar") else 3
-        poses = np.tile(np.eye(4), (len(rows), 1, 1))
-        poses[:, :linear, 3] = rows[:, :linear]
-        if self._claim.rotation is not None:
-            poses[:, :3, :3] = self._claim.rotation
-        elif rows.shape[1] > linear:  # of a planar pose yaw alone
-            angles = np.zeros((len(rows), 3))
-            angles[:, linear - rows.shape[1] :] = rows[:, linear:]
-            poses[:, :3, :3] = [rpy_rotation(row.tolist()) for row in angles]
-        return poses
-
-    def enlarge(self, sample: int) -> None:
-        """Add a sample to that for which ranges are looked for."""
-        self._poses = np.concatenate([self._poses, self._drawn(sample)])
-
-    def _survival(self, values: list[Array], poses: Array, sample: int) -> list[NDArray[np.bool_]]:
-        """For each joint (N, K) whether each pose is reached with the joint locked at each of its values (K,)."""
+    def _check_survival(self, values: list[Array], poses: Array, sample: int) -> list[NDArray[np.bool_]]:
+        """Return for each joint whether each pose is reached (N, K) with the joint locked at each of its values (K,)."""
         table = samples.survival(self._arm, self._task, poses, values, self._seed + sample)
-        for k, (each, column) in enumerate(zip(table, values, strict=True)):
-            row, at = np.nonzero(~each & (each.mean(axis=0) >= _NEARLY_ALL))
-            if len(row):
-                locks, draws = np.full(len(row), k), np.random.SeedSequence([self._seed + sample, k, 1])
+        for joint, (each, column) in enumerate(zip(table, values, strict=True)):
+            lost_pose, lost_value = np.nonzero(~each & (each.mean(axis=0) >= _RETRY_FRACTION))
+            if len(lost_pose):
+                locks, random_seed = np.full(len(lost_pose), joint), np.random.SeedSequence([self._seed + sample, joint, 1])
                 engine = solver(self._arm, self._task)
-                each[row, at] = engine.reaches_locked(poses[row], locks, column[at], draws, _MORE_RESTARTS, samples.TOLERANCE)
+                each[lost_pose, lost_value] = engine.reaches_locked(
+                    poses[lost_pose], locks, column[lost_value], random_seed, _MORE_RESTARTS, samples.TOLERANCE
+                )
         return table
 
-    def _healthy(self, ranges: Array, poses: Array) -> NDArray[np.bool_]:
-        """(N,) whether the healthy arm reaches each pose within the ranges."""
-        arm = samples.limited(self._arm, ranges)
-        reached = samples.reached(arm, self._task, poses, self._seed)
-        if _NEARLY_ALL <= reached.mean() < 1:
-            draws = np.random.SeedSequence([self._seed, 1])
-            again = solver(arm, self._task).solve(poses[~reached], draws, _MORE_RESTARTS, samples.TOLERANCE)
-            reached[~reached] = again.success
+    def _check_healthy(self, ranges: Array, poses: Array) -> NDArray[np.bool_]:
+        """Return (N,) whether the healthy arm reaches each pose within the ranges."""
+        limited_arm = samples.limited(self._arm, ranges)
+        reached = samples.reached(limited_arm, self._task, poses, self._seed)
+        if _RETRY_FRACTION <= reached.mean() < 1:
+            random_seed = np.random.SeedSequence([self._seed, 1])
+            retried = solver(limited_arm, self._task).solve(poses[~reached], random_seed, _MORE_RESTARTS, samples.TOLERANCE)
+            reached[~reached] = retried.success
         return reached
 
-    def widest(self, margin: float) -> tuple[Array, bool]:
+    def find_widest(self, margin: float) -> tuple[Array, bool]:
         """Return ranges (n, 2), and whether all targets pass."""
-        table = self._survival(self._grids, self._poses, 0)
-        intervals = [self._intervals(k, each) for k, each in enumerate(table)]
-        arm = samples.limited(self._arm, self._bounds)
-        q = samples.configurations(arm, self._task, self._poses, np.random.default_rng([self._seed, 99]))
+        table = self._check_survival(self._grids, self._poses, 0)
+        intervals = [self._find_intervals(index, each) for index, each in enumerate(table)]
+        limited_arm = samples.limited(self._arm, self._bounds)
+        q = samples.configurations(limited_arm, self._task, self._poses, np.random.default_rng([self._seed, 99]))
         if all(map(len, intervals)):
-            for chosen in self._combinations(intervals, q):
-                for cut in (margin, margin / 4, 0.0):
-                    ranges = np.array([self._trimmed(k, pair, cut) for k, pair in enumerate(chosen)])
-                    if self._healthy(ranges, self._poses).all():
+            for chosen in self._combine_intervals(intervals, q):
+                for trimmed_fraction in (margin, margin / 4, 0.0):
+                    ranges = np.array([self._trim_interval(index, pair, trimmed_fraction) for index, pair in enumerate(chosen)])
+                    if self._check_healthy(ranges, self._poses).all():
                         return ranges, True
-        return self._most_held(table, q), False
+        return self._choose_ranges(table, q), False
 
-    def _intervals(self, k: int, table: NDArray[np.bool_]) -> Array:
-        """(C, 2) the widest intervals of a joint at whose values no target is lost; its bounds if it does not lock."""
-        grid, good = self._grids[k], np.asarray(table.all(axis=0))
-        if good.all():
-            return np.asarray(self._bounds[k][None])
-        if self._circle[k]:  # once round, from a value that fails to itself
-            first = int(np.argmin(good))
-            grid, good = np.append(grid[first:], grid[: first + 1] + 2 * np.pi), np.append(good[first:], good[: first + 1])
-        if not good.any():
+    def _find_intervals(self, joint: int, table: NDArray[np.bool_]) -> Array:
+        """Find the widest intervals (C, 2) of a joint in which no target is lost; its bounds if it does not lock."""
+        grid, survives = self._grids[joint], np.asarray(table.all(axis=0))
+        if survives.all():
+            return np.asarray(self._bounds[joint][None])
+        if self._is_periodic[joint]:  # once round, from a value that fails to itself
+            first = int(np.argmin(survives))
+            grid, survives = (
+                np.append(grid[first:], grid[: first + 1] + 2 * np.pi),
+                np.append(survives[first:], survives[: first + 1]),
+            )
+        if not survives.any():
             best = int(np.argmax(table.mean(axis=0)))
             grid = np.linspace(grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)], self._values)
-            good = self._survives(k, grid)
-        runs = _runs(good)
+            survives = self._check_values(joint, grid)
+        runs = _find_runs(survives)
         inner, outer = grid[runs], grid[np.clip(runs + np.array([-1, 1]), 0, len(grid) - 1)]
-        for _ in range(_HALVINGS if len(runs) else 0):
+        for _ in range(_BISECTION_STEPS if len(runs) else 0):
             middle = (inner + outer) / 2
-            passed = self._survives(k, middle.ravel()).reshape(-1, 2)
+            passed = self._check_values(joint, middle.ravel()).reshape(-1, 2)
             inner, outer = np.where(passed, middle, inner), np.where(passed, outer, middle)
         return np.asarray(inner)
 
-    def _survives(self, k: int, values: Array) -> NDArray[np.bool_]:
-        """(K,) whether all targets survive a lock of a joint at each of some values (K,)."""
-        each = [values if j == k else np.empty(0) for j in range(self._arm.n)]
-        return np.asarray(self._survival(each, self._poses, 0)[k].all(axis=0), dtype=bool)
+    def _check_values(self, joint: int, values: Array) -> NDArray[np.bool_]:
+        """Return (K,) whether all targets survive a lock of a joint at each of some values (K,)."""
+        value_lists = [values if other == joint else np.empty(0) for other in range(self._arm.n)]
+        return np.asarray(self._check_survival(value_lists, self._poses, 0)[joint].all(axis=0), dtype=bool)
 
-    def _combinations(self, intervals: list[Array], q: Array) -> list[list[Array]]:
-        """One interval of each joint, for combinations within which configurations q (H, S, n) lie, the best first."""
-        flat = q.reshape(-1, self._arm.n)
-        which = np.full(flat.shape, -1)
-        for k, pairs in enumerate(intervals):
-            x = flat[:, k, None]
-            if self._circle[k]:
-                x = pairs[:, 0] + np.mod(x - pairs[:, 0], 2 * np.pi)
-            inside = (x >= pairs[:, 0]) & (x <= pairs[:, 1])
-            which[:, k] = np.where(inside.any(axis=1), inside.argmax(axis=1), -1)
-        tuples = np.unique(which[(which >= 0).all(axis=1)], axis=0)
-        chosen = [[intervals[k][c] for k, c in enumerate(row)] for row in tuples]
-        widths = [np.sort(_relative(self._arm, np.array(pairs))[list(self._claim.locks)]) for pairs in chosen]
-        order = sorted(range(len(chosen)), key=lambda i: (-widths[i][0], -widths[i].sum()))
-        return [chosen[i] for i in order[:_CANDIDATES]]
+    def _combine_intervals(self, intervals: list[Array], q: Array) -> list[list[Array]]:
+        """Choose one interval of each joint, for combinations in which configurations q (H, S, n) lie, the best first."""
+        configurations = q.reshape(-1, self._arm.n)
+        interval_index = np.full(configurations.shape, -1)
+        for index, pairs in enumerate(intervals):
+            values = configurations[:, index, None]
+            if self._is_periodic[index]:
+                values = pairs[:, 0] + np.mod(values - pairs[:, 0], 2 * np.pi)
+            inside = (values >= pairs[:, 0]) & (values <= pairs[:, 1])
+            interval_index[:, index] = np.where(inside.any(axis=1), inside.argmax(axis=1), -1)
+        tuples = np.unique(interval_index[(interval_index >= 0).all(axis=1)], axis=0)
+        chosen = [[intervals[index][interval] for index, interval in enumerate(row)] for row in tuples]
+        widths = [np.sort(_relative_widths(self._arm, np.array(pairs))[list(self._claim.locks)]) for pairs in chosen]
+        order = sorted(range(len(chosen)), key=lambda rank: (-widths[rank][0], -widths[rank].sum()))
+        return [chosen[rank] for rank in order[:_MAX_CANDIDATES]]
 
-    def _most_held(self, table: list[NDArray[np.bool_]], q: Array) -> Array:
-        """Ranges (n, 2) that most targets pass, of which there are configurations q (H, S, n)."""
+    def _choose_ranges(self, table: list[NDArray[np.bool_]], q: Array) -> Array:
+        """Choose ranges (n, 2) that most targets with configurations q (H, S, n) pass."""
         choices = []
-        for k, (grid, circle, survives) in enumerate(zip(self._grids, self._circle, table, strict=True)):
-            low, high = self._bounds[k]
-            if len(grid) and low < high:
-                some = slice(None, None, -(-len(grid) // self._values))  # of several turns
-                choices.append(samples.Choices.of(grid[some], bool(circle), survives[:, some], q[:, :, k]))
+        for joint, (grid, is_periodic, survives) in enumerate(zip(self._grids, self._is_periodic, table, strict=True)):
+            lower, upper = self._bounds[joint]
+            if len(grid) and lower < upper:
+                thinned = slice(None, None, -(-len(grid) // self._values))  # of several turns
+                choices.append(samples.Choices.of(grid[thinned], bool(is_periodic), survives[:, thinned], q[:, :, joint]))
             else:
-                inside = (q[None, :, :, k] >= low) & (q[None, :, :, k] <= high)
-                choices.append(samples.Choices(self._bounds[k][None], np.array([survives.all(axis=1)]), inside))
-        kept = np.all([(each.survives[..., None] & each.holds).any(axis=0) for each in choices], axis=0)
-        begin = np.where(kept[..., None], q, np.nan) if kept.any() else q
-        ranges = samples.most_held(choices, begin, np.random.default_rng([self._seed, 98]))
-        return self._bounds if ranges is None else np.array([self._rounded(k, pair) for k, pair in enumerate(ranges)])
+                inside = (q[None, :, :, joint] >= lower) & (q[None, :, :, joint] <= upper)
+                choices.append(samples.Choices(self._bounds[joint][None], np.array([survives.all(axis=1)]), inside))
+        contained = np.all([(choice.survives[..., None] & choice.holds).any(axis=0) for choice in choices], axis=0)
+        start_q = np.where(contained[..., None], q, np.nan) if contained.any() else q
+        ranges = samples.most_held(choices, start_q, np.random.default_rng([self._seed, 98]))
+        return (
+            self._bounds
+            if ranges is None
+            else np.array([self._round_interval(joint, pair) for joint, pair in enumerate(ranges)])
+        )
 
-    def _trimmed(self, k: int, pair: Array, cut: float) -> Array:
-        """An interval without a margin at the ends at which targets are lost."""
-        whole = self._bounds[k]
-        away = cut * (pair[1] - pair[0]) * np.array([1, -1])
-        return self._rounded(k, np.where(pair == whole, pair, pair + away))
+    def _trim_interval(self, joint: int, pair: Array, fraction: float) -> Array:
+        """Trim an interval by a margin at the ends at which targets are lost."""
+        bounds = self._bounds[joint]
+        shift = fraction * (pair[1] - pair[0]) * np.array([1, -1])
+        return self._round_interval(joint, np.where(pair == bounds, pair, pair + shift))
 
-    def _rounded(self, k: int, pair: Array) -> Array:
-        """An interval rounded inwards to what :attr:`WorkingRanges.options` prints; the limits of the arm are kept."""
-        joint, (low, high) = self._arm.joints[k], self._bounds[k]
+    def _round_interval(self, index: int, pair: Array) -> Array:
+        """Round an interval inwards to the digits of :attr:`WorkingRanges.options`; the limits of the arm stay as they are."""
+        joint, (lower, upper) = self._arm.joints[index], self._bounds[index]
         digits, factor = 4 if joint.prismatic else 2, joint.shown[0]
         if (pair == [joint.lower, joint.upper]).all() or factor * (pair[1] - pair[0]) < 3 * 10**-digits:
             return pair
         unit = 1.0 if joint.prismatic else np.pi / 180  # as the command line reads degrees
 
-        def end(x: float, inward: int) -> float:
-            number = np.ceil(inward * x * factor * 10**digits - 1e-6)
-            value = unit * float(f"{inward * number / 10**digits:.{digits}f}")
-            beyond = not self._circle[k] and not low <= value <= high
-            return unit * float(f"{inward * (number + 1) / 10**digits:.{digits}f}") if beyond else value
+        def round_end(bound: float, inward: int) -> float:
+            scaled = np.ceil(inward * bound * factor * 10**digits - 1e-6)
+            value = unit * float(f"{inward * scaled / 10**digits:.{digits}f}")
+            beyond = not self._is_periodic[index] and not lower <= value <= upper
+            return unit * float(f"{inward * (scaled + 1) / 10**digits:.{digits}f}") if beyond else value
 
-        return np.array([end(pair[0], 1), end(pair[1], -1)])
+        return np.array([round_end(pair[0], 1), round_end(pair[1], -1)])
 
-    def judged(self, ranges: Array, sample: int) -> tuple[NDArray[np.bool_], list[tuple[NDArray[np.bool_], Array]]]:
-        """Return for a fresh sample (N,) targets within the ranges, and for each joint (N, K) those that survive its locks.
+    def evaluate_ranges(self, ranges: Array, sample: int) -> tuple[NDArray[np.bool_], list[tuple[NDArray[np.bool_], Array]]]:
+        """Return for a held-out sample (N,) targets within the ranges, and for each joint (N, K) those that survive its locks.
 
         The values (K,) at which a joint is locked are the ends of its range and one value in each of equal parts of it.
         """
-        poses, rng = self._drawn(sample), np.random.default_rng([self._seed, sample, 1])
+        poses, generator = (
+            samples.sample_box_poses(self._claim, self._targets, self._seed, sample),
+            np.random.default_rng([self._seed, sample, 1]),
+        )
         parts = max(self._values - 2, 1)
-        between = (np.arange(parts) + rng.random(parts)) / parts
+        between = (np.arange(parts) + generator.random(parts)) / parts
         values = [
-            low + (high - low) * np.concatenate([[0], between, [1]]) if k in self._claim.locks else np.empty(0)
-            for k, (low, high) in enumerate(ranges)
+            lower + (upper - lower) * np.concatenate([[0], between, [1]]) if joint in self._claim.locks else np.empty(0)
+            for joint, (lower, upper) in enumerate(ranges)
         ]
-        return self._healthy(ranges, poses), list(zip(self._survival(values, poses, sample), values, strict=True))
+        return self._check_healthy(ranges, poses), list(zip(self._check_survival(values, poses, sample), values, strict=True))
 
-    def shortened(self, ranges: Array, survives: list[tuple[NDArray[np.bool_], Array]]) -> bool:
+    def shorten_ranges(self, ranges: Array, survives: list[tuple[NDArray[np.bool_], Array]]) -> bool:
         """Shorten ranges in place to the longest run of values that lose no target; return whether any was shortened."""
         changed = False
-        for k, (table, values) in enumerate(survives):
-            good = np.asarray(table.all(axis=0))
-            if good.all() or not good.any():
+        for joint, (table, values) in enumerate(survives):
+            survives_lock = np.asarray(table.all(axis=0))
+            if survives_lock.all() or not survives_lock.any():
                 continue
-            runs = _runs(good)
+            runs = _find_runs(survives_lock)
             first, last = runs[int(np.argmax(values[runs[:, 1]] - values[runs[:, 0]]))]
-            ranges[k], changed = self._rounded(k, values[[first, last]]), True
+            ranges[joint], changed = self._round_interval(joint, values[[first, last]]), True
         return changed
 
 
-def _runs(good: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """(R, 2) first and last index of each run of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], good.astype(np.int64), [0]])))
+def _find_runs(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Return the first and last index (R, 2) of each run of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int64), [0]])))
     return np.asarray(edges.reshape(-1, 2) - [0, 1], dtype=np.int64)
 
 
-def _relative(arm: Arm, ranges: Array) -> Array:
-    low, high = finite_limits(arm)
-    whole = np.where(arm.prismatic, high - low, np.minimum(high - low, 2 * np.pi))
-    return np.minimum(ranges[:, 1] - ranges[:, 0], whole) / np.where(whole > 0, whole, 1.0) + (whole <= 0)
+def _relative_widths(arm: Arm, ranges: Array) -> Array:
+    lower, upper = finite_limits(arm)
+    limit_widths = np.where(arm.prismatic, upper - lower, np.minimum(upper - lower, 2 * np.pi))
+    return np.minimum(ranges[:, 1] - ranges[:, 0], limit_widths) / np.where(limit_widths > 0, limit_widths, 1.0) + (
+        limit_widths <= 0
+    )

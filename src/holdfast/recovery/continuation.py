@@ -120,7 +120,7 @@ def rest_of_path(
     return (along(made, solver, path, motions[0]) if motions else made), motions
 
 
-def continued(
+def continue_unfinished_path(
     made: RestOfPath,
     solver: RowSolver,
     space: Space,
@@ -130,7 +130,7 @@ def continued(
     starts: int,
     rng: np.random.Generator,
 ) -> tuple[RestOfPath, list[Array]]:
-    """A path that was not finished, with the furthest place to which the arm follows it, and the motion if that is its end.
+    """Continue an unfinished path to its furthest reachable point; also return the motion if it gets to the end.
 
     Followed are all configurations of the first pose that were found and to which a motion leads.
     """
@@ -187,7 +187,7 @@ def without_rows(
             given_up, motion = best
             mask = np.ones(solver.rows.m)
             mask[list(given_up)] = 0.0
-            given_up = tuple(np.flatnonzero(solver.missed(motion, poses).any(axis=0)).tolist())
+            given_up = tuple(np.flatnonzero(solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
             if not given_up:  # a row that is met all the way is not given up
                 return along(made, solver, path, motion), [motion]
             misses = np.abs(solver.errors(motion, poses)).max(axis=0)[list(given_up)]

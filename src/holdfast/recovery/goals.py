@@ -160,7 +160,7 @@ def rows_to_give_up(
                 for fewer, ends in _with_fewer_rows(solver, space, pose, q[some], given_up).items():
                     found[fewer] = np.concatenate([found.get(fewer, ends[:0]), ends])
         found = {one: q for one, q in found.items() if not any(set(other) < set(one) for other in found)}
-    relaxed = [(given_up, _relaxed(solver, metric, space, pose, at, given_up, q)) for given_up, q in found.items()]
+    relaxed = [(given_up, _select_least_error(solver, metric, space, pose, at, given_up, q)) for given_up, q in found.items()]
     relaxed.sort(key=lambda x: (*preferred(rows, x[0]), float(np.linalg.norm(x[1].rows.misses))))
     return [one for _, one in relaxed]
 
@@ -177,7 +177,7 @@ def _with_fewer_rows(
         lost, begin = open_.pop()
         better = [_polished(solver, space, pose, x, list(lost)) for x in _distinct(begin)[:_POLISHED]]
         ends = np.concatenate([np.stack(better), begin])
-        missed = solver.missed(ends, np.repeat(pose[None], len(ends), axis=0))
+        missed = solver.find_violated_rows(ends, np.repeat(pose[None], len(ends), axis=0))
         for names in {tuple(np.flatnonzero(row).tolist()) for row in missed}:
             same = ends[(missed == np.isin(np.arange(solver.rows.m), names)).all(axis=1)]
             found[names] = np.concatenate([found.get(names, same[:0]), same])
@@ -193,10 +193,10 @@ def _with_fewer_rows(
     return found
 
 
-def _relaxed(
+def _select_least_error(
     solver: RowSolver, metric: Metric, space: Space, pose: Array, at: Array, given_up: tuple[int, ...], q: Array
 ) -> Relaxed:
-    """Of configurations (N, n) those that miss the rows given up by least, the nearest first."""
+    """Select the configurations (N, n) with the least error of the relaxed rows, the nearest first."""
     error = np.abs(solver.errors(q, np.repeat(pose[None], len(q), axis=0))[:, given_up])
     size = np.linalg.norm(error, axis=1)
     near = size <= size.min() * (1 + 1e-3) + 1e-6

@@ -203,7 +203,7 @@ class RowSolver:
         """(N,) True where the tool's z axis at q (N, n) is within the angle of that of a pose (4, 4), or none is given."""
         if self.rows.within is None:
             return np.ones(len(q), dtype=bool)
-        return ~self.missed(q, np.repeat(pose[None], len(q), axis=0))[:, -1]
+        return ~self.find_violated_rows(q, np.repeat(pose[None], len(q), axis=0))[:, -1]
 
     def slopes(self, q: Array, pose: Array) -> Array:
         """Exact derivative (m, n) of :meth:`errors` at q (n,) and pose (4, 4), or (N, m, n) at (N, n) and (N, 4, 4)."""
@@ -229,10 +229,10 @@ class RowSolver:
     def meets(self, q: Array, poses: Array, kept: Array, free: Flags) -> Flags:
         """(N,) True where the joints that are free keep their limits and the rows kept (N, m) above 0 are within tolerance."""
         inside = (((q >= self.arm.lower) & (q <= self.arm.upper)) | ~free).all(axis=1)
-        return np.asarray(inside & ~(self.missed(q, poses) & (kept > 0)).any(axis=1))
+        return np.asarray(inside & ~(self.find_violated_rows(q, poses) & (kept > 0)).any(axis=1))
 
-    def missed(self, q: Array, poses: Array) -> Flags:
-        """(N, m) True for rows that configurations (N, n) miss by more than the tolerance."""
+    def find_violated_rows(self, q: Array, poses: Array) -> Flags:
+        """Return (N, m) True for rows whose error at q (N, n) exceeds the tolerance."""
         return np.asarray(~(np.abs(self.errors(q, poses) / self._scale) <= self._tolerance))
 
     def nearest(self, q: Array, poses: Array, kept: Array, free: Flags) -> Array:

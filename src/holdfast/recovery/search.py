@@ -23,7 +23,7 @@ from holdfast.failures import Locked, degraded_at
 from holdfast.keep.labels import KeepLike, all_kept
 from holdfast.notice import says
 from holdfast.recovery.completion import completed
-from holdfast.recovery.continuation import RestOfPath, along, continued, refined, rest_of_path, without_rows
+from holdfast.recovery.continuation import RestOfPath, along, continue_unfinished_path, refined, rest_of_path, without_rows
 from holdfast.recovery.goals import configurations_of, rows_to_give_up, what_bars
 from holdfast.recovery.layers import shorter
 from holdfast.recovery.proofs.of_path import proved_of_path
@@ -248,7 +248,7 @@ class _Search:
         rest, motions = rest_of_path(self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
         self._look("following the tool path")
         if not rest.finished:
-            rest, motions = self._continued(rest, path, here)
+            rest, motions = self._extend_path(rest, path, here)
         if not rest.finished:
             self.made = proved_of_path(self.made, rest, path, solver=self.solver, space=self.space)
             shape, lost = unknown_shape(self.space.clearance), rest.first_lost
@@ -262,12 +262,12 @@ class _Search:
         reached = self._reach(here, path, rest, motions)
         if not reached.cut_off or rest.given_up is not None:
             return reached
-        rest, motions = self._continued(reached, path, here)
+        rest, motions = self._extend_path(reached, path, here)
         return self._reach(here, path, rest, motions) if motions else rest
 
-    def _continued(self, rest: RestOfPath, path: Path, here: Array) -> tuple[RestOfPath, list[Array]]:
-        """The same with the furthest place to which the arm can follow the path, and the motion if that is its end."""
-        return continued(rest, self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
+    def _extend_path(self, rest: RestOfPath, path: Path, here: Array) -> tuple[RestOfPath, list[Array]]:
+        """Extend the motion along the path as far as possible; also return the motion if it gets to the end."""
+        return continue_unfinished_path(rest, self.solver, self.space, self.metric, path, here, self.made.starts, self.rng)
 
     def _reach(self, here: Array, path: Path, rest: RestOfPath, motions: list[Array]) -> RestOfPath:
         """The first of the motions along the path that can be reached, and is near it all the way."""

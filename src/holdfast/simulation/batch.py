@@ -328,10 +328,10 @@ class Motion:
             if not (np.isfinite(until) and until > 0):
                 raise InputError(f"until is {until:g}; it must be a finite number above 0")
             end = min(end, float(until))
-        return self.sampled(runs, k, self.recorded(runs, k, end)[1], np.linspace(0.0, end, samples))
+        return self.sample_path(runs, k, self.recorded(runs, k, end)[1], np.linspace(0.0, end, samples))
 
-    def sampled(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path:
-        """Sample run k, as :meth:`recorded` returned it, at times (T,)."""
+    def sample_path(self, runs: Runs, k: int, at: Callable[[Array], Array], time: Array) -> Path:
+        """Sample run k, as the run was replayed, at times (T,)."""
         q = at(time)
         position, angle = self.errors(runs, k, q)
         locked = time[:, None] >= np.atleast_2d(runs.lock_time)[k]

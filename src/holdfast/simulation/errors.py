@@ -112,7 +112,7 @@ def error_history(runs: Runs, k: int = 0) -> ErrorHistory:
     rests = np.atleast_1d(runs.code)[k] in (Outcome.CONVERGED, Outcome.STUCK)
     later = [lock + delay for delay in LATER if rests or lock + delay <= end]
     time = np.unique(np.concatenate([grid, [0.0, lock, end], later]))
-    path = runs._motion.sampled(runs, k, at, np.minimum(time, end))
+    path = runs._motion.sample_path(runs, k, at, np.minimum(time, end))
     within = time <= end
     after = within & (time >= lock)
 
@@ -122,14 +122,14 @@ def error_history(runs: Runs, k: int = 0) -> ErrorHistory:
     def largest(values: Array) -> ErrorAt:
         return error_at(int(np.argmax(np.where(after, values, -np.inf))))
 
-    def least(values: Array) -> ErrorAt:
+    def find_least(values: Array) -> ErrorAt:
         return error_at(int(np.argmin(np.where(within, values, np.inf))))
 
     return ErrorHistory(
         lock_time=lock,
         end=error_at(int(np.flatnonzero(within)[-1])),
-        least_position=least(path.position_error),
-        least_angle=least(path.angle_error),
+        least_position=find_least(path.position_error),
+        least_angle=find_least(path.angle_error),
         largest_position=largest(path.position_error),
         largest_angle=largest(path.angle_error),
         later=tuple(error_at(int(np.searchsorted(time, t))) for t in later),

@@ -69,13 +69,13 @@ def _try(cell: Cell, rows: int, seed: int, number: int = 0) -> tuple[float, Mapp
     """Compute a number of rows and return the processor time in seconds, and the columns."""
     chunk = cell.smaller(rows).part(0, seed) if number == 0 else cell.part(number, seed)
 
-    def timed() -> tuple[float, Mapping[str, NDArray[Any]]]:
+    def run_timed() -> tuple[float, Mapping[str, NDArray[Any]]]:
         begin = time.thread_time()
         columns = cell.job.run(chunk)
         return time.thread_time() - begin, columns
 
     # In one thread of the pool, as when the study runs: what is compiled in the background meanwhile does not count.
-    return pool().submit(timed).result()
+    return pool().submit(run_timed).result()
 
 
 def _seconds_of_a_chunk(cell: Cell, seed: int, first: float) -> float:

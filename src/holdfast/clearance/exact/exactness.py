@@ -163,14 +163,14 @@ class Exactness:
 
     def _known_meetings(self, engine: Engine) -> Meetings:
         parts = [replace(part, body=part.body.filled or part.body) for part in self.parts if part.known]
-        between = [_between(parts, *links, self._unchecked) for links in self._columns]
+        between = [_find_checked_pairs(parts, *links, self._unchecked_links) for links in self._columns]
         return Meetings(self.arm, parts, between, self.obstacles, engine)
 
     def _contacts(self, engine: Engine) -> Meetings:
         return Meetings(
             self.arm,
             self.parts,
-            [_between(self.parts, *links, self._unchecked) for links in self._columns],
+            [_find_checked_pairs(self.parts, *links, self._unchecked_links) for links in self._columns],
             self.obstacles,
             engine,
         )
@@ -178,7 +178,7 @@ class Exactness:
     # ---- pairs of links ------------------------------------------------------------------------------------------
 
     @property
-    def _unchecked(self) -> frozenset[tuple[str, str]]:
+    def _unchecked_links(self) -> frozenset[tuple[str, str]]:
         """Pairs of links of the file that are not checked."""
         return frozenset() if self.capsules.shape is None else self.capsules.shape.unchecked
 
@@ -203,7 +203,10 @@ class Exactness:
     @property
     def own_bodies(self) -> list[tuple[list[int], list[tuple[int, int]]]]:
         """Of each two links: their pairs of the clearance, and bodies that are checked, by their positions in ``parts``."""
-        return [(columns, _between(self.parts, *links, self._unchecked)) for links, columns in self._columns.items()]
+        return [
+            (columns, _find_checked_pairs(self.parts, *links, self._unchecked_links))
+            for links, columns in self._columns.items()
+        ]
 
     # ---- bounds --------------------------------------------------------------------------------------------------
 
@@ -265,8 +268,10 @@ class Exactness:
         return FormulaObjects(self.arm, balls, [inner for _, inner in pairs], added)
 
 
-def _between(parts: Sequence[Part], low: Group, high: Group, unchecked: frozenset[tuple[str, str]]) -> list[tuple[int, int]]:
-    """Bodies of two links that are checked against each other, by their positions in ``parts``."""
+def _find_checked_pairs(
+    parts: Sequence[Part], low: Group, high: Group, unchecked: frozenset[tuple[str, str]]
+) -> list[tuple[int, int]]:
+    """Find the bodies of two links that are checked against each other, by their positions in ``parts``."""
     found = []
     for a, b in product(range(len(parts)), repeat=2):
         one, other = parts[a], parts[b]

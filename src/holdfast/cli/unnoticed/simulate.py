@@ -85,7 +85,7 @@ def command(
         others = {"--start": start, "--target": target, "--failure": failure, "--task": task, "--speed-limit": speed_limit}
         others |= {"--cycles": cycles, "--time-limit": time_limit, "--faults": faults, "--notice": notice, "--record": record}
         _refuse(others | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
-        played = _played(chain.arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched)
+        played = _play_motion(chain.arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched)
         printed(played, json_, drawn(played, plot, out) + ([] if csv is None else [played.to_csv(csv)]))
         return
     if error_limit is not None:
@@ -145,8 +145,10 @@ def _refuse(others: Mapping[str, object], with_: str = "--faults, --notice or --
         raise InputError(f"{given} does not go with {with_}; leave it out")
 
 
-def _played(arm: Arm, file: Path, locks: list[str], limit: str | None, servos: hf.Servos, touched: Touched) -> hf.Execution:
-    """A motion of a file carried out with joints that lock on the way."""
+def _play_motion(
+    arm: Arm, file: Path, locks: list[str], limit: str | None, servos: hf.Servos, touched: Touched
+) -> hf.Execution:
+    """Execute the motion of a file with joints that lock during it."""
     from holdfast.diagnosis.foresight.motions import read_motion as read_record
     from holdfast.studio.motions import read_motion as read_table
 

@@ -23,11 +23,11 @@ def error_rows(runs: Runs, history: ErrorHistory, k: int = 0) -> list[tuple[str,
     """Return the errors of one run as rows of a table."""
     law, unit = runs.law, runs.unit
 
-    def at(error: ErrorAt) -> str:
+    def format_error_at(error: ErrorAt) -> str:
         return error_text(law, error.position, error.angle)
 
     since = "after the lock" if np.isfinite(np.atleast_2d(runs.lock_time)[k]).any() else "after the start"
-    rows = [("error at the end", at(history.end))]
+    rows = [("error at the end", format_error_at(history.end))]
     if law.task.rows[:, :3].any():
         largest = history.largest_position
         rows.append(
@@ -44,7 +44,7 @@ def error_rows(runs: Runs, history: ErrorHistory, k: int = 0) -> list[tuple[str,
                 f"{number(np.rad2deg(largest.angle))}°, at {number(largest.time)} {unit}",
             )
         )
-    rows += [(f"error {delay_of(e, history)} {unit} {since}", at(e)) for e in history.later]
+    rows += [(f"error {delay_of(e, history)} {unit} {since}", format_error_at(e)) for e in history.later]
     rows.append(("least error that the failed arm can have", f"{error_text(law, *least_errors(runs, k))}, as far as was found"))
     closest = error_text(law, history.least_position.position, history.least_angle.angle)
     rows.append(("least error on the way" + ", each for itself" * (" and " in closest), closest))

@@ -104,13 +104,13 @@ class _RunReport:
     def path(self) -> Path:
         """The whole run, sampled often enough to show every motion of it."""
         samples = float(self._of("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _SAMPLE_DENSITY
-        return self._sampled(int(np.clip(samples, _SAMPLES, _MOST_SAMPLES)), float(self._of("time")))
+        return self._sample_path(int(np.clip(samples, _SAMPLES, _MOST_SAMPLES)), float(self._of("time")))
 
-    def _sampled(self, samples: int, until: float) -> Path:
-        return self.runs._motion.sampled(self.runs, self.k, self._at, np.linspace(0.0, until, samples))
+    def _sample_path(self, samples: int, until: float) -> Path:
+        return self.runs._motion.sample_path(self.runs, self.k, self._interpolate, np.linspace(0.0, until, samples))
 
     @cached_property
-    def _at(self) -> Callable[[Array], Array]:
+    def _interpolate(self) -> Callable[[Array], Array]:
         return self.runs._motion.recorded(self.runs, self.k, float(self._of("time")))[1]
 
     @cached_property
@@ -123,11 +123,11 @@ class _RunReport:
             away = np.flatnonzero((np.abs(whole.q - whole.q[-1]) > _STILL).any(axis=1))
             if away.size:
                 end = min(1.03 * float(whole.time[min(away[-1] + 1, len(whole.time) - 1)]), end)
-        return self._sampled(_SAMPLES, end)
+        return self._sample_path(_SAMPLES, end)
 
     @property
-    def omitted(self) -> str:
-        """A sentence about the part of the run that is not drawn; empty where all is drawn."""
+    def omission_note(self) -> str:
+        """Sentence about the part of the run that is not drawn; empty where all is drawn."""
         shown, whole = float(self.seen.time[-1]), float(self._of("time"))
         if shown >= 0.99 * whole:
             return ""
@@ -260,7 +260,7 @@ class _RunReport:
                 sections,
                 subtitle=f"{law}; locked: {', '.join(self.standing) or 'no joint'}",
                 facts=self._facts(),
-                method=how(self.arm, ("Law", law), ("Drawn", self.omitted or "The whole run.")),
+                method=how(self.arm, ("Law", law), ("Drawn", self.omission_note or "The whole run.")),
                 again=command,
             ),
             file,
@@ -286,14 +286,14 @@ class _RunReport:
             cell=None if self.runs.clearance is None else self.runs.clearance.cell,
         )
         caption = "The arm moving; joints turn orange when they lock. Orange line: the straight way to the target."
-        return Picture(shown.html("motion", f"{self.arm.name} moving"), f"{caption} {self.omitted}".strip())
+        return Picture(shown.html("motion", f"{self.arm.name} moving"), f"{caption} {self.omission_note}".strip())
 
     def _error(self) -> Picture:
         seen = self.seen
         travelled = np.linalg.norm(seen.x - seen.x[0], axis=1)
         panels = [*self.panels(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
         figure = motion_figure(panels, self.caption, self._xlabel)
-        caption = f"Over time; the error on a log scale. {self.omitted}".strip()
+        caption = f"Over time; the error on a log scale. {self.omission_note}".strip()
         return Picture(svg(figure, "error", "Error of the end effector over time"), caption)
 
     def _joints(self) -> Picture:
@@ -310,7 +310,7 @@ class _RunReport:
             locked = " (locks)" if np.isfinite(self._lock_time[k]) else ""
             panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
         image = small_multiples(self.seen.time, panels, "Joint positions over time", self._xlabel)
-        return Picture(image, f"Joint positions; dashed: a limit, where one is near. {self.omitted}".strip())
+        return Picture(image, f"Joint positions; dashed: a limit, where one is near. {self.omission_note}".strip())
 
     def _touched(self) -> list[Block]:
         """How far the arm is from what it may touch, and every contact."""
