@@ -184,6 +184,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "solve_ik": (hf.solve_ik, {**at_planar, "poses": pose, "seed": 0, "restarts": 2, "tolerance": 1e-6, "start": q}),
         "stationary_points": (hf.stationary_points, {"law": law, "target": target, "locked": {1: 0.5}, "seed": 0}),
         "target_measures": (hf.target_measures, {"law": law, "targets": [target], "starts": 3, "configurations": 1, "seed": 0}),
+        "find_working_ranges": (
+            hf.find_working_ranges,
+            {"arm": arm, "centre": (1.2, 0.5), "size": 0.1, "task": "planar", "rotation": None, "rpy": None}
+            | {"working_ranges": None, "failures": "single", "targets": 4, "values": 4, "margin": 0.05, "seed": 0},
+        ),
         "tolerant_workspace": (
             hf.tolerant_workspace,
             {**at_planar, "limits": None, "rotation": None, "points": 5, "angles": 4, "seed": 0} | {"confidence": 0.95},

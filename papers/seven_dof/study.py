@@ -46,7 +46,7 @@ def part(name: str, task: str, motions: int, folder: Path, seed: int = SEED) -> 
         "names": list(c.names),
         "joints": list(c.joints),
         "outcomes": c.table,
-        "gains": c.to_dict()["gains"],
+        "gains": [row | _error_changes(c, row["law"], row["failure"]) for row in c.to_dict()["gains"]],
         "bounds": {n: [c.gain(n, undecided="against").low, c.gain(n, undecided="for").high] for n in c.names[1:]},
         "any": {n: _any(c, n) for n in c.names},
         "cost": {n: {of: c.cost(n, of).tolist() for of in COSTS} for n in c.names},
@@ -57,6 +57,14 @@ def part(name: str, task: str, motions: int, folder: Path, seed: int = SEED) -> 
     folder.mkdir(parents=True, exist_ok=True)
     file.write_text(json.dumps(found), encoding="utf-8")
     return found
+
+
+def _error_changes(c: hf.LawComparison, law: str, failure: str) -> dict[str, float]:
+    """Return the mean changes of the error, and of the error above the least possible, as norms over metres and radians."""
+    errors: tuple[Literal["error", "excess"], ...] = ("error", "excess")
+    changes = {of: c.change(law, of, failure) for of in errors}
+    ends = {"": "value", "_low": "low", "_high": "high"}
+    return {f"{of}{end}": getattr(change, name) for of, change in changes.items() for end, name in ends.items()}
 
 
 def _any(c: hf.LawComparison, name: str) -> dict[str, float]:

@@ -181,7 +181,7 @@ def test_an_arm_on_a_rail(lock, rng, tmp_path):
 
 
 def test_what_nothing_reaches_is_refused_before_the_search(panda):
-    with pytest.raises(InputError, match="no configuration is found for any of 250 targets"):
+    with pytest.raises(InputError, match="no configuration was found for any of 250 sampled targets"):
         hf.certify(reach_claim(panda, (1.5, 0, 0.3), 0.1))
 
 

@@ -128,7 +128,7 @@ def test_a_tool_turned_half_way_round_is_not_where_it_should_be(panda):
     limits = {k: (x - 0.3, x + 0.3) for k, x in enumerate(START)}
     assert hf.certify(reach_claim(panda, tip[:3, 3], 0.01, rotation=tip[:3, :3], limits=limits), halvings=2).proved == 1
     turned = tip[:3, :3] @ Rotation.from_euler("z", np.pi).as_matrix()
-    with pytest.raises(InputError, match="no configuration is found"):
+    with pytest.raises(InputError, match="no configuration was found"):
         hf.certify(reach_claim(panda, tip[:3, 3], 0.01, rotation=turned, limits=limits), halvings=2)
 
 

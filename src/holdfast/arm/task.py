@@ -49,7 +49,7 @@ class Task(Presentable):
         rows = np.array(self.rows, dtype=np.float64)
         if rows.ndim != 2 or rows.shape[1] != 6 or not 1 <= rows.shape[0] <= 6 or not np.isfinite(rows).all():
             raise TaskError(f"task '{self.name}': rows must be an array (m, 6) with m from 1 to 6, got shape {rows.shape}")
-        if not np.allclose(rows @ rows.T, np.eye(len(rows)), atol=1e-9):
+        if abs(rows).max() > 2 or not np.allclose(rows @ rows.T, np.eye(len(rows)), atol=1e-9):
             raise TaskError(f"task '{self.name}': its rows must be orthonormal, each a direction of (vx, vy, vz, wx, wy, wz)")
         if not (np.isfinite(self.length) and self.length > 0):
             raise TaskError(f"task '{self.name}': the characteristic length is {self.length:g} m; it must be above 0")

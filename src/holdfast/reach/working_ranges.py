@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 from time import perf_counter
 
 import numpy as np
@@ -14,7 +13,6 @@ from holdfast.arguments import check_arguments
 from holdfast.arm.configurations import finite_limits, make_limits_finite
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.arm.urdf import rpy_rotation
 from holdfast.certificates.claims import TolerantClaim, narrow_limits, tolerant_claim
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, single_joints
@@ -213,7 +211,7 @@ class _RangeSearch:
         self._claim, self._arm, self._bounds, self._seed = claim, claim.arm, bounds, seed
         self._targets, self._values = targets, values
         self._task: Task = as_task(claim.arm, claim.task)
-        self._poses = self._sample_poses(0)
+        self._poses = samples.sample_box_poses(self._claim, self._targets, self._seed, 0)
         locks = np.isin(np.arange(claim.arm.n), claim.locks)
         width = bounds[:, 1] - bounds[:, 0]
         self._is_periodic = locks & joint_space.is_unlimited(claim.arm) & (width >= 2 * np.pi - 1e-9)
@@ -225,32 +223,9 @@ class _RangeSearch:
             for (lower, upper), turn_count, is_periodic, is_locked in zip(bounds, turns, self._is_periodic, locks, strict=True)
         ]
 
-    def _sample_poses(self, sample: int) -> FloatArray:
-        """Return poses (N, 4, 4) of the corners of the box, and of targets inside."""
-        from scipy.stats import qmc
-
-        box = self._claim.box
-        varying = box[:, 0] < box[:, 1]
-        corners = np.array(list(product(*([lower, upper] if lower < upper else [lower] for lower, upper in box))))
-        inside = np.tile(box[:, 0], (self._targets if varying.any() else 0, 1))
-        if varying.any():
-            halton = qmc.Halton(int(varying.sum()), rng=np.random.default_rng([self._seed, sample]))
-            inside[:, varying] = qmc.scale(halton.random(len(inside)), *box[varying].T)
-        rows = np.vstack([corners, inside])
-        position_count = 2 if self._claim.task.startswith("planar") else 3
-        poses = np.tile(np.eye(4), (len(rows), 1, 1))
-        poses[:, :position_count, 3] = rows[:, :position_count]
-        if self._claim.rotation is not None:
-            poses[:, :3, :3] = self._claim.rotation
-        elif rows.shape[1] > position_count:  # of a planar pose yaw alone
-            angles = np.zeros((len(rows), 3))
-            angles[:, position_count - rows.shape[1] :] = rows[:, position_count:]
-            poses[:, :3, :3] = [rpy_rotation(row.tolist()) for row in angles]
-        return poses
-
     def add_sample(self, sample: int) -> None:
         """Add a sample to the poses for which ranges are searched."""
-        self._poses = np.concatenate([self._poses, self._sample_poses(sample)])
+        self._poses = np.concatenate([self._poses, samples.sample_box_poses(self._claim, self._targets, self._seed, sample)])
 
     def _check_survival(self, values: list[FloatArray], poses: FloatArray, sample: int) -> list[NDArray[np.bool_]]:
         """Return for each joint whether each pose is reached (N, K) with the joint locked at each of its values (K,)."""
@@ -386,7 +361,10 @@ class _RangeSearch:
 
         The values (K,) at which a joint is locked are the ends of its range and one value in each of equal parts of it.
         """
-        poses, generator = self._sample_poses(sample), np.random.default_rng([self._seed, sample, 1])
+        poses, generator = (
+            samples.sample_box_poses(self._claim, self._targets, self._seed, sample),
+            np.random.default_rng([self._seed, sample, 1]),
+        )
         parts = max(self._values - 2, 1)
         between = (np.arange(parts) + generator.random(parts)) / parts
         values = [

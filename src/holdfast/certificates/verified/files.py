@@ -65,7 +65,7 @@ def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:
             content = file.read(MAX_BYTES + 1)
         require(len(content) <= MAX_BYTES, f"{path.name} is larger than {MAX_BYTES >> 20} MB")
         document = json.loads(
-            content.decode(), object_pairs_hook=reject_duplicates, parse_constant=lambda x: require(0, f"{x} in it")
+            content.decode(), object_pairs_hook=reject_duplicates, parse_constant=lambda x: require(0, f"it contains {x}")
         )
         _check_document(document if isinstance(document, dict) else {})
     except CertificateRejected:
