@@ -171,7 +171,10 @@ def test_turned_cells_whose_equations_are_solved_badly():
     (b, a, c), (e, d, f) = [list(map(Fraction, row)) for row in slope[0].tolist()]
     assert (b * (1 - f) + c * e) / ((1 - a) * (1 - f) - c * d) > 2e13
     own = np.array([[[0.0, 0, 0, 0], [0, 0, 0, 0], [0, 2e13, 1, 0]]])
-    faults, cells = SimpleNamespace(m=2, bound_gradients=lambda cells, half: slope), SimpleNamespace(half_widths=np.ones((1, 4)))
+    faults, cells = (
+        SimpleNamespace(m=2, bound_gradients=lambda cells, half: slope),
+        SimpleNamespace(half_widths=np.ones((1, 4))),
+    )
     assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e30]))[0]
 
 

@@ -140,7 +140,8 @@ def test_every_command_is_in_the_table():
             defined = {getattr(node, "name", "") for node in ast.parse(file.read_text(encoding="utf-8")).body}
             if "command" in defined and f"{panel}.{file.stem}" not in places:
                 pytest.fail(
-                    f"no line of COMMAND_MODULES in src/holdfast/cli/program.py names {panel}.{file.stem}, which defines a command"
+                    f"no line of COMMAND_MODULES in src/holdfast/cli/program.py names {panel}.{file.stem}, "
+                    "which defines a command"
                 )
 
 

@@ -43,7 +43,8 @@ def test_joint_1_stretched_and_folded(curves):
     assert loop.closed
     np.testing.assert_allclose(np.sin(loop.q[:, 2]), 0, atol=1e-9)
     # From the source's side of the fold: -9.1414 deg and its mirror image.
-    np.testing.assert_allclose(sorted((np.rad2deg(loop.locked_values[loop.folds]) + 180) % 360 - 180), [-9.1414, 99.1414], atol=1e-3)
+    fold_angles = (np.rad2deg(loop.locked_values[loop.folds]) + 180) % 360 - 180
+    np.testing.assert_allclose(sorted(fold_angles), [-9.1414, 99.1414], atol=1e-3)
     np.testing.assert_allclose(np.abs(np.cos(loop.q[loop.rank_losses, 1])), 1, atol=1e-6)
     assert len(loop.rank_losses) == 2
     # Thales: the hand is at a right angle between the base and the target.

@@ -16,7 +16,11 @@ def gram(d, w):
 
 def exact(name, d, w):
     sigma = np.sqrt(np.maximum(np.linalg.eigvalsh(gram(d, w)), 0))
-    return {"smallest_singular_value": sigma[:, 0], "inverse_condition": sigma[:, 0] / sigma[:, -1], "mean_singular_value": sigma.mean(axis=1)}[name]
+    return {
+        "smallest_singular_value": sigma[:, 0],
+        "inverse_condition": sigma[:, 0] / sigma[:, -1],
+        "mean_singular_value": sigma.mean(axis=1),
+    }[name]
 
 
 def compiled(name, m):

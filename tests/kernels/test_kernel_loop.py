@@ -196,7 +196,9 @@ def test_a_row_that_goes_on_and_on_tells_of_its_steps(loop, monkeypatch):
     with notice.report_work("looking for roots"):
         told = []
         monkeypatch.setattr(
-            notice.ProgressCount, "add", lambda count, number: told.append((count.describe_progress("looking for roots"), number))
+            notice.ProgressCount,
+            "add",
+            lambda count, number: told.append((count.describe_progress("looking for roots"), number)),
         )
         loop.run(np.ones((1, 2)), np.full((1, 2), np.nan), TOLERANCE, 2500)
     assert [number for text, number in told if "of at most 2,500 steps" in text] == [1000, 1000, 500]

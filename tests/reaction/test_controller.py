@@ -41,7 +41,10 @@ class Robot:
 
     def hear(self, time, *, behind=0.0, v=0.1, wanted=0.1, gravity=0.0, alarm=True, **verdict):
         told = {"joint": JOINTS[1], "candidates": (), **verdict}
-        rows = {name: np.full(7, x) for name, x in (("tracking_error", behind), ("v", v), ("commanded_rates", wanted), ("gravity", gravity))}
+        rows = {
+            name: np.full(7, x)
+            for name, x in (("tracking_error", behind), ("v", v), ("commanded_rates", wanted), ("gravity", gravity))
+        }
         self.controller.on_verdict(time, FaultVerdict(alarm, 1.0, **told), **rows)
 
     def did(self):
@@ -150,7 +153,7 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
 
 def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
     route = SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *given, most: "no route" if given[3].locked else route)
+    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, most: "no route" if args[3].locked else route)
     robot = Robot(rates=0.0, plan=True)
     robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
     for time in (3.0, 3.1):

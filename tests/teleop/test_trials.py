@@ -233,6 +233,8 @@ def test_bad_input_is_refused(arm, plants, tasks):
     with pytest.raises(hf.InputError, match="dead zone"):
         Joystick(0.05, 0.06)
     with pytest.raises(hf.InputError, match="q0 has shape"):
-        drive_trials(plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy_mask(True), operator=ComputerOperator())
+        drive_trials(
+            plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy_mask(True), operator=ComputerOperator()
+        )
     with pytest.raises(hf.InputError, match="0 or more"):
         compute_cpm([[-1.0]])
