@@ -267,7 +267,7 @@ def test_screws_behind_the_first_and_second_order(rng, straight):
         q = np.zeros(n) if straight else rng.uniform(-2, 2, n)
         half = rng.uniform(0.02, 0.3, n) * rng.choice([0, 1], n)
         x = bounds.ScrewEnclosure(chain, at(*q, half=half))
-        point = chain.enclose_point(at(*q)).places.center[0, n // 2]
+        point = chain.enclose_point(at(*q)).points.center[0, n // 2]
         tip, z = chain.enclose_point(at(*q)).tip.center[0], chain.enclose_point(at(*q)).axes.center[0, n // 2]
         point = point + ((tip - point) @ z) * z
         for signs in itertools.product((-1.0, 1.0), repeat=n):
@@ -283,7 +283,7 @@ def test_screws_behind_the_first_and_second_order(rng, straight):
 
 def kept(chain, q, locks):
     """Relative manipulability after each lock, by singular values: sqrt(det(J_k J_k') / det(J J'))."""
-    moved = chain.moved(at(*q))
+    moved = chain.enclose_point(at(*q))
     jacobian = np.concatenate([moved.axes.center[0], moved.columns.center[0]], axis=1).T
     rows = jacobian[np.abs(jacobian).max(axis=1) > 1e-9]
     whole = np.prod(np.linalg.svd(rows)[1])

@@ -27,7 +27,7 @@ def quiet():
 
 def holds(ball, truth):
     """Whether each number lies in its ball."""
-    return (abs(truth - exact(ball.center)) <= exact(ball.off)).all()
+    return (abs(truth - exact(ball.center)) <= exact(ball.radius)).all()
 
 
 def draw_balls(rng, *shape):

@@ -558,7 +558,7 @@ def test_a_bundle_with_a_part_that_is_rejected(bundle, tmp_path):
     assert verdict.rejected == 1
     assert verdict.undecided == Fraction(1, 16)  # of the box times the angles
     assert verdict.tolerant_fraction == Fraction(3, 4)  # of the box
-    assert "undecided: 6.25" in verdict.sentence
+    assert "undecided: 6.25" in verdict.summary
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,7 @@ def room_of_the_end(clearance, poses, values):
     out = np.full((len(poses), len(values)), np.inf)
     for link, frame in ((arm.n - 1, last), (arm.n - 2, last @ back)):
         for k in np.flatnonzero((balls.link == link) & (link >= 0)):
-            centre = frame[..., :3, :3] @ balls.centre[k] + frame[..., :3, 3]
+            centre = frame[..., :3, :3] @ balls.center[k] + frame[..., :3, 3]
             for solid in cell:
                 if (solid.name, arm.joint_names[link]) not in cell.may_touch:
                     np.minimum(out, solid.signed_distance(centre) - balls.radius[k] - cell.margin_of(solid), out=out)

@@ -129,7 +129,9 @@ def test_differences_are_paired(compared):
     same = compared.gain("pseudoinverse", 1, than="pseudoinverse", among_reachable=True)
     assert (same.value, same.p_value) == (0, 1)
     pooled = compared.share_any(name)
-    assert pooled.value == pytest.approx(np.mean([compared.case(name, j).ended("converged").mean() for j in compared.joints]))
+    assert pooled.value == pytest.approx(
+        np.mean([compared.case(name, j).has_outcome("converged").mean() for j in compared.joints])
+    )
     assert pooled.low < pooled.value < pooled.high
 
 

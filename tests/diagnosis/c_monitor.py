@@ -145,7 +145,7 @@ def said_by_python(monitor, record):
             KINDS.index(v.kind),
             loss,
             stale,
-            monitor._alarm.force_advantage if v.alarm else 0,
+            monitor._alarm_decision.force_advantage if v.alarm else 0,
             -1 if v.suspect is None else names.index(v.suspect),
         ]
         rows.append([*monitor._residual, *monitor._residual_level, *monitor._tracking_excess, monitor._tool_excess, *last])

@@ -52,7 +52,7 @@ def test_a_record_that_ends_with_its_alarm_names_the_joint_with_the_largest_resi
     for _ in range(3):
         decision.add(still, still, (still, still, still, still), still, tracking)
     assert decision.current_verdict(last=True).joint == panda.joint_names[4]
-    assert decision.verdict().joint is None
+    assert decision.current_verdict().joint is None
 
 
 @pytest.mark.parametrize("sign", [-1, 1])

@@ -91,7 +91,7 @@ def test_nothing_survives_more_than_brute_force_finds(narrow):
     want, bound = brute_force(machine, path, 21, 0.1)
     assert best.survival == pytest.approx(want, abs=0.02)
     assert best.survival_bound == pytest.approx(bound, abs=0.01)
-    assert 0.2 < best.survival <= best.bound + 1e-9 < 1
+    assert 0.2 < best.survival <= best.survival_bound + 1e-9 < 1
     assert not best.guaranteed
 
 
@@ -99,7 +99,7 @@ def test_a_survival_is_quoted_with_what_is_possible(narrow):
     """Also in the first line of the report: another motion may survive more than the one that was found."""
     _, _, best = narrow
     assert best.survival <= best.survival_bound + 1e-9 < 1
-    assert f"no motion along this path survives more than {format_percent(best.bound)}" in best.headline
+    assert f"no motion along this path survives more than {format_percent(best.survival_bound)}" in best.headline
     assert best.headline in best.describe()[0]
 
 

@@ -54,7 +54,7 @@ def straight(tmp_path_factory) -> Study:
 
 def found(study, cell, number) -> dict:
     store = study.cell_store(cell)
-    return store.read(number, [c.name for c in store.columns])
+    return store.read_chunk(number, [c.name for c in store.columns])
 
 
 def chunks(study, cell):

@@ -63,7 +63,7 @@ def visit(browser):
         page.goto(served.url)
         wait_for(page, lambda: set(served.windows) - before)
         window = served.windows[max(set(served.windows) - before)]
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         return page, window
 
     yield go

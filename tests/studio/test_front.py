@@ -117,7 +117,7 @@ def test_the_tour_on_a_phone_in_the_dark(studio, visit):
 
     def step(number):
         wait_for(page, lambda: page.locator(f"[data-tour='{number}']").count() == 1)
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         assert page.locator("[data-bad]").count() == 0, said(page)
         text = page.inner_text("[data-tour]")
         page.get_by_role("button", name="Done" if number == 6 else "Next").click()  # asleep until the step has been done
@@ -158,7 +158,7 @@ def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, vi
     served = studio("planar-3r", q=Q, **PLANAR)
     page, window = visit(served)
     window.ask("fail", (1, "locked"))
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     before = window.state
     page.evaluate(DROP, ["<b>x</b>.urdf", "<robot name='x'><link name='a'/></robot>"])
     wait_for(page, lambda: "no moving joint" in said(page))

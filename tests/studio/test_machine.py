@@ -46,7 +46,7 @@ def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
     q = rng.uniform(-0.5, 0.5, 7)
     hand, along = machine.tool_pose(q), machine.self_motion_directions(q, ())[0]
     for _ in range(20):
-        new, direction = machine.slide(q, 0.03 * along, ())
+        new, direction = machine.step_self_motion(q, 0.03 * along, ())
         if not direction.any():
             break  # a limit
         assert np.linalg.norm(new - q) == pytest.approx(0.03, rel=0.2)
@@ -58,7 +58,7 @@ def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
 def test_without_redundancy_nothing_slides(machine, rng):
     q = rng.uniform(-0.5, 0.5, 7)
     assert len(machine.self_motion_directions(q, (2,))) == 0
-    new, direction = machine.slide(q, np.full(7, 0.01), (2,))
+    new, direction = machine.step_self_motion(q, np.full(7, 0.01), (2,))
     assert (new == q).all()
     assert not direction.any()
 
@@ -86,7 +86,7 @@ def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():
 
 def test_laws_are_made_once_and_misspelt_ones_refused(machine):
     assert machine.get_law("damped:0.2") is machine.get_law("damped:0.2")
-    assert "damping 0.2" in machine.law("damped:0.2").describe()
+    assert "damping 0.2" in machine.get_law("damped:0.2").describe()
     with pytest.raises(hf.InputError, match="'much' is not a number; give one: the damping"):
         machine.law("damped:much")
     with pytest.raises(hf.InputError, match="takes no setting; write pseudoinverse alone"):

@@ -41,7 +41,7 @@ def test_one_click_locks_a_joint_and_the_command_line_says_so(studio, visit):
     page.get_by_role("tab", name="Fail").click()
     page.get_by_role("button", name="locked", exact=True).nth(1).click()
     wait_for(page, lambda: window.state.conditions[1] == "locked")
-    window.settle(60)
+    window.wait_until_done(60)
     name = window.state.names[1]
     wait_for(page, lambda: f"{name} has failed" in page.inner_text("body"))
     assert window.panel.sliders[1].disabled
@@ -67,7 +67,7 @@ def test_the_hand_is_dragged_and_says_when_it_cannot_follow(studio, visit):
     pose = window.machine.tool_pose(window.machine.arm.check_configurations([0.4, 0.7, 0.9]))
     numbers = np.array(pose_numbers(pose))
     window.ask("hand", ("update", numbers[:3], numbers[3:]))
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], pose[:2, 3], atol=1e-5)
     window.ask("hand", ("end", numbers[:3] + np.array([50, 0, 0]), numbers[3:]))
     assert window.settle(60)
@@ -142,7 +142,7 @@ def test_two_windows_have_two_arms(studio, visit):
     _, two = visit(served)
     one.ask("fail", (0, "locked"))
     one.ask("joint", (1, -0.5))
-    assert one.settle()
+    assert one.wait_until_done()
     assert two.settle()
     assert one.state.conditions[0] == "locked"
     assert two.state.conditions[0] == "healthy"
@@ -186,7 +186,7 @@ def test_a_motion_is_opened_scrubbed_and_played(studio, visit, tmp_path):
     send(page, tmp_path / "run.csv")
     wait_for(page, lambda: window.state.show == "file" and not window.panel.time.disabled)
     window.ask("time", 2.0)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, [np.interp(2.0, path.time, path.q[:, k]) for k in range(3)], atol=1e-6)
     window.ask("play")
     wait_for(page, lambda: window.state.time > 2.5)
@@ -224,7 +224,7 @@ def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit
     wait_for(page, lambda: np.abs(window.player.ghosts[0] - before).max() > 0.01)
     assert np.argmax(np.abs(window.player.ghosts[0] - before)) == 1
     window.ask("time", 0.35)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert (window.player.is_playing, window.state.time) == (False, 0.35)
     assert window.panel.play.label == "Play"
 
@@ -234,7 +234,7 @@ def test_ghosts_do_not_outlive_what_they_are_of(studio, visit):
 
     def haunted(ask):
         window.ask("best-worst")
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         assert len(window.stage.ghosts) == 2
         ask()
         assert window.settle(60)
@@ -256,7 +256,7 @@ def test_ghosts_do_not_outlive_what_they_are_of(studio, visit):
 def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     target = (*pose_numbers(hf.arms.load("planar-3r").forward_kinematics([0.3, 0.9, 0.5])),)
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=target, show="laws", **PLANAR))
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert len(window.stage.ghosts) == 2
     wait_for(page, lambda: "pseudoinverse: reaches the target" in text_of(page))  # settled here is not drawn there
     window.ask("best-worst")
@@ -269,7 +269,7 @@ def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     assert window.settle(60)
     sound = int(np.flatnonzero(np.isfinite(window.cloud.q).all(axis=1))[3])
     window.ask("point", sound)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, window.cloud.q[sound])
     window.ask("clear")
     assert window.settle(60)
@@ -312,7 +312,7 @@ def test_sliding_along_the_self_motion_leaves_the_hand(studio, visit):
     window.ask("slide", 1.0)
     wait_for(page, lambda: np.linalg.norm(window.q - q) > 0.1)
     window.ask("slide", 0.0)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], hand[:2, 3], atol=1e-4)
     window.ask("fail", (0, "locked"))
     window.ask("slide", 1.0)

@@ -69,7 +69,7 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_s
 def test_an_object_on_the_base_is_said_and_loses_nothing(cell_studio, visit):
     page, window = visit(cell_studio)
     window.ask("object", ("ball", pose_numbers(at(0, 0, 0.05))))
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     wait_for(page, lambda: "may_touch" in page.inner_text("body"))
     window.ask("object", ("ball", pose_numbers(at(0.1, 0.6, 0.9))))
     assert window.settle(60)

@@ -43,7 +43,7 @@ def open_page(browser, name, q, **state):
 
 def take(page, window, tab, file, *, down_to=None):
     """A screenshot of a tab, once the page has drawn what the window shows; scrolled down to the last such element."""
-    window.settle(240)
+    window.wait_until_done(240)
     page.get_by_role("tab", name=tab).click()
     if down_to is not None:
         page.locator(down_to).last.scroll_into_view_if_needed()

@@ -61,8 +61,8 @@ def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
     q, written = todo.tasks.q0[0], []
     for k in range(cycles):
         v = records.protocol.stick.limit_velocity(generator.normal(0, 0.03, 2))
-        records.append(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
-        written.append((v, q))
+        records.append_cycles(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
+        written.append_cycles((v, q))
         q, _ = plant.step_one(q, v, mask)
     if end is not None:
         records.finish(number, end, q)
@@ -118,7 +118,7 @@ def test_replay_finds_a_trial_that_should_have_been_over(records):
     there = PointTasks(q, plant.position(q), tasks.joint)
     number = records.begin_trial(code, TrialKind.TRIAL, 0, scenario=0, tasks=there, task=0)
     records.append_cycles(number, 0, np.zeros(1), velocity=np.zeros((1, 2)), q=q)
-    records.finish(number, End.ABORTED, q[0])
+    records.finish_trial(number, End.ABORTED, q[0])
     assert replay_trials(records).difference.tolist() == [np.inf]
 
 
@@ -133,7 +133,7 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
         assert [[e.task, e.scenario] for e in entries] == session.tolist()
         assert all(e.rating is not None for e in entries)
         training = made.entries(s.code, TrialKind.TRAINING)
-        trials = made.trials(training)
+        trials = made.read_trials(training)
         times = np.where(trials.completed, trials.cycles, np.nan).tolist()
         assert protocol.training.is_met_by(times)
         assert not protocol.training.is_met_by(times[:-1])
@@ -161,7 +161,7 @@ def test_tables_say_what_the_records_say(made, protocol, tmp_path):
     back = pd.read_csv(tmp_path / "csv" / "trials.csv", keep_default_na=False, na_values=[""])
     np.testing.assert_array_equal(back.query("task > 0")["M2"], table["M2"])  # CSV keeps every digit
     cycles = pd.read_csv(tmp_path / "csv" / "cycles.csv")
-    assert len(cycles) == len(cycle_table(made)) == sum(made.trials(made.entries()).cycles + 1)
+    assert len(cycles) == len(cycle_table(made)) == sum(made.read_trials(made.entries()).cycles + 1)
     about = describe_columns(protocol)
     for name in ("trials", "cycles"):
         columns = list(pd.read_csv(tmp_path / "csv" / f"{name}.csv", nrows=1).columns)

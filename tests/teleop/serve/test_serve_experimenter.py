@@ -59,7 +59,7 @@ def give_up(records, subject):
     for position, (task, scenario) in enumerate(protocol.session_order(subject.row, subject.number).tolist()):
         tasks = protocol.tasks.take(np.array([task]))
         number = records.begin_trial(subject.code, TrialKind.TRIAL, position, scenario=scenario, tasks=tasks, task=task)
-        records.finish(number, End.ABORTED, tasks.q0[0])
+        records.finish_trial(number, End.ABORTED, tasks.q0[0])
         records.rate(number, 1)
 
 

@@ -117,7 +117,7 @@ def test_a_lost_connection_loses_nothing(server, protocol, rng, draw):
             client.cut()
         elif client.socket is None and rng.random() < 0.3:
             client.connect()
-        v = protocol.stick.limited(rng.normal(0, 0.03, 2))
+        v = protocol.stick.limit_velocity(rng.normal(0, 0.03, 2))
         path.append(q)
         client.say("cycles", first=k, time=[k / 6], velocity=[v.tolist()], q=[q.tolist()])
         q, _ = plant.step_one(q, v, np.ones(3))
@@ -254,7 +254,7 @@ def test_a_killed_server_goes_on(start, tmp_path, protocol, rng):
             q = np.array(welcome.plan.training[0].q0)
             client.say("begin", kind="training", position=0)
         for _ in range(12):
-            v = protocol.stick.limited(rng.normal(0, 0.03, 2))
+            v = protocol.stick.limit_velocity(rng.normal(0, 0.03, 2))
             path.append(q)
             client.say("cycles", first=len(path) - 1, time=[len(path) / 6], velocity=[v.tolist()], q=[q.tolist()])
             q, _ = plant.step_one(q, v, np.ones(3))

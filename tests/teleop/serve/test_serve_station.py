@@ -273,7 +273,7 @@ def part(records):
 
 def test_a_failed_part_is_undone_and_the_rest_is_kept(records):
     with records.transaction():
-        records.event("one")
+        records.add_event("one")
         with pytest.raises(hf.InputError, match="nobody"):
             part(records)
         records.event("three")
