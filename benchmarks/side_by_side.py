@@ -2,9 +2,11 @@
 
     python benchmarks/side_by_side.py before=/path/to/one after=/path/to/other [--rounds 5] [--only TEXT]
 
-Both use the Python that runs this. A round is a process of each, which works for a second, or once where that takes longer; the
-least processor time counts. Cold is the first call in a process with an empty kernel cache, less the least one; the rate is
-that of the steady state. Of the studio (W11) only what the server computes is here: a browser draws the same for both.
+Each checkout is measured with the work that its own copy of this file describes, because names differ between versions; work
+that only one of them has is left out. Both use the Python that runs this. A round is a process of each, which works for a
+second, or once where that takes longer; the least processor time counts. Cold is the first call in a process with an empty
+kernel cache, less the least one; the rate is that of the steady state. Of the studio (W11) only what the server computes is
+here: a browser draws the same for both.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import runpy
 import statistics
 import subprocess
 import sys
@@ -53,8 +56,7 @@ WORK = {
         100_000,
     ),
     "W6 control step, torque gradient, Panda": (
-        "try: from holdfast.motion import GradientProjection\n"
-        "except ImportError: from holdfast.control import GradientProjection\narm = hf.arms.load('panda')\n"
+        "from holdfast.motion import GradientProjection\narm = hf.arms.load('panda')\n"
         "law = GradientProjection(arm, hf.susceptibility.torque(arm, 'effort'), rate_cap=1.0, period=0.01)\n"
         "step = law.prepare() if hasattr(law, 'prepare') else law.step\nq = draw(arm, 1)[0]; v = rng.normal(size=6) / 10",
         "for _ in range(20_000): step(q, v)",
@@ -90,32 +92,34 @@ WORK = {
         100,
     ),
     "W10 task bank, trials and measures, planar 3R": (
-        "from holdfast.teleop import TaskBank, random_tasks, run\n"
-        "arm = hf.arms.load('planar-3r'); tasks = random_tasks(arm, 400, seed=1)",
-        "TaskBank.of(tasks, run(arm, tasks))",
+        "from holdfast.teleop import TaskBank, run_tasks, sample_tasks\n"
+        "arm = hf.arms.load('planar-3r'); tasks = sample_tasks(arm, 400, seed=1)",
+        "TaskBank.from_trials(tasks, run_tasks(arm, tasks))",
         4800,
     ),
     "W10 experiment of 2 simulated people, recorded and replayed": (
-        "from holdfast.teleop import read_protocol, replay, simulate_experiment\nprotocol = read_protocol(); protocol.plants",
-        "with tempfile.TemporaryDirectory() as t, simulate_experiment(Path(t) / 'study', protocol, 2, seed=0) as r: replay(r)",
+        "from holdfast.teleop import read_protocol, replay_trials, simulate_experiment\n"
+        "protocol = read_protocol(); protocol.plants",
+        "with tempfile.TemporaryDirectory() as t, simulate_experiment(Path(t) / 'study', protocol, 2, seed=0) as r:\n"
+        "    replay_trials(r)",
         1,
     ),
     "W10 control cycle, failure-tolerant, planar 3R": (
         "from holdfast.teleop import read_protocol\nplant = read_protocol().plants[1]\n"
         "q = rng.uniform(-3, 3, 3); v = np.array([0.03, 0.04]); mask = np.ones(3)",
-        "for _ in range(10_000): plant.cycle(q, v, mask)",
+        "for _ in range(10_000): plant.step_one(q, v, mask)",
         10_000,
     ),
     "W11 numbers of the studio's page, Panda (no browser)": (
         "from holdfast.arm.task import as_task\n"
-        "try: from holdfast.studio.scene import bars, machine\nexcept ImportError: from holdfast.studio import bars, machine\n"
-        "bars_html, losses_html, Machine = bars.bars_html, bars.losses_html, machine.Machine\n"
-        "arm = hf.arms.load('panda'); m = Machine(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
+        "from holdfast.studio.scene import bars, machine\n"
+        "bars_html, losses_html, CompiledArm = bars.bars_html, bars.losses_html, machine.CompiledArm\n"
+        "arm = hf.arms.load('panda'); m = CompiledArm(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
         "frames = getattr(arm, 'frames', None) or m.frames\n"
         "def page(x):\n"
-        "    frames(x); found = m.read(x, (), 'relative-manipulability', 'torque')\n"
-        "    bars_html(found.bars, '', arm.joint_names, up); bars_html(found.weights, '', arm.joint_names, up)\n"
-        "    losses_html(arm, m.task, found, ())",
+        "    frames(x); reading = m.evaluate(x, (), 'relative-manipulability', 'torque')\n"
+        "    bars_html(reading.bars, '', arm.joint_names, up); bars_html(reading.weights, '', arm.joint_names, up)\n"
+        "    losses_html(arm, m.task, reading, ())",
         "for x in q: page(x)",
         300,
     ),
@@ -126,8 +130,8 @@ WORK = {
         1 << 22,
     ),
     "W13 designs at poses with gradient, PA10": (
-        "sys.path.insert(0, BENCHMARKS)\nfrom w13_design import designs, holdfast\nfrom w4_optimise import reachable_poses\n"
-        "run = holdfast(reachable_poses(16)); many = designs(16)",
+        "sys.path.insert(0, BENCHMARKS)\nfrom w13_design import designs, holdfast\n"
+        "from w4_optimise import reachable_poses\nrun = holdfast(reachable_poses(16)); many = designs(16)",
         "run(many)",
         256,
     ),
@@ -176,16 +180,17 @@ def main() -> None:
     (a, before), (b, after) = sides
     print(f"| work, one thread | first use {a}, s | first use {b}, s | rows/s {a} | rows/s {b} | {b} is faster by (range) |")
     print("| --- | ---: | ---: | ---: | ---: | ---: |")
-    for name, (setup, work, rows) in WORK.items():
-        if given.only not in name:
+    before_work, after_work = (runpy.run_path(str(path / "benchmarks" / "side_by_side.py"))["WORK"] for path in (before, after))
+    for name, (setup, work, rows) in after_work.items():
+        if given.only not in name or name not in before_work:
             continue
-        cold, steady = [], []
-        for checkout in (before, after):
-            with tempfile.TemporaryDirectory() as cache:
-                cold.append(run(checkout, setup, work, cache, "")[0])
+        old_setup, old_work, _ = before_work[name]
+        steady = []
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
+            cold = [run(before, old_setup, old_work, one, "")[0], run(after, setup, work, two, "")[0]]
         with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
             for _ in range(given.rounds):
-                steady.append([run(before, setup, work, one, "1")[1], run(after, setup, work, two, "1")[1]])
+                steady.append([run(before, old_setup, old_work, one, "1")[1], run(after, setup, work, two, "1")[1]])
         ratios = sorted(x / y for x, y in steady)
         rates = [rows / statistics.median(side) for side in zip(*steady, strict=True)]
         middle = statistics.median(ratios)
