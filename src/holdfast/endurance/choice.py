@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
@@ -12,12 +12,39 @@ from holdfast.arm.model import Arm
 from holdfast.endurance.grid import CurveNodes, compute_squared_distances
 from holdfast.notice import track
 from holdfast.solvers import joint_space
-from holdfast.typing import FloatArray, IndexArray
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 _RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
 _MAX_DENSE_MOVES = (
     1 << 20
 )  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SearchBounds:
+    """Results of a search over all motions of the grid.
+
+    Attributes:
+        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
+            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
+        interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
+            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
+        spacing: Of the nodes, rad (and m).
+        nodes: T arrays (P, n) of configurations, all that were found.
+        curve: T arrays (P,) with the number of their curve.
+        survives: T arrays (P, n): True where a lock there is survivable.
+        moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
+        held: Joints that the motions looked at do not move, and where they are, rad and m; none with one degree of redundancy.
+    """
+
+    bound: float
+    interval: tuple[float, float]
+    spacing: float
+    nodes: Sequence[FloatArray]
+    curve: Sequence[IndexArray]
+    survives: Sequence[BoolArray]
+    moved: FloatArray
+    held: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
