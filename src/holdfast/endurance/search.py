@@ -13,7 +13,7 @@ from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.choice import BestPathTable, SearchBounds, advance_tables
+from holdfast.endurance.choice import BestPathTable, SearchBounds, advance_tables, smooth_motion
 from holdfast.endurance.conditions import compute_task_jacobian
 from holdfast.endurance.endurance import LockSurvival
 from holdfast.endurance.evaluation import PATH_TOLERANCE, evaluate_locks, is_off_path
@@ -21,7 +21,6 @@ from holdfast.endurance.given import with_baselines
 from holdfast.endurance.grid import CurveNodes, make_nodes
 from holdfast.endurance.problem import Mode, SurvivalProblem, make_problem
 from holdfast.endurance.rates import FailureRates, RatesLike
-from holdfast.endurance.smoothing import smooth_motion
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
 from holdfast.keep.labels import KeepLike
