@@ -1,4 +1,4 @@
-"""Problem of the survivable locks of a motion along a path, shared by search, evaluation, and tests."""
+"""Statement of the problem which locks a motion along a path survives; :mod:`holdfast.endurance.evaluation` judges them."""
 
 from __future__ import annotations
 
@@ -40,10 +40,20 @@ class SurvivalProblem:
     """Arm, path, conditions, and failure rates for which locks are evaluated.
 
     Attributes:
-        redundancy: Degrees of redundancy, less the joints that cannot move.
-        kind: What a verdict on a lock is: exact, up to the grid; an upper bound, of detours among obstacles or with something
-            kept, which are not looked for; or a lower bound, where more than one degree of redundancy leaves a failed arm more
-            ways than are looked at.
+        arm, task: Arm, and the rows of the path that it keeps.
+        path: Pose of the tool as a function of time.
+        mode: ``on-path`` or ``detour``.
+        rates: Failure rates of the joints.
+        time: (T,) samples of the path, s.
+        lock: Follower of the poses at these samples with a locked joint.
+        conditions: Clearance and tool constraints.
+        spacing: Distance of the nodes on self-motion curves, rad.
+        seed: Seed of the searches.
+        starts: Random starts of inverse kinematics per pose.
+        redundancy: Degrees of redundancy, without the joints that cannot move.
+        kind: Kind of a survival value: exact, up to the grid; an upper bound, because detours among obstacles or with tool
+            constraints are not searched for; or a lower bound, because with more than one degree of redundancy not every motion
+            of the failed arm is evaluated.
     """
 
     arm: Arm
