@@ -1,4 +1,4 @@
-"""Statement of the problem which locks a motion along a path survives; :mod:`holdfast.endurance.evaluation` judges them."""
+"""Problem of finding the locks that a motion along a path survives; :mod:`holdfast.endurance.evaluation` judges them."""
 
 from __future__ import annotations
 
