@@ -96,7 +96,7 @@ def test_the_arms_own_meshes_are_kept_clear_and_go_with_the_job(draw, rng):
     job = _study_cell(draw.arm, None, "line", "recover", 10, 1.0).job
     again = pickle.loads(pickle.dumps(job))
     assert (again, hash(again)) == (job, hash(job))
-    clearance = again.made.clearance
+    clearance = again.compiled_parts.clearance
     assert clearance.capsules.shape.digest == job.plan["shape"]
     q = rng.uniform(draw.arm.lower, draw.arm.upper, (500, 7))
     assert ((clearance(q) < 0) & clearance.sign(q)).any(), "some capsules overlap where no mesh touches another"

@@ -92,7 +92,7 @@ def test_nothing_survives_more_than_brute_force_finds(narrow):
     assert best.survival == pytest.approx(want, abs=0.02)
     assert best.survival_bound == pytest.approx(bound, abs=0.01)
     assert 0.2 < best.survival <= best.survival_bound + 1e-9 < 1
-    assert not best.guaranteed
+    assert not best.survives_all_locks
 
 
 def test_a_survival_is_quoted_with_what_is_possible(narrow):

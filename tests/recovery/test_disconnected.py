@@ -13,7 +13,7 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task, task_from_rows
 from holdfast.clearance import Capsules
-from holdfast.recovery import RecoveryOutcome, search
+from holdfast.recovery import RecoveryOutcome, attempt
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.proofs.flood import (
     _generate_floods,
@@ -132,7 +132,7 @@ def test_the_verdict_says_that_it_is_proved(ring, kind, monkeypatch):
     if kind == "pose":
         asked = {"goal": pose, "task": "planar"}
     elif kind == "path":
-        monkeypatch.setattr(search, "find_route", lambda *_, **__: None)
+        monkeypatch.setattr(attempt, "find_route", lambda *_, **__: None)
         onwards = arm.forward_kinematics(np.add(there, [0.1, 0, 0]))
         asked = {"goal": None, "task": "planar", "path": hf.paths.line(pose[:3, 3], onwards[:3, 3])}
     found = hf.recover(arm, ["joint2"], start, clearance=shape, samples=0, tries=1, **asked)

@@ -139,7 +139,7 @@ def test_rounded_corners_are_quadratic_b_splines(rng):
     find_corner_cuts(q, np.zeros(3, dtype=bool), lambda chords: seen.append(chords) or always(chords))
     (chords,) = seen
     whole = fine_way(q, wide(q))
-    dense = whole.at(np.full(4001, 1), np.linspace(0, whole.length[1], 4001))[0]
+    dense = whole.evaluate(np.full(4001, 1), np.linspace(0, whole.length[1], 4001))[0]
     k = np.minimum(np.arange(4001) * 12 // 4000, 11)
     off = dense - chords.first[k]
     along = chords.last[k] - chords.first[k]
@@ -283,17 +283,19 @@ def test_a_corner_that_other_code_refuses_is_a_stop(among_balls, monkeypatch):
 
     def strict(*asked, **more):
         found = real(*asked, **more)
-        made.append(more["pace"])
+        made.append(more["timing_limits"])
         return replace(found, faults=("a corner is cut off",)) if len(made) == 2 else found
 
     monkeypatch.setattr(completion, "verify_waypoints", strict)
     again = round_the_corner(bent.arm, bent.at, bent.q[-1], bent.clearance)
     assert again.ok
-    assert [pace is not None for pace in made] == [False, True, True]
+    assert [timing_limits is not None for timing_limits in made] == [False, True, True]
     assert again.timed.stops == len(bent.q) - 2
     assert again.timed.duration > bent.timed.duration
     monkeypatch.setattr(
-        completion, "verify_waypoints", lambda *_, pace, **__: replace(bent.verified, faults=("no",) * (pace is not None))
+        completion,
+        "verify_waypoints",
+        lambda *_, timing_limits, **__: replace(bent.verified, faults=("no",) * (timing_limits is not None)),
     )
     never = round_the_corner(bent.arm, bent.at, bent.q[-1], bent.clearance)
     assert never.verdict.answer == "undecided"

@@ -8,7 +8,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.recovery import continuation, search
+from holdfast.recovery import attempt, continuation
 from holdfast.recovery.layers import LadderGraph
 
 JUMP = 0.35
@@ -90,7 +90,7 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     monkeypatch.setattr(continuation, "search_ladder_graph", lambda *_: LadderGraph([], 0, 0))
     monkeypatch.setattr(continuation, "_REFINEMENT_FACTOR", 1)
     for name in ("continue_unfinished_path", "relax_fewest_rows"):
-        monkeypatch.setattr(search, name, lambda made, *_: (made, []))
+        monkeypatch.setattr(attempt, name, lambda made, *_: (made, []))
     alone = finished(three, low, high, here, path)
     assert not alone.ok
     assert flooded(path.pose(result.rest.share)[:, :2, 3], low, high)

@@ -12,7 +12,7 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
 from holdfast.clearance.exact.engines import is_library_installed
-from holdfast.recovery import RecoveryOutcome, completion, search
+from holdfast.recovery import RecoveryOutcome, attempt, completion
 from holdfast.recovery.proofs import reach
 from holdfast.recovery.proofs.of_path import order_by_relevance
 from holdfast.recovery.proofs.reach import enumerate_configurations, prove_no_configuration
@@ -227,7 +227,7 @@ def test_no_pose_of_a_configuration_is_proved_to_have_none(rng):
 
 
 def test_what_only_a_search_says_is_argued(three, monkeypatch):
-    monkeypatch.setattr(search, "enumerate_collision_free", lambda *_: (np.zeros((0, 3)), np.zeros(0, dtype=int), [None]))
+    monkeypatch.setattr(attempt, "enumerate_collision_free", lambda *_: (np.zeros((0, 3)), np.zeros(0, dtype=int), [None]))
     found = hf.recover(three, ["joint2"], HOME, goal=placed(1.5, 0.4, 2.0), task="planar-pose", samples=0)
     assert (found.verdict.answer, found.verdict.kind) == ("argued infeasible", "")
     assert "in 256 starts, which proves nothing" in found.verdict.why

@@ -1,6 +1,6 @@
+from holdfast.endurance.choice import SearchBounds as SearchBounds
 from holdfast.endurance.endurance import BaselineMotion as BaselineMotion
 from holdfast.endurance.endurance import LockSurvival as LockSurvival
-from holdfast.endurance.endurance import SearchBounds as SearchBounds
 from holdfast.endurance.given import evaluate_motion as evaluate_motion
 from holdfast.endurance.injection import LockTests as LockTests
 from holdfast.endurance.rates import FailureRates as FailureRates

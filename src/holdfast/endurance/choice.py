@@ -1,23 +1,54 @@
-"""Dynamic program that selects the motion over the nodes of a path with the greatest total gain."""
+"""Dynamic program that selects the motion over the nodes of a path with the greatest total gain, and smoothing of it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
 from holdfast.arm.model import Arm
 from holdfast.endurance.grid import CurveNodes, compute_squared_distances
+from holdfast.endurance.tables import LockTable
 from holdfast.notice import track
 from holdfast.solvers import joint_space
-from holdfast.typing import FloatArray, IndexArray
+from holdfast.solvers.curve_tracing import ManifoldTracer
+from holdfast.typing import BoolArray, FloatArray, IndexArray
 
 _RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
 _MAX_DENSE_MOVES = (
     1 << 20
 )  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
+_MAX_CURVE_SHIFT_RAD = 0.15  # rad along its curve is the most that a configuration is moved
+_SMOOTHING_ROUNDS = 3
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SearchBounds:
+    """Results of a search over all motions of the grid.
+
+    Attributes:
+        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
+            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
+        interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
+            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
+        spacing: Of the nodes, rad (and m).
+        nodes: T arrays (P, n) of configurations, all that were found.
+        curve: T arrays (P,) with the number of their curve.
+        survives: T arrays (P, n): True where a lock there is survivable.
+        moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
+        held: Joints that the motions looked at do not move, and where they are, rad and m; none with one degree of redundancy.
+    """
+
+    bound: float
+    interval: tuple[float, float]
+    spacing: float
+    nodes: Sequence[FloatArray]
+    curve: Sequence[IndexArray]
+    survives: Sequence[BoolArray]
+    moved: FloatArray
+    held: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,3 +204,75 @@ def _find_close_pairs(arm: Arm, b: FloatArray, a: FloatArray, reach: FloatArray)
     pairs = trees[0].sparse_distance_matrix(trees[1], 1.0, p=np.inf, output_type="ndarray")
     order = np.lexsort((pairs["j"], pairs["i"]))
     return pairs["i"][order], pairs["j"][order]
+
+
+def smooth_motion(
+    tracer: ManifoldTracer,
+    nodes: list[CurveNodes],
+    lock_tables: list[LockTable],
+    gains: list[FloatArray],
+    chosen: IndexArray,
+    q: FloatArray,
+    poses: FloatArray,
+    *,
+    start_is_fixed: bool,
+) -> FloatArray:
+    """Smooth the motion q (T, n) over the chosen nodes (T,) so that the sum of its squared steps is smallest.
+
+    Each configuration moves along its self-motion curve by at most ``_MAX_CURVE_SHIFT_RAD``, and only as far as it loses no
+    gain; with ``start_is_fixed`` the first one stays. A step is nearly linear in these moves, so a least-squares problem with
+    bounds is solved a few times.
+    """
+    from scipy.optimize import lsq_linear
+
+    sides = zip(
+        *(
+            _bound_shift(pose_nodes, lock_table, pose_gains, int(node))
+            for pose_nodes, lock_table, pose_gains, node in zip(nodes, lock_tables, gains, chosen, strict=True)
+        ),
+        strict=True,
+    )
+    lower, upper = (np.array(side) for side in sides)
+    movable = np.flatnonzero((upper - lower > 1e-9) & ~(start_is_fixed & (np.arange(len(q)) == 0)))
+    if not movable.size:
+        return q
+    # The curve of a node may run against the null vector that comes with it.
+    curve_directions = np.array(
+        [
+            pose_nodes.pieces[node] if pose_nodes.following[node] != node else pose_nodes.pieces[pose_nodes.previous[node]]
+            for pose_nodes, node in zip(nodes, chosen, strict=True)
+        ]
+    )
+    smooth_q, shifts = q, np.zeros(len(q))
+    for _ in range(_SMOOTHING_ROUNDS):
+        tangent = tracer.correct(smooth_q, poses)[2][:, 0]
+        tangent *= np.where(np.einsum("ij,ij->i", tangent, curve_directions) < 0, -1.0, 1.0)[:, None]
+        matrix = np.zeros((len(q) - 1, q.shape[1], len(q)))
+        row = np.arange(len(q) - 1)
+        matrix[row, :, row], matrix[row, :, row + 1] = -tangent[:-1], tangent[1:]
+        steps = np.diff(smooth_q, axis=0).reshape(-1)
+        bounds = (lower - shifts)[movable], (upper - shifts)[movable]
+        change = np.zeros(len(q))
+        change[movable] = lsq_linear(matrix.reshape(-1, len(q))[:, movable], -steps, bounds, tol=1e-6).x
+        candidate_q, is_on_pose, _ = tracer.correct(smooth_q + change[:, None] * tangent, poses)
+        inside = ((candidate_q >= tracer.arm.lower) & (candidate_q <= tracer.arm.upper)).all(axis=1)
+        if not (is_on_pose & inside).all():
+            break
+        smooth_q, shifts = candidate_q, shifts + change
+    return smooth_q
+
+
+def _bound_shift(nodes: CurveNodes, verdicts: LockTable, gain: FloatArray, chosen: int) -> tuple[float, float]:
+    """Return how far a configuration may move against and along its curve without a loss of gain."""
+    limits = []
+    for neighbors, sign in ((nodes.previous, -1.0), (nodes.following, 1.0)):
+        length, node = 0.0, chosen
+        while length < _MAX_CURVE_SHIFT_RAD and neighbors[node] != node:
+            other = int(neighbors[node])
+            segment_length = float(np.linalg.norm(nodes.pieces[node if sign > 0 else other]))
+            if gain[other] < gain[chosen] - 1e-12:
+                length += segment_length * verdicts.safe_fraction(node, other, is_ahead=sign > 0)
+                break
+            length, node = length + segment_length, other
+        limits.append(sign * min(length, _MAX_CURVE_SHIFT_RAD))
+    return limits[0], limits[1]

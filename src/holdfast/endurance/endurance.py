@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,6 +12,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.clearance.clearance import Clearance
+from holdfast.endurance.choice import SearchBounds
+from holdfast.endurance.evaluation import has_stopped_moving
 from holdfast.endurance.injection import LockTests, can_finish_path, interpolate_motion, sample_locks
 from holdfast.endurance.problem import Kind, Mode, SurvivalProblem
 from holdfast.endurance.rates import FailureRates
@@ -25,7 +26,7 @@ from holdfast.notice import reports_progress
 from holdfast.paths.timed_path import TimedPath
 from holdfast.probability.intervals import Interval
 from holdfast.result import Result
-from holdfast.typing import BoolArray, FloatArray, IndexArray
+from holdfast.typing import BoolArray, FloatArray
 from holdfast.words import format_percent
 
 # _SMALL_MOTION and _STANDSTILL_TOLERANCE: rad and m along a whole curve
@@ -33,33 +34,6 @@ _SMALL_MOTION = 0.3
 _STANDSTILL_TOLERANCE = 1e-6
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _KIND_PREFIXES: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class SearchBounds:
-    """Results of a search over all motions of the grid.
-
-    Attributes:
-        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
-            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
-        interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
-            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
-        spacing: Of the nodes, rad (and m).
-        nodes: T arrays (P, n) of configurations, all that were found.
-        curve: T arrays (P,) with the number of their curve.
-        survives: T arrays (P, n): True where a lock there is survivable.
-        moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
-        held: Joints that the motions looked at do not move, and where they are, rad and m; none with one degree of redundancy.
-    """
-
-    bound: float
-    interval: tuple[float, float]
-    spacing: float
-    nodes: Sequence[FloatArray]
-    curve: Sequence[IndexArray]
-    survives: Sequence[BoolArray]
-    moved: FloatArray
-    held: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -279,7 +253,7 @@ class LockSurvival(Result):
             self._problem, interpolate_motion(self._problem, self.q, lock_times), lock_times, locked_joints, q_start=self.q[0]
         )
         sample_before = np.clip(np.searchsorted(self.time, lock_times, side="right") - 1, 0, len(self.time) - 2)
-        survived |= self._problem.has_stopped_moving(self.q)[sample_before, locked_joints]
+        survived |= has_stopped_moving(self._problem, self.q)[sample_before, locked_joints]
         expected = self.survives[sample_before, locked_joints]
         return LockTests(
             time=lock_times,

@@ -17,6 +17,7 @@ from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance.endurance import BaselineMotion, LockSurvival
+from holdfast.endurance.evaluation import evaluate_locks, is_off_path
 from holdfast.endurance.problem import Mode, SurvivalProblem, make_problem
 from holdfast.endurance.rates import FailureRates, RatesLike
 from holdfast.errors import InputError
@@ -61,8 +62,8 @@ def evaluate_motion(
         path: Where the tool is to be, and when.
         rates: How often each joint locks, (n,) or by joint: relative weights. Default: all alike.
         per_second: The rates are in 1/s.
-        mode: ``on-path`` or ``detour``; see :func:`endure`.
-        task: Rows of the poses to keep; by default as of :func:`endure`.
+        mode: ``on-path`` or ``detour``; see :func:`holdfast.plan_motion`.
+        task: Rows of the poses to keep; by default as of :func:`holdfast.plan_motion`.
         samples: Times at which locks are tried, evenly spaced; between those of the motion it is interpolated.
         spacing: Of the points on the self-motion curves that detours need, rad.
         seed: Of the search for these.
@@ -70,7 +71,7 @@ def evaluate_motion(
         clearance: Of the arm from itself.
         cell: Objects around the arm, or their file, to keep clear of after the lock.
         margin: m; from an object beyond what the cell keeps from it.
-        keep: What the tool keeps beside the path, before the lock and after it; see :func:`endure`.
+        keep: What the tool keeps beside the path, before the lock and after it; see :func:`holdfast.plan_motion`.
 
     Raises:
         InputError: A motion that is not on the path or breaks what is kept, rates or options that do not fit.
@@ -104,17 +105,17 @@ def evaluate_motion(
             f"the motion takes {times[-1]:.4g} s and the path {path.duration:.4g} s; give those that belong together"
         )
     q = np.column_stack([np.interp(problem.time, times, positions) for positions in configurations.T])
-    is_off_path = problem.is_off_path(q)
-    if is_off_path.any():
+    off_path = is_off_path(problem, q)
+    if off_path.any():
         raise InputError(
-            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[is_off_path.argmax()]:.4g} "
+            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off_path.argmax()]:.4g} "
             f"s; give one "
             "along this path"
         )
     broken = problem.conditions.find_violation(q)
     if broken is not None:
         raise InputError(f"the motion breaks what is kept: at {problem.time[broken[0]]:.4g} s the tool is {broken[1]}")
-    return LockSurvival.for_motion(problem, q, survives=problem.evaluate_locks(q))
+    return LockSurvival.for_motion(problem, q, survives=evaluate_locks(problem, q))
 
 
 def with_baselines(
@@ -163,8 +164,8 @@ def _follow_objective(
 
 def _evaluate_baseline(problem: SurvivalProblem, name: str, q: FloatArray) -> BaselineMotion:
     """Evaluate the locks that a motion survives; where it is off the path or violates a condition, it survives none."""
-    is_invalid = problem.is_off_path(q)
+    is_invalid = is_off_path(problem, q)
     is_invalid[~is_invalid] = ~problem.conditions.meet_constraints(q[~is_invalid])
-    survives = problem.evaluate_locks(np.where(is_invalid[:, None], np.nan, q))
+    survives = evaluate_locks(problem, np.where(is_invalid[:, None], np.nan, q))
     result = LockSurvival.for_motion(problem, q, survives=survives)
     return BaselineMotion(name=name, survival=result.survival, curve=result.curve(), off=float(is_invalid.mean()))

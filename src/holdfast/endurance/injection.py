@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from holdfast.endurance import tables
-from holdfast.endurance.problem import MAX_CHANGING_SETS, SurvivalProblem
+from holdfast.endurance.evaluation import MAX_CHANGING_SETS, can_regain_path, is_off_path
+from holdfast.endurance.problem import SurvivalProblem
 from holdfast.notice import ProgressCount
 from holdfast.probability.intervals import Interval
 from holdfast.solvers import joint_space
@@ -71,7 +72,7 @@ def can_finish_path(
     Its motion began at ``q_start`` (n,).
     """
     if problem.mode == "detour":
-        return problem.can_regain_path(q, np.searchsorted(problem.time, lock_times), locked_joints)
+        return can_regain_path(problem, q, np.searchsorted(problem.time, lock_times), locked_joints)
     if problem.redundancy == 1:
         return _reaches_last_pose(problem, q, lock_times, locked_joints, tuple(problem.immobile_joints))
     survived = np.zeros(len(q), dtype=bool)
@@ -82,7 +83,7 @@ def can_finish_path(
         )
     narrower = problem.with_axis_at(q_start)
     if narrower is not None:
-        undecided = np.flatnonzero(~survived & ~narrower.is_off_path(q, lock_times))
+        undecided = np.flatnonzero(~survived & ~is_off_path(narrower, q, narrower.path.pose(lock_times)))
         survived[undecided] = can_finish_path(
             narrower, q[undecided], lock_times[undecided], locked_joints[undecided], q_start=q_start
         )
@@ -222,7 +223,7 @@ def interpolate_motion(problem: SurvivalProblem, q: FloatArray, times: FloatArra
     A motion that holds the axis of a cone at its samples does so between them.
     """
     narrower = problem.with_axis_at(q[0])
-    if narrower is not None and not narrower.is_off_path(q).any():
+    if narrower is not None and not is_off_path(narrower, q).any():
         return interpolate_motion(narrower, q, times)
     arm = problem.arm
     sample = np.clip(np.searchsorted(problem.time, times, side="right") - 1, 0, len(q) - 2)

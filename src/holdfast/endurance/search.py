@@ -13,13 +13,14 @@ from holdfast.arm.task import Task
 from holdfast.clearance.choice import CellLike
 from holdfast.clearance.clearance import Clearance
 from holdfast.endurance import tables
-from holdfast.endurance.choice import BestPathTable, advance_tables
-from holdfast.endurance.endurance import LockSurvival, SearchBounds
+from holdfast.endurance.choice import BestPathTable, SearchBounds, advance_tables, smooth_motion
+from holdfast.endurance.conditions import compute_task_jacobian
+from holdfast.endurance.endurance import LockSurvival
+from holdfast.endurance.evaluation import PATH_TOLERANCE, evaluate_locks, is_off_path
 from holdfast.endurance.given import with_baselines
 from holdfast.endurance.grid import CurveNodes, make_nodes
-from holdfast.endurance.problem import PATH_TOLERANCE, Mode, SurvivalProblem, make_problem
+from holdfast.endurance.problem import Mode, SurvivalProblem, make_problem
 from holdfast.endurance.rates import FailureRates, RatesLike
-from holdfast.endurance.smoothing import smooth_motion
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
 from holdfast.keep.labels import KeepLike
@@ -32,6 +33,10 @@ from holdfast.typing import FloatArray
 
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _MAX_FINE_CHOICES = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
+# _FIRST_CONFIGURATIONS and _FIRST_POSE_STARTS: configurations of the first pose that are tried, and the starts of their search
+_FIRST_CONFIGURATIONS = 3
+_FIRST_POSE_STARTS = 64
+_RANK_TOLERANCE = 1e-6  # of the largest singular value
 _MAX_CONE_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
 
 
@@ -95,7 +100,7 @@ def plan_motion(
             with ``best``).
 
     Returns:
-        An :class:`Endurance` with the motion, its survival, the bound and the interval of the grid.
+        A :class:`holdfast.endurance.LockSurvival` with the motion, its survival, the bound and the interval of the grid.
 
     Raises:
         InputError: Rates, a start or options that do not fit, a path that breaks what is kept, or a row kept exactly that the
@@ -218,11 +223,11 @@ class _CurveSearch:
             smooth = smooth_motion(
                 follower.tracer, nodes, lock_tables, self._gains, chosen, q, follower.poses, start_is_fixed=self._start_is_fixed
             )
-            result = LockSurvival.for_motion(requested, smooth, survives=requested.evaluate_locks(smooth), found=bounds)
+            result = LockSurvival.for_motion(requested, smooth, survives=evaluate_locks(requested, smooth), found=bounds)
             if (
                 result.survival < expected_survival - _PROBABILITY_TOLERANCE or result.speed > 1 + _PROBABILITY_TOLERANCE
             ):  # smoothing may have cost something
-                unsmoothed = LockSurvival.for_motion(requested, q, survives=requested.evaluate_locks(q), found=bounds)
+                unsmoothed = LockSurvival.for_motion(requested, q, survives=evaluate_locks(requested, q), found=bounds)
                 result = max(result, unsmoothed, key=_rank_result)
             results.append(result)
         return max(results, key=_rank_result)  # of equals the first
@@ -237,7 +242,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     for variant, q in track("configurations of the first pose", list(_list_starts(problem, q_start))):
         coarse = variant.with_coarse_grid()
         for joints in variant.fixed_joint_sets:
-            if not variant.leaves_one_redundancy(q, joints):  # no curves, and their tracing has no end
+            if not _leaves_one_redundancy(variant, q, joints):  # no curves, and their tracing has no end
                 continue
             values = {joint: float(q[joint]) for joint in joints}
             try:
@@ -267,7 +272,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     if not problem.conditions.left_to_arm:
         return best
     return LockSurvival.for_motion(
-        problem, best.q, survives=problem.evaluate_locks(best.q), found=best.found
+        problem, best.q, survives=evaluate_locks(problem, best.q), found=best.found
     )  # maybe a narrower one's
 
 
@@ -279,16 +284,40 @@ def _list_starts(problem: SurvivalProblem, q_start: FloatArray | None) -> Iterat
         narrower = problem.with_axis_at(q_start)
         yield from ((variant, q_start) for variant in (problem, narrower) if variant is not None)
         return
-    first_configurations = problem.find_first_configurations()
+    first_configurations = _find_first_configurations(problem)
     yield from ((problem, q) for q in first_configurations)
     for narrower in map(problem.with_axis_at, first_configurations[:_MAX_CONE_AXES]):
         if narrower is not None:
-            yield from ((narrower, q) for q in narrower.find_first_configurations())
+            yield from ((narrower, q) for q in _find_first_configurations(narrower))
 
 
 def _rank_result(result: LockSurvival) -> tuple[bool, float]:
     """Return the sort key of a result: feasible joint speeds first, then survival."""
     return result.speed <= 1 + _PROBABILITY_TOLERANCE, round(result.survival, 9)
+
+
+def _find_first_configurations(problem: SurvivalProblem) -> FloatArray:
+    """Return a few configurations (K, n) of the first pose, far apart."""
+    q = problem.lock.tracer.find_seeds(problem.lock.poses[:1], np.zeros(1, dtype=np.intp), problem.seed, _FIRST_POSE_STARTS)[1]
+    q = problem.conditions.project_configurations(q, np.broadcast_to(problem.lock.poses[0], (len(q), 4, 4)))
+    q = q[~is_off_path(problem, q, problem.lock.poses[:1]) & problem.conditions.are_met(q)]
+    chosen = [0] * bool(len(q))
+    while 0 < len(chosen) < min(_FIRST_CONFIGURATIONS, len(q)):
+        distances = np.min(
+            [np.linalg.norm(joint_space.joint_difference(problem.arm, q, q[index]), axis=1) for index in chosen], axis=0
+        )
+        chosen.append(int(distances.argmax()))
+    return np.asarray(q[chosen])
+
+
+def _leaves_one_redundancy(problem: SurvivalProblem, q: FloatArray, fixed_joints: Sequence[int]) -> bool:
+    """Return True if one degree of redundancy remains at q (n,) if other joints are fixed there.
+
+    More are left where one of them could not move anyway, such as a roll joint that the tool's axis sets.
+    """
+    mobile = [joint for joint in range(problem.arm.n) if joint not in problem.immobile_joints and joint not in fixed_joints]
+    singular_values = np.linalg.svd(compute_task_jacobian(problem.arm, problem.task, q[None])[0][:, mobile], compute_uv=False)
+    return bool(singular_values[-1] > _RANK_TOLERANCE * singular_values[0])
 
 
 def _place_start(problem: SurvivalProblem, start: ArrayLike) -> FloatArray:

@@ -156,7 +156,7 @@ class NarrowPhase:
             self._place_candidate(candidate, row, frames, placed_parts)
             part = self._placed[candidate.part]
             is_closer = (
-                candidate.geometry.distance(part) < allowed[candidate_index]
+                candidate.geometry.body_distance(part) < allowed[candidate_index]
                 if allowed[candidate_index] > 0
                 else candidate.geometry.bodies_touch(part)
             )

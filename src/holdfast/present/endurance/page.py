@@ -19,7 +19,8 @@ from holdfast.typing import FloatArray
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from holdfast.endurance.endurance import LockSurvival, SearchBounds
+    from holdfast.endurance.choice import SearchBounds
+    from holdfast.endurance.endurance import LockSurvival
 
 
 _MAP_BINS = 64
