@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.faults.events import FaultEvent
 
 
 class JointActuators:
@@ -40,17 +39,16 @@ class JointActuators:
         """Return the numbers of the actuators of a joint."""
         return self._by_joint[joint]
 
-    def require_actuator(self, event: FaultEvent) -> None:
+    def require_actuator(self, joint: int, kind: str) -> None:
         """Raise an error for a motor fault of a joint without an actuator.
 
         Raises:
             InputError: The joint has no actuator of its own.
         """
-        names = [self._model.joint(joint_id).name for joint_id in self._ids]
-        if not self._by_joint[names.index(event.joint)].size:
-            raise InputError(f"'{event.kind}' is a fault of a motor, and '{event.joint}' has none; choose another")
+        if not self._by_joint[joint].size:
+            raise InputError(f"'{kind}' is a fault of a motor, and '{self._joint_name(joint)}' has none; choose another")
 
-    def total_effort(self, joint: int, event: FaultEvent) -> float:
+    def total_effort(self, joint: int, kind: str) -> float:
         """Return the total effort of all motors of a joint, N m or N.
 
         Raises:
@@ -59,10 +57,13 @@ class JointActuators:
         effort = self._efforts[joint]
         if effort is None:
             raise InputError(
-                f"'{event.kind}' of '{event.joint}' needs the effort of its motor, and the model states none; give it "
+                f"'{kind}' of '{self._joint_name(joint)}' needs the effort of its motor, and the model states none; give it "
                 "actuatorfrcrange, forcerange or ctrlrange"
             )
         return effort
+
+    def _joint_name(self, joint: int) -> str:
+        return str(self._model.joint(self._ids[joint]).name)
 
     def _compute_effort(self, joint: int) -> float | None:
         model, joint_id, total = self._model, self._ids[joint], 0.0
