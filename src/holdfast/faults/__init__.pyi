@@ -5,8 +5,6 @@ from holdfast.faults.events import FaultEvents as FaultEvents
 from holdfast.faults.feasibility import Feasibility as Feasibility
 from holdfast.faults.feasibility import feasible as feasible
 from holdfast.faults.injector import FaultInjector as FaultInjector
-from holdfast.faults.kind import FaultKind as FaultKind
-from holdfast.faults.kind import FaultParameter as FaultParameter
 from holdfast.faults.kinds import KINDS as KINDS
 from holdfast.faults.kinds.locks import locked as locked
 from holdfast.faults.kinds.locks import slipping_clutch as slipping_clutch
