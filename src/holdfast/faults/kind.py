@@ -165,16 +165,17 @@ def fault_kinds() -> dict[str, FaultKind]:
     """Return all kinds by name, in the order of their codes.
 
     Raises:
-        InputError: The code of a kind is not the next free number, or a kind has too many parameters.
+        InputError: The codes are not 0, 1, 2, ..., each once, or a kind has too many parameters.
     """
     exports = {module: names for module, names in read_exports("faults").items() if module.startswith(_KINDS_PACKAGE)}
     for module in exports:
         import_module(module)
     kinds = [kind for name, kind in _registered.items() if any(name in names for names in exports.values())]
     kinds.sort(key=lambda kind: kind.code)
-    for code, kind in enumerate(kinds):
-        if kind.code != code:
-            raise InputError(f"code of fault kind '{kind.name}' is {kind.code}; the next free code is {code}")
+    if [kind.code for kind in kinds] != list(range(len(kinds))):
+        codes_text = ", ".join(f"{kind.name} {kind.code}" for kind in kinds)
+        raise InputError(f"codes of the fault kinds are {codes_text}; each number from 0 to {len(kinds) - 1} must occur once")
+    for kind in kinds:
         if len(kind.parameters_by_name) > MAX_PARAMETERS or any(len(names) > _MAX_ALTERNATIVE for names in kind.parameters):
             raise InputError(
                 f"fault kind '{kind.name}' has {len(kind.parameters_by_name)} parameters; it can have {MAX_PARAMETERS}, "
