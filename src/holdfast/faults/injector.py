@@ -15,10 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.errors import InputError
-from holdfast.faults.actuators import JointActuators
 from holdfast.faults.events import FaultEvent, FaultEvents
 from holdfast.faults.kind import find_kind
-from holdfast.faults.model_joint import ActiveFault, ModelJoint, SensorReading
+from holdfast.faults.model_joint import ActiveFault, ModelJoint, SensorReading, find_actuators
 from holdfast.faults.scheme import FaultModel, HasJointNames, list_joint_names
 from holdfast.typing import FloatArray
 
@@ -80,7 +79,7 @@ class FaultInjector:
             if joint_id < 0 or model.jnt_type[joint_id] not in allowed_types:
                 raise InputError(f"the model has no hinge or slide '{name}'; give the names of joints that it has")
         self._qpos, self._dofs = model.jnt_qposadr[self._ids], model.jnt_dofadr[self._ids]
-        self._actuators = JointActuators(mujoco, model, self._ids)
+        actuators = find_actuators(mujoco, model)
         implicit_integrators = [
             int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")
         ]
@@ -94,7 +93,7 @@ class FaultInjector:
                 data=data,
                 index=index,
                 joint_id=joint_id,
-                actuators=self._actuators,
+                actuators=actuators.get(joint_id, np.zeros(0, dtype=np.int64)),
                 arm_limits=arm_limits.get(self.joints[index]),
                 has_implicit_damping=model.opt.integrator in implicit_integrators
                 and not model.opt.disableflags & no_damping_flags,
@@ -115,7 +114,8 @@ class FaultInjector:
             InputError: A fault that the model cannot have.
         """
         self.restore()
-        self._actuators.read_efforts()
+        for joint in self._model_joints:
+            joint.read_effort(self._mujoco)
         faults = self.faults
         if isinstance(faults, (str, Path)):
             raise InputError(f"the faults are '{faults}'; read a file of them by holdfast.faults.load")
@@ -152,7 +152,7 @@ class FaultInjector:
 
     def actuators_of(self, joint: str) -> NDArray[np.int64]:
         """Return the numbers of the actuators of a joint, given by name."""
-        return self._actuators.numbers_of_joint(self.joints.index(joint))
+        return self._model_joints[self.joints.index(joint)].actuators
 
     @property
     def dofs(self) -> NDArray[np.int64]:
@@ -313,7 +313,7 @@ class FaultInjector:
 
 def _list_driven_joints(mujoco: Any, model: Any) -> list[int]:
     """Return the joints with an actuator, and those of the same body tree except its root; all joints where none has one."""
-    actuated = set(JointActuators(mujoco, model, []).driven_joints)
+    actuated = set(find_actuators(mujoco, model))
     body_roots = model.body_rootid[model.jnt_bodyid]
     trees = {body_roots[joint_id] for joint_id in actuated}
     return [

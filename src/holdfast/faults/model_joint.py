@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.faults.actuators import JointActuators
+from holdfast.errors import InputError
 from holdfast.typing import FloatArray
 
 LOCK_OVERLAP = 1e-3  # rad or m that a lock's two limits overlap: both act at every step, not one after it was passed
@@ -20,7 +21,15 @@ _STIFF_TIME_STEPS = 2.0  # time steps: the shortest time constant that MuJoCo's 
 _STOP_IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 
 
-@dataclass(frozen=True, kw_only=True)
+def find_actuators(mujoco: ModuleType, model: Any) -> dict[int, NDArray[np.int64]]:
+    """Return the numbers of the actuators of each driven joint, by the number of the joint in the model."""
+    on_joint = [int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)]
+    joints = np.asarray(model.actuator_trnid).reshape(-1, 2)[:, 0]
+    drives_joint = np.isin(np.asarray(model.actuator_trntype), on_joint)
+    return {joint_id: np.flatnonzero(drives_joint & (joints == joint_id)) for joint_id in set(joints[drives_joint].tolist())}
+
+
+@dataclass(eq=False, kw_only=True)
 class ModelJoint:
     """Joint of a MuJoCo model. Every change of the model is stored so that it can be undone.
 
@@ -29,7 +38,7 @@ class ModelJoint:
         data: ``mujoco.MjData``.
         index: Number of the joint among the injector's joints.
         joint_id: Number of the joint in the model.
-        actuators: Actuators of the injector's joints.
+        actuators: Numbers of the actuators of the joint.
         arm_limits: Limits of the arm's joint, rad or m, where an arm is given, because its model may have no stops.
         has_implicit_damping: True if MuJoCo integrates damping implicitly.
         changes: Array, row, and earlier value of each change.
@@ -39,10 +48,11 @@ class ModelJoint:
     data: Any
     index: int
     joint_id: int
-    actuators: JointActuators
+    actuators: NDArray[np.int64]
     arm_limits: tuple[float, float] | None
     has_implicit_damping: bool
     changes: list[tuple[FloatArray, Any, Any]]
+    _effort: float | None = None
 
     @property
     def name(self) -> str:
@@ -78,18 +88,13 @@ class ModelJoint:
         return self.model_limits if self.model.jnt_limited[self.joint_id] else (-math.inf, math.inf)
 
     @property
-    def actuator_numbers(self) -> NDArray[np.int64]:
-        """Numbers of the actuators of the joint."""
-        return self.actuators.numbers_of_joint(self.index)
-
-    @property
     def command(self) -> FloatArray:
         """Commands of the actuators."""
-        return np.array(self.data.ctrl[self.actuator_numbers])
+        return np.array(self.data.ctrl[self.actuators])
 
     def write_command(self, command: FloatArray) -> None:
         """Replace the commands of the actuators."""
-        self.data.ctrl[self.actuator_numbers] = command
+        self.data.ctrl[self.actuators] = command
 
     def require_actuator(self, kind: str) -> None:
         """Raise an error for a motor fault of a joint without an actuator.
@@ -97,7 +102,8 @@ class ModelJoint:
         Raises:
             InputError: The joint has no actuator of its own.
         """
-        self.actuators.require_actuator(self.index, kind)
+        if not self.actuators.size:
+            raise InputError(f"'{kind}' is a fault of a motor, and '{self.name}' has none; choose another")
 
     def total_effort(self, kind: str) -> float:
         """Return the total effort of all motors, N m or N.
@@ -105,7 +111,34 @@ class ModelJoint:
         Raises:
             InputError: Nothing in the model limits them.
         """
-        return self.actuators.total_effort(self.index, kind)
+        if self._effort is None:
+            raise InputError(
+                f"'{kind}' of '{self.name}' needs the effort of its motor, and the model states none; give it "
+                "actuatorfrcrange, forcerange or ctrlrange"
+            )
+        return self._effort
+
+    def read_effort(self, mujoco: ModuleType) -> None:
+        """Read the effort from the current model, which must be without faults."""
+        model, joint_id, total = self.model, self.joint_id, 0.0
+        fixed_gain = int(mujoco.mjtGain.mjGAIN_FIXED), int(mujoco.mjtBias.mjBIAS_NONE)
+        self._effort = None
+        if model.jnt_actfrclimited[joint_id]:
+            self._effort = float(np.abs(model.jnt_actfrcrange[joint_id]).max())
+            return
+        for actuator in self.actuators:
+            gear = abs(float(model.actuator_gear[actuator, 0]))
+            if model.actuator_forcelimited[actuator]:
+                force = np.abs(model.actuator_forcerange[actuator]).max()
+            elif (
+                model.actuator_ctrllimited[actuator]
+                and (model.actuator_gaintype[actuator], model.actuator_biastype[actuator]) == fixed_gain
+            ):
+                force = np.abs(model.actuator_ctrlrange[actuator]).max() * abs(model.actuator_gainprm[actuator, 0])
+            else:
+                return
+            total += gear * float(force)
+        self._effort = total if self.actuators.size else None
 
     def write_field(self, field: str, row: Any, value: Any) -> None:
         """Write rows of a field of the model, and store their earlier value."""

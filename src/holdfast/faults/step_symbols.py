@@ -48,7 +48,7 @@ class StepSymbols:
     q_measured: SX = None
 
     @staticmethod
-    def where(condition: SX, value: SX, otherwise: SX) -> SX:
+    def select(condition: SX, value: SX, otherwise: SX) -> SX:
         """Return ``value`` where the condition is 1, and ``otherwise`` elsewhere."""
         return ca.if_else(condition, value, otherwise)
 

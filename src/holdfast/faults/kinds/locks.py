@@ -67,7 +67,7 @@ class SlippingClutchKind(_HoldingKind):
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_reading`."""
-        step.q_measured = step.where(active, step.q_motor, step.q_measured)
+        step.q_measured = step.select(active, step.q_motor, step.q_measured)
 
 
 @register_kind(LockedKind())

@@ -60,8 +60,8 @@ class WeakKind(_MotorKind):
         joint = fault.joint
         if "gain" in fault.numbers:
             for field in ("actuator_gainprm", "actuator_biasprm"):
-                values = getattr(joint.model, field)[joint.actuator_numbers]
-                joint.write_field(field, joint.actuator_numbers, values * fault.number("gain"))
+                values = getattr(joint.model, field)[joint.actuators]
+                joint.write_field(field, joint.actuators, values * fault.number("gain"))
         else:
             max_force = fault.number("ceiling") * joint.total_effort(self.name)
             joint.limit_force(-max_force, max_force)
@@ -108,7 +108,7 @@ class ReducedSpeedKind(_MotorKind):
 
     def change_motion(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_motion`."""
-        step.speed_limits = step.where(active, step.minimum(step.first, step.speed_limits), step.speed_limits)
+        step.speed_limits = step.select(active, step.minimum(step.first, step.speed_limits), step.speed_limits)
 
 
 class CommandDropoutKind(_MotorKind):
@@ -127,7 +127,7 @@ class CommandDropoutKind(_MotorKind):
 
     def change_motion(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_motion`."""
-        step.command = step.where(active, step.last_command, step.command)
+        step.command = step.select(active, step.last_command, step.command)
 
 
 @register_kind(LimpKind())

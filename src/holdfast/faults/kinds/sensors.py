@@ -29,7 +29,7 @@ class SensorBiasKind(_SensorKind):
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_reading`."""
-        step.q_measured += step.where(active, step.first, 0.0)
+        step.q_measured += step.select(active, step.first, 0.0)
 
 
 class SensorDriftKind(_SensorKind):
@@ -44,7 +44,7 @@ class SensorDriftKind(_SensorKind):
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_reading`."""
-        step.q_measured += step.where(active, step.first * (step.time - step.onset), 0.0)
+        step.q_measured += step.select(active, step.first * (step.time - step.onset), 0.0)
 
 
 class SensorFreezeKind(_SensorKind):
@@ -58,7 +58,7 @@ class SensorFreezeKind(_SensorKind):
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_reading`."""
-        step.q_measured = step.where(active, step.q_onset, step.q_measured)
+        step.q_measured = step.select(active, step.q_onset, step.q_measured)
 
 
 class SensorNoiseKind(_SensorKind):
@@ -74,7 +74,7 @@ class SensorNoiseKind(_SensorKind):
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_reading`."""
-        step.q_measured += step.where(active, step.first * step.noise, 0.0)
+        step.q_measured += step.select(active, step.first * step.noise, 0.0)
 
 
 @register_kind(SensorBiasKind())

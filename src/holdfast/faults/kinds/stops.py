@@ -41,10 +41,10 @@ class ReducedRangeKind(FaultKind):
     def change_motion(self, step: StepSymbols, active: SX) -> None:
         """See :meth:`FaultKind.change_motion`."""
         travel, q = step.first, step.q_onset
-        lower = step.where(travel < 0, q + travel, step.minimum(step.second, q))
-        upper = step.where(step.all_true(travel > 0, step.is_given(travel)), q + travel, step.maximum(step.third, q))
-        step.lower = step.where(active, step.maximum(lower, step.lower), step.lower)
-        step.upper = step.where(active, step.minimum(upper, step.upper), step.upper)
+        lower = step.select(travel < 0, q + travel, step.minimum(step.second, q))
+        upper = step.select(step.all_true(travel > 0, step.is_given(travel)), q + travel, step.maximum(step.third, q))
+        step.lower = step.select(active, step.maximum(lower, step.lower), step.lower)
+        step.upper = step.select(active, step.minimum(upper, step.upper), step.upper)
 
 
 @register_kind(ReducedRangeKind())
