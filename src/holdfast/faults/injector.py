@@ -78,7 +78,7 @@ class FaultInjector:
         for name, joint_id in zip(self.joints, self._ids, strict=True):
             if joint_id < 0 or model.jnt_type[joint_id] not in allowed_types:
                 raise InputError(f"the model has no hinge or slide '{name}'; give the names of joints that it has")
-        self._qpos, self._dofs = model.jnt_qposadr[self._ids], model.jnt_dofadr[self._ids]
+        self._dofs = model.jnt_dofadr[self._ids]
         actuators = find_actuators(mujoco, model)
         implicit_integrators = [
             int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")
