@@ -13,8 +13,9 @@ from holdfast.errors import HoldfastError, InputError
 from holdfast.faults.batch import make_batch
 from holdfast.faults.events import FaultEvents
 from holdfast.faults.kind import fault_kinds
-from holdfast.faults.learning.stepping import GOAL_NUMBERS, KERNEL_INFINITY, STATE_PARTS, build_step_kernel, make_kernel_rows
+from holdfast.faults.learning.stepping import GOAL_NUMBERS, STATE_PARTS, build_step_kernel, make_kernel_rows
 from holdfast.faults.scheme import FaultModel
+from holdfast.faults.step_symbols import KERNEL_INFINITY
 from holdfast.typing import FloatArray
 
 try:
