@@ -113,3 +113,21 @@ def test_all_walks_in_one_copy(run, tmp_path):
     code, told = run("holdfast", "price", "planar-3r", "--error", "0.2")
     assert code == 0, told
     assert "pseudoinverse" in told
+
+
+def test_walk_of_a_fault_kind(run, tmp_path):
+    """One file and one line make a fault kind that files, commands, and injectors accept."""
+    kind_file, kind_test, kind_line = steps("add-a-fault-kind")
+    write(tmp_path, *kind_file)
+    write(tmp_path, *kind_test)
+    (tmp_path / "faults.yaml").write_text("faults: [{kind: one_sided, remaining: 0.5}]\n", encoding="utf-8")
+    draw = ["holdfast", "faults", "draw", "faults.yaml", "--arm", "planar-3r"]
+    code, told = run(*draw)
+    assert code != 0
+    assert "remaining" in told
+    write(tmp_path, *kind_line)
+    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", kind_test[0], "tests/faults/test_kinds.py")
+    assert code == 0, told
+    code, told = run(*draw)
+    assert code == 0, told
+    assert "one_sided" in told

@@ -255,6 +255,15 @@ class Constructors(SphinxDirective):
         return self.parse_text_to_nodes(text)
 
 
+class FaultKinds(SphinxDirective):
+    """The constructors of all kinds of faults, documented."""
+
+    def run(self) -> list[nodes.Node]:
+        from holdfast.faults import KINDS
+
+        return self.parse_text_to_nodes("\n\n".join(f".. autofunction:: holdfast.faults.{name}" for name in KINDS))
+
+
 def _codes(texts: list[str]) -> nodes.Node:
     items = nodes.bullet_list(classes=["operations"])
     for text in texts:
@@ -281,5 +290,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("casadi-operations", CasadiOperations)
     app.add_directive("registry", Registered)
     app.add_directive("registered", Constructors)
+    app.add_directive("fault-kinds", FaultKinds)
     app.add_role("cite", Cite())
     return {"parallel_read_safe": True, "parallel_write_safe": True}

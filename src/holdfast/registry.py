@@ -184,11 +184,8 @@ class Registry(Mapping[str, RegistryEntry]):
 
     @cached_property
     def _entries(self) -> dict[str, RegistryEntry]:
-        offered: dict[str, set[str]] = {}
-        for node in ast.parse(_read_source(f"{self.package.partition('.')[2].replace('.', '/')}/__init__.pyi")).body:
-            if isinstance(node, ast.ImportFrom) and node.module:
-                offered.setdefault(node.module, set()).update(a.name for a in node.names)
-        known = (entry for module, names in offered.items() for entry in _read_constructors(self.kind, module, names))
+        exports = read_exports(self.package.partition(".")[2])
+        known = (entry for module, names in exports.items() for entry in _read_constructors(self.kind, module, names))
         return {entry.name: entry for entry in known}
 
     def __getitem__(self, name: str) -> RegistryEntry:
@@ -291,6 +288,15 @@ class Registry(Mapping[str, RegistryEntry]):
         """All names, with their settings and what these are, for help."""
         texts = [(e.usage, "; ".join(p.describe() for p in e.parameters)) for e in self.values()]
         return "; ".join(usage + (f" ({about})" if about else "") for usage, about in texts)
+
+
+def read_exports(package: str) -> dict[str, set[str]]:
+    """Return the names that the stub of a package below ``holdfast`` exports, by the modules that define them."""
+    exports: dict[str, set[str]] = {}
+    for node in ast.parse(_read_source(f"{package.replace('.', '/')}/__init__.pyi")).body:
+        if isinstance(node, ast.ImportFrom) and node.module:
+            exports.setdefault(node.module, set()).update(a.name for a in node.names)
+    return exports
 
 
 def unknown_name_message(kind: str, name: str, *known: Iterable[str]) -> str:

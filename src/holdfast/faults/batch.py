@@ -9,12 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.faults.entry import KINDS, PARAMETERS_BY_KIND
 from holdfast.faults.events import FaultEvents
+from holdfast.faults.kind import MAX_PARAMETERS, find_kind
 from holdfast.result import Result
 from holdfast.typing import FloatArray
-
-_MAX_PARAMETERS = 3  # parameters of a kind
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -68,15 +66,16 @@ def make_batch(joints: tuple[str, ...], episodes: Sequence[FaultEvents], *, seed
     """Return the faults of episodes as arrays."""
     shape = len(episodes), len(joints)
     kinds, onsets, ends = np.full(shape, -1), np.full(shape, np.inf), np.full(shape, np.inf)
-    parameters, omitted_count = np.full((*shape, _MAX_PARAMETERS), np.nan), 0
+    parameters, omitted_count = np.full((*shape, MAX_PARAMETERS), np.nan), 0
     for row, events in enumerate(episodes):
         for event in events:
             column = joints.index(event.joint)
             if kinds[row, column] >= 0:
                 omitted_count += 1
                 continue
-            kinds[row, column], onsets[row, column], ends[row, column] = KINDS.index(event.kind), event.onset, event.end
-            parameter_names = [name for names in PARAMETERS_BY_KIND.get(event.kind, ()) for name in names]
+            kind = find_kind(event.kind)
+            kinds[row, column], onsets[row, column], ends[row, column] = kind.code, event.onset, event.end
+            parameter_names = list(kind.parameters_by_name)
             for name, value in event.parameters.items():
                 if not isinstance(value, str):
                     parameters[row, column, parameter_names.index(name)] = value

@@ -13,8 +13,9 @@ from itertools import islice
 import numpy as np
 
 from holdfast.errors import InputError
-from holdfast.faults.entry import SIGNED_PARAMETERS, Fault
+from holdfast.faults.entry import Fault
 from holdfast.faults.events import FaultEvent
+from holdfast.faults.kind import find_kind
 from holdfast.faults.spread import draw_exponential
 
 _SECONDS_PER_HOUR = 3600.0
@@ -68,10 +69,11 @@ def draw_events(
     onset = round(onset, 6)
     end = math.inf if entry.duration is None else round(onset + entry.duration.at(uniform_values[5]), 6)
     sign = -1.0 if uniform_values[4] < 0.5 else 1.0
+    known = find_kind(entry.kind).parameters_by_name
     parameters = {
         name: law
         if isinstance(law, str)
-        else round((sign if name in SIGNED_PARAMETERS else 1.0) * law.at(uniform_values[value_index]), 9)
+        else round((sign if known[name].has_random_sign else 1.0) * law.at(uniform_values[value_index]), 9)
         for (name, law), value_index in zip(entry.parameters.items(), (3, 7), strict=False)
     }
     intervals = [(onset, end)]

@@ -5,55 +5,28 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Any, Literal, get_args
+from typing import Any, TypedDict
 
 from holdfast.errors import InputError
+from holdfast.faults.kind import FaultParameter, find_kind
 from holdfast.faults.spread import ParameterDistribution
 
-Kind = Literal[
-    "locked",
-    "limp",
-    "weak",
-    "friction",
-    "reduced_range",
-    "reduced_speed",
-    "sensor_bias",
-    "sensor_drift",
-    "sensor_freeze",
-    "sensor_noise",
-    "command_dropout",
-    "slipping_clutch",
-]
-KINDS: tuple[Kind, ...] = get_args(Kind)
-SENSOR_KINDS = frozenset({"sensor_bias", "sensor_drift", "sensor_freeze", "sensor_noise"})
-TORQUE_KINDS = frozenset({"limp", "weak", "friction"})
-# The parameters of each kind: sets of names of which one is given, the whole of it unless it says otherwise.
-PARAMETERS_BY_KIND: dict[str, tuple[tuple[str, ...], ...]] = {
-    "locked": (("at",),),
-    "weak": (("gain",), ("ceiling",)),
-    "friction": (("coulomb", "viscous"),),
-    "reduced_range": (("travel",), ("lower", "upper")),
-    "reduced_speed": (("velocity",),),
-    "sensor_bias": (("bias",),),
-    "sensor_drift": (("rate",),),
-    "sensor_noise": (("deviation",),),
-}
-SIGNED_PARAMETERS = frozenset({"travel", "bias", "rate"})  # the sign is drawn
-_OPTIONAL_PARAMETERS = frozenset({"coulomb", "viscous", "lower", "upper"})  # one of the two is enough
-# Least and greatest of each number, and whether the ends belong to it.
-_PARAMETER_BOUNDS: dict[str, tuple[float, float, bool]] = {
-    "gain": (0.0, 1.0, False),
-    "ceiling": (0.0, 1.0, False),
-    "coulomb": (0.0, math.inf, True),
-    "viscous": (0.0, math.inf, True),
-    "travel": (0.0, math.inf, True),
-    "velocity": (0.0, math.inf, False),
-    "bias": (0.0, math.inf, True),
-    "rate": (0.0, math.inf, True),
-    "deviation": (0.0, math.inf, True),
-    "onset": (0.0, math.inf, True),
-    "duration": (0.0, math.inf, True),
-}
+Joints = str | Sequence[str] | None
+Value = float | tuple[float, float] | Mapping[str, float | Sequence[float]] | ParameterDistribution
+_TIME_PARAMETERS = {name: FaultParameter(name, 0.0) for name in ("onset", "duration")}
+
+
+class FaultTiming(TypedDict, total=False):
+    """Options that every kind of fault accepts."""
+
+    weights: Sequence[float] | None
+    probability: float
+    onset: Value | None
+    duration: Value | None
+    rate_per_hour: float | None
+    together: int
+    on: float | None
+    off: float | None
 
 
 @dataclass(frozen=True)
@@ -79,7 +52,7 @@ class Fault:
         InputError: An unknown kind, parameter or law, numbers out of bounds, or what does not go together.
     """
 
-    kind: Kind
+    kind: str
     parameters: Mapping[str, Any] = field(default_factory=dict)
     joints: Sequence[str] | str | None = None
     _: KW_ONLY
@@ -93,8 +66,7 @@ class Fault:
     off: float | None = None
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise InputError(f"kind '{self.kind}' is not known; use {', '.join(KINDS)}")
+        find_kind(self.kind)
         self._assign_field("joints", (self.joints,) if isinstance(self.joints, str) else self.joints and tuple(self.joints))
         self._assign_field("weights", self.weights and tuple(map(float, self.weights)))
         self._check_joints()
@@ -120,28 +92,30 @@ class Fault:
 
     def _read_parameters(self) -> dict[str, Any]:
         given = {name: value for name, value in self.parameters.items() if value is not None}
-        choices = PARAMETERS_BY_KIND.get(self.kind, ())
-        known_names = [name for names in choices for name in names]
+        kind = find_kind(self.kind)
+        known = kind.parameters_by_name
         for name in given:
-            if name not in known_names:
-                allowed_text = f"takes {', '.join(known_names)}" if known_names else "takes no parameter"
+            if name not in known:
+                allowed_text = f"takes {', '.join(known)}" if known else "takes no parameter"
                 raise InputError(f"'{self.kind}' has no parameter '{name}'; it {allowed_text}")
-        if self.kind == "locked" and given.get("at", "here") == "here":
-            return {"at": "here"}
-        candidates = [names for names in choices if set(given) and set(given) <= set(names)]
-        complete = [names for names in candidates if set(given) == set(names) or set(names) <= _OPTIONAL_PARAMETERS]
-        if choices and not complete:
-            raise InputError(f"'{self.kind}' must have {' or '.join(' and '.join(names) for names in choices)}")
-        # In the order of the table: which uniform number draws which does not depend on the caller's order.
-        return {name: self._parse_bounded(name, given[name]) for name in known_names if name in given}
+        given = {name: parameter.word for name, parameter in known.items() if parameter.word is not None} | given
+        alternatives = [[parameter.name for parameter in alternative] for alternative in kind.parameters]
+        if alternatives and not any(given and set(given) <= set(names) for names in alternatives):
+            raise InputError(f"'{self.kind}' must have {' or '.join(' and '.join(names) for names in alternatives)}")
+        # In the order of the kind: which uniform number draws which does not depend on the caller's order.
+        return {
+            name: parameter.word if given[name] == parameter.word else self._parse_bounded(parameter, given[name])
+            for name, parameter in known.items()
+            if name in given
+        }
 
-    def _parse_bounded(self, name: str, value: Any) -> ParameterDistribution:
+    def _parse_bounded(self, parameter: FaultParameter, value: Any) -> ParameterDistribution:
+        name, minimum, maximum = parameter.name, parameter.low, parameter.high
         distribution = ParameterDistribution.from_value(value, f"{name} of '{self.kind}'")
-        minimum, maximum, includes_ends = _PARAMETER_BOUNDS.get(name, (-math.inf, math.inf, True))
         lower, upper = distribution.ends
         is_inside = (
             minimum <= lower and upper <= maximum
-            if includes_ends
+            if parameter.includes_ends
             else minimum < lower and (upper < maximum or math.isinf(maximum))
         )
         if distribution.law == "exponential":
@@ -151,10 +125,10 @@ class Fault:
                 f"between {minimum:g} and {maximum:g}"
                 if math.isfinite(maximum)
                 else "0 or more"
-                if includes_ends
+                if parameter.includes_ends
                 else f"above {minimum:g}"
             )
-            sign_text = "; its sign is drawn" if name in SIGNED_PARAMETERS else ""
+            sign_text = "; its sign is drawn" if parameter.has_random_sign else ""
             range_text = f"{lower:g}" if lower == upper else f"from {lower:g} to {upper:g}"
             raise InputError(f"{name} of '{self.kind}' is {range_text}; it must be {expected_text}{sign_text}")
         return distribution
@@ -170,10 +144,10 @@ class Fault:
             raise InputError(f"'{self.kind}' has both onset and rate_per_hour; the rate says when it begins: give one of them")
         if (self.on is None) != (self.off is None):
             raise InputError(f"'{self.kind}' has only one of on and off; a fault that comes and goes has both")
-        self._assign_field(
-            "onset", None if self.rate_per_hour else self._parse_bounded("onset", 0.0 if self.onset is None else self.onset)
-        )
-        self._assign_field("duration", None if self.duration is None else self._parse_bounded("duration", self.duration))
+        onset = 0.0 if self.onset is None else self.onset
+        self._assign_field("onset", None if self.rate_per_hour else self._parse_bounded(_TIME_PARAMETERS["onset"], onset))
+        if self.duration is not None:
+            self._assign_field("duration", self._parse_bounded(_TIME_PARAMETERS["duration"], self.duration))
 
     def to_stored(self) -> dict[str, Any]:
         """Return the entry as files store it, without default values."""
@@ -190,6 +164,6 @@ class Fault:
             "duration": self.duration and self.duration.stored(),
             "on": self.on,
             "off": self.off,
-            **{name: value if value == "here" else value.stored() for name, value in self.parameters.items()},
+            **{name: value.stored() for name, value in self.parameters.items() if not isinstance(value, str)},
         }
-        return data | {name: value for name, value in values.items() if value is not None and value != "here"}
+        return data | {name: value for name, value in values.items() if value is not None}

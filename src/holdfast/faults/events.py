@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.faults.entry import Kind
+from holdfast.faults.kind import find_kind
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class FaultEvent:
         parameters: Those of the kind by name, with their sign: rad, N m, rad/s (m, N, m/s of prismatic joints).
     """
 
-    kind: Kind
+    kind: str
     joint: str
     onset: float
     _: KW_ONLY
@@ -74,8 +74,8 @@ class FaultEvents(tuple[FaultEvent, ...]):
         """
         times = np.full(len(joints), np.inf)
         for event in self:
-            is_permanent = event.kind in ("locked", "slipping_clutch") and math.isinf(event.end)
-            if not is_permanent or event.parameters.get("at", "here") != "here":
+            kind = find_kind(event.kind)
+            if not kind.holds_joint or kind.is_delayed(event.parameters) or math.isfinite(event.end):
                 raise InputError(
                     f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
                     "--physics, or use holdfast.simulate_faults"

@@ -13,8 +13,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.failures import Degraded
-from holdfast.faults.entry import SENSOR_KINDS
 from holdfast.faults.events import FaultEvent
+from holdfast.faults.kind import find_kind
 from holdfast.reach import reachable_when_locked
 from holdfast.recovery import recover
 from holdfast.recovery.question import choose_task
@@ -24,8 +24,6 @@ from holdfast.typing import FloatArray
 
 Answer = Literal["yes", "no", "not found", "unknown"]
 
-_LOCKING_KINDS = frozenset({"locked", "slipping_clutch"})
-_BRAKED_KINDS = frozenset({"limp", *SENSOR_KINDS})
 _STOP_COMPLIANCE = 0.02  # rad or m, of a stop
 _EXACT_TOLERANCE = 1e-6  # m and rad: what a motion to the goal itself may be off
 _GRAVITY_TEST_CONFIGURATIONS = 64  # of a goal at which a weak motor is asked to carry the arm
@@ -90,27 +88,26 @@ def feasible(
     task_rows = task_rows if within is None else choose_task(arm, task_rows, None, within)
     pose = np.eye(4)
     pose[: len(target), 3 if target.ndim == 1 else slice(None)] = target
-    locked_values = {
-        event.joint: _snap_to_limits(arm, event.joint, position)
-        for event, position in places.items()
-        if event.kind in _LOCKING_KINDS or (brakes and event.kind in _BRAKED_KINDS)
-    }
-    remaining_events = [event for event in places if event.joint not in locked_values]
-    swinging = next((event for event in remaining_events if event.kind == "limp"), None)
-    weak_gains = {
-        event.joint: float(event.parameters.get("gain", event.parameters.get("ceiling", 0.0)))
-        for event in remaining_events
-        if event.kind == "weak"
-    }
-    if swinging is not None:
-        weak_gains[swinging.joint] = 0.0
+    locked_values, ranges = dict[str, float](), dict[str, tuple[float, float]]()
+    weak_gains: dict[str, float] = {}
+    for event, position in places.items():
+        kind = find_kind(event.kind)
+        if kind.holds_joint or (brakes and kind.needs_brake):
+            locked_values[event.joint] = _snap_to_limits(arm, event.joint, position)
+    for event, position in places.items():
+        kind, joint = find_kind(event.kind), arm.joints[arm.joint_index(event.joint)]
+        if event.joint in locked_values:
+            continue
+        gain = kind.torque_fraction(event.parameters)
+        if gain is not None:
+            weak_gains[event.joint] = min(gain, weak_gains.get(event.joint, gain))
+        remaining_range = kind.remaining_range((joint.lower, joint.upper), position, event.parameters)
+        if remaining_range is not None:
+            ranges[event.joint] = max(remaining_range[0], joint.lower), min(remaining_range[1], joint.upper)
     if weak_gains and locked_values:
         return Feasibility("unknown", "locks and weak motors together are not looked at")
     if weak_gains:
         return _check_gravity_load(arm, pose, task_rows, within, weak_gains, tolerance)
-    ranges = {
-        event.joint: _reduce_range(arm, event, places[event]) for event in remaining_events if event.kind == "reduced_range"
-    }
     conditions = [f"{joint} locked" for joint in locked_values] + [f"{joint} within its reduced range" for joint in ranges]
     condition_text = f"with {' and '.join(conditions)}" if conditions else "by the healthy arm"
     if not 0 < tolerance <= 1:
@@ -146,15 +143,6 @@ def _snap_to_limits(arm: Arm, name: str, position: float) -> float:
     joint = arm.joints[arm.joint_index(name)]
     limited_position = float(np.clip(position, joint.lower, joint.upper))
     return limited_position if abs(limited_position - position) <= _STOP_COMPLIANCE else position
-
-
-def _reduce_range(arm: Arm, event: FaultEvent, position: float) -> tuple[float, float]:
-    """Return the remaining range of a joint, with the position of the joint, as the injector sets it."""
-    joint, parameters = arm.joints[arm.joint_index(event.joint)], event.parameters
-    travel = float(parameters.get("travel", 0.0))
-    lower = position + travel if travel < 0 else min(float(parameters.get("lower", joint.lower)), position)
-    upper = position + travel if travel > 0 else max(float(parameters.get("upper", joint.upper)), position)
-    return max(lower, joint.lower), min(upper, joint.upper)
 
 
 def _solve_in_cone(

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,33 +15,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.errors import InputError
-from holdfast.faults.actuators import JointActuators
-from holdfast.faults.entry import SENSOR_KINDS, TORQUE_KINDS
 from holdfast.faults.events import FaultEvent, FaultEvents
+from holdfast.faults.kind import find_kind
+from holdfast.faults.model_joint import ActiveFault, ModelJoint, SensorReading, find_actuators
 from holdfast.faults.scheme import FaultModel, HasJointNames, list_joint_names
 from holdfast.typing import FloatArray
 
 TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is not left to the next one
-LOCK_OVERLAP = 1e-3  # rad or m that a lock's two limits overlap: both act at every step, not one after it was passed
-_LOCK_DAMPING_FACTOR = 1e6  # of a locked joint's inertia a time step: its damping where MuJoCo integrates damping implicitly
-_NO_LIMIT = 1e9  # rad or m: a stop where there is none
-_STIFF_TIME_STEPS = 2.0  # time steps: the shortest time constant that MuJoCo's contacts keep stable
-_STOP_IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-_LOCKING_KINDS = ("locked", "slipping_clutch")
-
-
-@dataclass
-class _ActiveFault:
-    """Active event: the number of its joint, the position of the joint at the onset, and its state."""
-
-    event: FaultEvent
-    joint: int
-    position: float
-    approach_sign: float
-    is_pending: bool = False  # a lock that waits for its angle
-    is_still: bool = False  # a joint that was stopped where it is held
-    command: FloatArray | None = None
-    force_range: tuple[float, float] | None = None  # N m or N, of a motor whose speed is reduced
 
 
 class FaultInjector:
@@ -93,23 +72,35 @@ class FaultInjector:
                 for joint_id in _list_driven_joints(mujoco, model)
                 if model.jnt_type[joint_id] in allowed_types and model.joint(joint_id).name
             ]
-        self.joints, self._arm_joints = list_joint_names(joints), {joint.name: joint for joint in getattr(joints, "joints", ())}
+        self.joints = list_joint_names(joints)
+        arm_limits = {joint.name: (joint.lower, joint.upper) for joint in getattr(joints, "joints", ())}
         self._ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in self.joints]
         for name, joint_id in zip(self.joints, self._ids, strict=True):
             if joint_id < 0 or model.jnt_type[joint_id] not in allowed_types:
                 raise InputError(f"the model has no hinge or slide '{name}'; give the names of joints that it has")
-        self._qpos, self._dofs = model.jnt_qposadr[self._ids], model.jnt_dofadr[self._ids]
-        self._actuators = JointActuators(mujoco, model, self._ids)
+        self._dofs = model.jnt_dofadr[self._ids]
+        actuators = find_actuators(mujoco, model)
         implicit_integrators = [
             int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")
         ]
         no_damping_flags = sum(
             int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0)) for name in ("EULERDAMP", "DAMPER", "PASSIVE")
         )
-        self._has_implicit_damping = (
-            model.opt.integrator in implicit_integrators and not model.opt.disableflags & no_damping_flags
-        )
         self._changes: list[tuple[FloatArray, Any, Any]] = []  # array, row and value before the faults were inserted
+        self._model_joints = [
+            ModelJoint(
+                model=model,
+                data=data,
+                index=index,
+                joint_id=joint_id,
+                actuators=actuators.get(joint_id, np.zeros(0, dtype=np.int64)),
+                arm_limits=arm_limits.get(self.joints[index]),
+                has_implicit_damping=model.opt.integrator in implicit_integrators
+                and not model.opt.disableflags & no_damping_flags,
+                changes=self._changes,
+            )
+            for index, joint_id in enumerate(self._ids)
+        ]
         self.is_inserted = False
         self.events = FaultEvents()
         self.applied: dict[FaultEvent, float] = {}
@@ -123,7 +114,8 @@ class FaultInjector:
             InputError: A fault that the model cannot have.
         """
         self.restore()
-        self._actuators.read_efforts()
+        for joint in self._model_joints:
+            joint.read_effort(self._mujoco)
         faults = self.faults
         if isinstance(faults, (str, Path)):
             raise InputError(f"the faults are '{faults}'; read a file of them by holdfast.faults.load")
@@ -136,8 +128,8 @@ class FaultInjector:
             self.events = FaultEvents(faults)
         for event in self.events:
             self._check_event(event)
-        self._active: list[_ActiveFault] = []
-        self._brakes: list[_ActiveFault] = []
+        self._active: dict[FaultEvent, ActiveFault] = {}
+        self._brakes: list[ActiveFault] = []
         self.applied, self.time = {}, -math.inf
         self._noise = np.random.default_rng(int(self.events.id[:16], 16))
         self._schedule_changes()
@@ -146,8 +138,9 @@ class FaultInjector:
     def insert(self) -> None:
         """Insert the active faults into the model, on top of its current values."""
         self.restore()
-        for fault in (*self._active, *self._brakes):
-            self._insert_fault(fault)
+        for fault in (*self._active.values(), *self._brakes):
+            if not fault.is_pending:
+                find_kind(fault.kind).apply(fault)
         self.is_inserted = True
 
     def restore(self) -> None:
@@ -159,7 +152,7 @@ class FaultInjector:
 
     def actuators_of(self, joint: str) -> NDArray[np.int64]:
         """Return the numbers of the actuators of a joint, given by name."""
-        return self._actuators.numbers_of_joint(self.joints.index(joint))
+        return self._model_joints[self.joints.index(joint)].actuators
 
     @property
     def dofs(self) -> NDArray[np.int64]:
@@ -169,31 +162,29 @@ class FaultInjector:
     @property
     def places(self) -> dict[FaultEvent, float]:
         """Positions of the joints of the active events at their onset, rad or m."""
-        return {fault.event: fault.position for fault in self._active}
+        return {event: fault.position for event, fault in self._active.items()}
 
     @property
     def changes_model(self) -> bool:
         """True if a fault of this episode changes the model; faults of sensors and of commands do not."""
-        return any(event.kind not in SENSOR_KINDS | {"command_dropout"} for event in self.events)
+        return any(find_kind(event.kind).changes_model for event in self.events)
 
     @property
     def active(self) -> FaultEvents:
         """Currently active events."""
-        return FaultEvents(fault.event for fault in self._active)
+        return FaultEvents(self._active)
 
     def brake(self, joint: str) -> None:
         """Brake a joint at once, until the next reset; this is no fault and does not appear in ``active``."""
-        index = self.joints.index(joint)
-        event = FaultEvent("locked", joint, self.time)
-        braked = _ActiveFault(event, index, float(self.data.qpos[self._qpos[index]]), self.time)
+        model_joint = self._model_joints[self.joints.index(joint)]
+        braked = ActiveFault("locked", model_joint, {}, self.time, model_joint.q)
         self._stop_joint(braked)
         self._brakes.append(braked)
         self._update_inserted()
 
     def release(self, joint: str) -> None:
         """Release a joint that was braked."""
-        index = self.joints.index(joint)
-        self._brakes = [braked for braked in self._brakes if braked.joint != index]
+        self._brakes = [braked for braked in self._brakes if braked.joint.name != joint]
         self._update_inserted()
 
     def before_step(self, time: float) -> None:
@@ -209,7 +200,7 @@ class FaultInjector:
             self.insert()
             self._begin_and_end_faults(time)
         for fault in self._faults_each_step:
-            self._update_each_step(fault)
+            self._update_fault(fault)
         if not inserted and self.is_inserted:
             self.restore()
 
@@ -224,19 +215,12 @@ class FaultInjector:
             (n,) readings.
         """
         readings = np.array(q, dtype=np.float64)
-        for fault in self._active:
-            index, numbers = fault.joint, fault.event.parameters
-            match fault.event.kind:
-                case "sensor_bias":
-                    readings[index] += float(numbers["bias"])
-                case "sensor_drift":
-                    readings[index] += float(numbers["rate"]) * max(self.time - fault.event.onset, 0.0)
-                case "sensor_freeze":
-                    readings[index] = fault.position
-                case "sensor_noise":
-                    readings[index] += float(numbers["deviation"]) * self._noise.standard_normal()
-                case "slipping_clutch" if reference is not None:
-                    readings[index] = np.asarray(reference, dtype=np.float64)[index]
+        references = None if reference is None else np.asarray(reference, dtype=np.float64)
+        for fault in self._active.values():
+            index = fault.joint.index
+            joint_reference = None if references is None else float(references[index])
+            reading = SensorReading(float(readings[index]), self.time, joint_reference, self._noise)
+            readings[index] = find_kind(fault.kind).read_sensor(reading, fault)
         return readings
 
     # ---- inside ------------------------------------------------------------------------------------------------------
@@ -244,24 +228,7 @@ class FaultInjector:
     def _check_event(self, event: FaultEvent) -> None:
         if event.joint not in self.joints:
             raise InputError(f"a fault names joint '{event.joint}'; the joints are {', '.join(self.joints)}")
-        index = self.joints.index(event.joint)
-        joint_id, kind = self._ids[index], event.kind
-        if kind in TORQUE_KINDS - {"friction"} or kind in ("reduced_speed", "command_dropout"):
-            self._actuators.require_actuator(event)
-        if kind == "weak" and "gain" in event.parameters and self.model.jnt_actgravcomp[joint_id]:
-            raise InputError(
-                f"the motor of '{event.joint}' compensates gravity inside MuJoCo, which no gain reaches; give the torque as a "
-                "control, or use ceiling"
-            )
-        if kind == "reduced_speed" or "ceiling" in event.parameters:
-            self._actuators.total_effort(index, event)
-        lock_position = event.parameters.get("at", "here")
-        if kind == "locked" and not isinstance(lock_position, str):
-            lower, upper = self.model.jnt_range[joint_id] if self.model.jnt_limited[joint_id] else (-math.inf, math.inf)
-            if event.joint in self._arm_joints:  # whose model may have no stops
-                lower, upper = self._arm_joints[event.joint].lower, self._arm_joints[event.joint].upper
-            if not lower <= lock_position <= upper:
-                raise InputError(f"'{event.joint}' locks at {lock_position:g}, beyond its limits {lower:g} and {upper:g}")
+        find_kind(event.kind).check(self._model_joints[self.joints.index(event.joint)], event.parameters)
 
     def _check_entries(self) -> None:
         """Raise an error for a fault model with a fault that a later episode could draw and the model cannot have."""
@@ -278,34 +245,26 @@ class FaultInjector:
 
     def _schedule_changes(self) -> None:
         """Set the time of the next onset or end, and the faults that need work at every step."""
-        active_ids = {id(fault.event) for fault in self._active}
         change_times = [event.onset for event in self.events if event not in self.applied]
-        change_times += [event.end for event in self.events if id(event) in active_ids]
+        change_times += [event.end for event in self._active]
         self._next_change_s = min(change_times, default=math.inf) - TIME_TOLERANCE_S
-        stepwise_kinds = ("reduced_speed", "command_dropout")
-        self._faults_each_step = [fault for fault in self._active if fault.is_pending or fault.event.kind in stepwise_kinds]
+        self._faults_each_step = [
+            fault for fault in self._active.values() if fault.is_pending or find_kind(fault.kind).updates_each_step
+        ]
 
     def _begin_and_end_faults(self, time: float) -> None:
-        qpos = self.data.qpos
-        self._active = [fault for fault in self._active if fault.event.end > time + TIME_TOLERANCE_S]
+        self._active = {event: fault for event, fault in self._active.items() if event.end > time + TIME_TOLERANCE_S}
         for event in self.events:
             if event in self.applied or event.onset > time + TIME_TOLERANCE_S:
                 continue
             self.applied[event] = time
             if event.end <= time + TIME_TOLERANCE_S:
                 continue
-            index = self.joints.index(event.joint)
-            fault = _ActiveFault(event, index, float(qpos[self._qpos[index]]), time)
-            lock_position = event.parameters.get("at", "here")
-            if event.kind == "locked" and not isinstance(lock_position, str):
-                fault.is_pending, fault.approach_sign = (
-                    fault.position != lock_position,
-                    math.copysign(1.0, fault.position - lock_position),
-                )
-            if event.kind == "command_dropout":
-                fault.command = self.data.ctrl[self._actuators.numbers_of_joint(index)].copy()
-            self._active.append(fault)
-            if event.kind in _LOCKING_KINDS and not fault.is_pending:
+            joint, kind = self._model_joints[self.joints.index(event.joint)], find_kind(event.kind)
+            fault = ActiveFault(event.kind, joint, event.parameters, event.onset, joint.q)
+            kind.begin(fault)
+            self._active[event] = fault
+            if kind.holds_joint and not fault.is_pending:
                 self._stop_joint(fault)
         self._apply_faults()
 
@@ -319,84 +278,31 @@ class FaultInjector:
         if self.is_inserted:
             self.insert()
 
-    def _write_field(self, field: str, row: Any, value: Any) -> None:
-        """Write rows of a field of the model, and store their value for ``restore``."""
-        array = getattr(self.model, field)
-        self._changes.append((array, row, np.copy(array[row])))
-        array[row] = value
-
-    def _insert_fault(self, fault: _ActiveFault) -> None:
-        joint_id, dof, model, numbers = self._ids[fault.joint], self._dofs[fault.joint], self.model, fault.event.parameters
-        match fault.event.kind:
-            case "locked" | "slipping_clutch" if not fault.is_pending:
-                self._write_field("jnt_limited", joint_id, 1)
-                self._write_field("jnt_range", joint_id, (fault.position + LOCK_OVERLAP, fault.position - LOCK_OVERLAP))
-                self._write_field("jnt_solref", joint_id, (_STIFF_TIME_STEPS * model.opt.timestep, 1.0))
-                self._write_field("jnt_solimp", joint_id, _STOP_IMPEDANCE)
-                if fault.is_still and self._has_implicit_damping:
-                    self._write_field("dof_damping", dof, _LOCK_DAMPING_FACTOR * model.dof_M0[dof] / model.opt.timestep)
-            case "limp":
-                self._limit_force(joint_id, 0.0, 0.0)
-            case "weak" if "gain" in numbers:
-                actuators = self._actuators.numbers_of_joint(fault.joint)
-                for name in ("actuator_gainprm", "actuator_biasprm"):
-                    self._write_field(name, actuators, getattr(model, name)[actuators] * numbers["gain"])
-            case "weak":
-                max_force = float(numbers["ceiling"]) * self._actuators.total_effort(fault.joint, fault.event)
-                self._limit_force(joint_id, -max_force, max_force)
-            case "reduced_speed" if fault.force_range is not None:
-                self._limit_force(joint_id, *fault.force_range)
-            case "friction":
-                self._write_field("dof_frictionloss", dof, model.dof_frictionloss[dof] + float(numbers.get("coulomb", 0.0)))
-                self._write_field("dof_damping", dof, model.dof_damping[dof] + float(numbers.get("viscous", 0.0)))
-            case "reduced_range":
-                lower, upper = model.jnt_range[joint_id] if model.jnt_limited[joint_id] else (-_NO_LIMIT, _NO_LIMIT)
-                travel = float(numbers.get("travel", 0.0))
-                if "travel" in numbers:
-                    lower, upper = (lower, fault.position + travel) if travel > 0 else (fault.position + travel, upper)
-                # A stop behind the joint would throw it: it begins where the joint is.
-                lower = max(lower, min(float(numbers.get("lower", lower)), fault.position))
-                upper = min(upper, max(float(numbers.get("upper", upper)), fault.position))
-                self._write_field("jnt_limited", joint_id, 1)
-                self._write_field("jnt_range", joint_id, (lower, upper))
-
-    def _limit_force(self, joint_id: int, lower: float, upper: float) -> None:
-        """Limit the force of all actuators on a joint, N m or N."""
-        self._write_field("jnt_actfrclimited", joint_id, 1)
-        self._write_field("jnt_actfrcrange", joint_id, (lower, upper))
-
-    def _update_each_step(self, fault: _ActiveFault) -> None:
-        index = fault.joint
-        if fault.command is not None:
-            self.data.ctrl[self._actuators.numbers_of_joint(index)] = fault.command
-        elif fault.is_pending:
-            lock_position, q = float(fault.event.parameters["at"]), float(self.data.qpos[self._qpos[index]])
-            if (q - lock_position) * fault.approach_sign <= 0:
-                self.insert()
-                fault.is_pending, fault.position = False, lock_position
+    def _update_fault(self, fault: ActiveFault) -> None:
+        kind = find_kind(fault.kind)
+        if not fault.is_pending:
+            kind.update(fault)
+            if kind.changes_model:
+                self._update_inserted()
+        elif kind.take_hold(fault):
+            self.insert()
+            fault.is_pending = False
+            if kind.holds_joint:
                 self._stop_joint(fault)
-                self._apply_faults()
-        else:
-            speed, effort = float(self.data.qvel[self._dofs[index]]), self._actuators.total_effort(index, fault.event)
-            driving_effort = effort * max(0.0, 1.0 - abs(speed) / float(fault.event.parameters["velocity"]))
-            fault.force_range = (-effort, driving_effort) if speed > 0 else (-driving_effort, effort)
-            self._update_inserted()
+            self._apply_faults()
 
-    def _stop_joint(self, fault: _ActiveFault) -> None:
+    def _stop_joint(self, fault: ActiveFault) -> None:
         """Stop a joint, together with the locked joints, as in an impact: the momenta of all others are conserved."""
         velocity = self.data.qvel
         if self.model.neq and self.data.eq_active.any():
             return
-        fault.is_still = fault.position == self.data.qpos[self._qpos[fault.joint]]
+        fault.is_still = fault.position == fault.joint.q
         if not velocity.any():
             return
-        locked_faults = (*self._active, *self._brakes)
-        locked_dofs = {
-            self._dofs[locked_fault.joint]
-            for locked_fault in locked_faults
-            if locked_fault.event.kind in _LOCKING_KINDS and not locked_fault.is_pending
-        }
-        dofs = sorted(locked_dofs | {self._dofs[fault.joint]})
+        held_faults = [
+            held for held in (*self._active.values(), *self._brakes) if find_kind(held.kind).holds_joint and not held.is_pending
+        ]
+        dofs = sorted({held.joint.dof for held in (*held_faults, fault)})
         self._mujoco.mj_forward(self.model, self.data)
         units = np.zeros((len(dofs), self.model.nv))
         units[np.arange(len(dofs)), dofs] = 1.0
@@ -407,7 +313,7 @@ class FaultInjector:
 
 def _list_driven_joints(mujoco: Any, model: Any) -> list[int]:
     """Return the joints with an actuator, and those of the same body tree except its root; all joints where none has one."""
-    actuated = set(JointActuators(mujoco, model, []).driven_joints)
+    actuated = set(find_actuators(mujoco, model))
     body_roots = model.body_rootid[model.jnt_bodyid]
     trees = {body_roots[joint_id] for joint_id in actuated}
     return [

@@ -15,8 +15,9 @@ from holdfast.arguments import check_constructor
 from holdfast.errors import InputError
 from holdfast.faults.batch import FaultBatch, make_batch
 from holdfast.faults.draw import draw_events
-from holdfast.faults.entry import PARAMETERS_BY_KIND, Fault
+from holdfast.faults.entry import Fault
 from holdfast.faults.events import FaultEvents
+from holdfast.faults.kind import fault_kinds
 from holdfast.files.output import replace_file
 from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
 
@@ -51,7 +52,7 @@ class _EntryFields(Strict):
 
 
 _PARAMETER_FIELDS: Any = dict.fromkeys(
-    (name for sets in PARAMETERS_BY_KIND.values() for names in sets for name in names), (Any, None)
+    (name for kind in fault_kinds().values() for name in kind.parameters_by_name), (Any, None)
 )
 _Entry: type[_EntryFields] = create_model("_Entry", __base__=_EntryFields, **_PARAMETER_FIELDS)
 

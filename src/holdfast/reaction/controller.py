@@ -14,6 +14,7 @@ from holdfast.arm.poses import rotation_vectors
 from holdfast.diagnosis.bounds import Bounds
 from holdfast.diagnosis.kinds import FaultVerdict
 from holdfast.failures import Degraded
+from holdfast.faults.kind import find_kind
 from holdfast.reaction.detour import choose_posture
 from holdfast.reaction.masked import MIN_PROGRESS, PROGRESS_TIMEOUT_S, MaskedLaw
 from holdfast.reaction.plan import ACCELERATION_LIMIT, RouteFollower, plan_route
@@ -298,7 +299,7 @@ class Controller:
         """Respond to a fault that is known at once, with the joint's true position in rad or m."""
         if self.arm.joint_index(joint) in self._true or self.law.mask[self.arm.joint_index(joint)] == 0:
             return
-        if kind in ("locked", "limp", "slipping_clutch") or kind.startswith("sensor"):
+        if find_kind(kind).needs_brake:
             self._log_action(time, "alarm", f"its fault is known: {kind}", joint=joint)
             self._brake(time, joint, f"its fault: {kind}")
             self._true[self.arm.joint_index(joint)] = true_position

@@ -133,7 +133,7 @@ def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable
         )
     monitor = hf.diagnosis.Monitor(arm, _last_thresholds[calibration_key])
     progress(HEALTHY_MOTIONS, HEALTHY_MOTIONS + 1)
-    faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=FAULT_PARAMETERS[kind])]  # type: ignore[arg-type]
+    faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=FAULT_PARAMETERS[kind])]
     run = hf.simulate_faults(
         law,
         q,

@@ -11,14 +11,14 @@ import numpy as np
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.faults.batch import FaultBatch
-from holdfast.faults.entry import KINDS, TORQUE_KINDS
+from holdfast.faults.kind import MAX_PARAMETERS, FaultKind, fault_kinds, find_kind
+from holdfast.faults.step_symbols import KERNEL_INFINITY, StepSymbols
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import task_error
 from holdfast.typing import FloatArray
 
-KERNEL_INFINITY = 1e300  # kernels turn infinity into NaN
 TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is there
 STATE_PARTS = ("q", "told", "place", "shown", "command")  # (n,) each, see `step_kernel`
 GOAL_NUMBERS = 12  # numbers of an episode besides 7 n: its goal
@@ -48,7 +48,6 @@ def build_step_kernel(law: Law) -> Kernel:
         episode, np.cumsum([0, n, 3, 9, n, n, n, 3 * n]).tolist()
     )
     target_rotation = ca.reshape(target_rotation, 3, 3).T
-    first_parameter, second_parameter, third_parameter = (parameters[part::3] for part in range(3))
     lower, upper, max_speeds = (limits[part * n : (part + 1) * n] for part in range(3))
     is_new = is_over > 0
     *positions, last_command = (state[part * n : (part + 1) * n] for part in range(len(STATE_PARTS)))
@@ -56,46 +55,52 @@ def build_step_kernel(law: Law) -> Kernel:
     time_before, last_command, time_step = (ca.if_else(is_new, 0.0, value) for value in (state[-1], last_command, period))
     time_after = time_before + time_step
 
-    def is_active(kind: str, time: SX) -> SX:
+    def is_active(kind: FaultKind, time: SX) -> SX:
         """Return (n,) 1 where a fault of the kind is active."""
-        return _all_true(code == KINDS.index(kind), onset <= time + TIME_TOLERANCE_S, time < end - TIME_TOLERANCE_S)
+        return StepSymbols.all_true(code == kind.code, onset <= time + TIME_TOLERANCE_S, time < end - TIME_TOLERANCE_S)
 
     error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
     rates = law.inverse(law.jacobian(q_measured), law.scale_velocity(law.command(error)))
     rates = ca.if_else(ca.sumsqr(rates) < KERNEL_INFINITY, rates, ca.SX.zeros(n))  # where the law has no answer: none
-    commanded_rates = _clip(rates + _clip(action, -1.0, 1.0) * max_speeds, -max_speeds, max_speeds)
-    command = ca.if_else(ca.logic_or(is_active("command_dropout", time_before), is_new), last_command, commanded_rates)
-    speed_limits = ca.if_else(is_active("reduced_speed", time_before), _minimum(first_parameter, max_speeds), max_speeds)
-    is_locked = is_active("locked", time_before) + is_active("slipping_clutch", time_before)
-    q_next = q + time_step * ca.if_else(is_locked > 0, 0.0, _clip(command, -speed_limits, speed_limits))
-    is_reduced = is_active("reduced_range", time_before)
-    lower_stop = ca.if_else(first_parameter < 0, q_onset + first_parameter, _minimum(second_parameter, q_onset))
-    upper_stop = ca.if_else(
-        _all_true(first_parameter > 0, first_parameter < KERNEL_INFINITY),
-        q_onset + first_parameter,
-        _maximum(third_parameter, q_onset),
+    commanded_rates = StepSymbols.clip(rates + StepSymbols.clip(action, -1.0, 1.0) * max_speeds, -max_speeds, max_speeds)
+    step = StepSymbols(
+        first=parameters[0::3],
+        second=parameters[1::3],
+        third=parameters[2::3],
+        onset=onset,
+        last_command=last_command,
+        q_onset=q_onset,
+        noise=noise,
+        time=time_after,
+        command=ca.if_else(is_new, last_command, commanded_rates),
+        speed_limits=max_speeds,
+        lower=lower,
+        upper=upper,
     )
-    lower_stop, upper_stop = (
-        ca.if_else(is_reduced, stop_with_fault, stop_without_fault)
-        for stop_with_fault, stop_without_fault in ((_maximum(lower_stop, lower), lower), (_minimum(upper_stop, upper), upper))
-    )
-    q_next = ca.if_else(is_new, q, _clip(q_next, lower_stop, upper_stop))
+    is_held = ca.SX.zeros(n)
+    for kind in fault_kinds().values():
+        active = is_active(kind, time_before)
+        kind.change_motion(step, active)
+        if kind.holds_joint:
+            is_held += active
+    command = step.command
+    q_next = q + time_step * ca.if_else(is_held > 0, 0.0, step.clip(command, -step.speed_limits, step.speed_limits))
+    q_next = ca.if_else(is_new, q, step.clip(q_next, step.lower, step.upper))
 
-    begins = _all_true(onset > time_before + TIME_TOLERANCE_S, onset <= time_after + TIME_TOLERANCE_S)
-    q_onset = ca.if_else(begins, q_next, q_onset)
-    q_clutch = ca.if_else(begins, q_next, q_clutch + time_step * command)
-    q_measured = q_next + ca.if_else(is_active("sensor_bias", time_after), first_parameter, 0.0)
-    q_measured += ca.if_else(is_active("sensor_drift", time_after), first_parameter * (time_after - onset), 0.0)
-    q_measured += ca.if_else(is_active("sensor_noise", time_after), first_parameter * noise, 0.0)
-    q_measured = ca.if_else(is_active("sensor_freeze", time_after), q_onset, q_measured)
-    q_measured = ca.if_else(is_active("slipping_clutch", time_after), q_clutch, q_measured)
+    begins = step.all_true(onset > time_before + TIME_TOLERANCE_S, onset <= time_after + TIME_TOLERANCE_S)
+    q_onset = step.q_onset = ca.if_else(begins, q_next, q_onset)
+    q_clutch = step.q_motor = ca.if_else(begins, q_next, q_clutch + time_step * command)
+    step.q_measured = q_next
+    for kind in fault_kinds().values():
+        kind.change_reading(step, is_active(kind, time_after))
+    q_measured = step.q_measured
     measured_error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
     true_error, _ = task_error(arm, task, q_next, target_position, target_rotation)
     position_error, orientation_error = (
         ca.norm_2(ca.SX(ca.DM(task.rows[:, columns].T)) @ true_error) for columns in (slice(0, 3), slice(3, 6))
     )
-    terminated = _all_true(is_over <= 0, position_error <= position_tolerance, orientation_error <= orientation_tolerance)
-    truncated = _all_true(is_over <= 0, ca.logic_not(terminated), time_after >= horizon - TIME_TOLERANCE_S)
+    terminated = step.all_true(is_over <= 0, position_error <= position_tolerance, orientation_error <= orientation_tolerance)
+    truncated = step.all_true(is_over <= 0, ca.logic_not(terminated), time_after >= horizon - TIME_TOLERANCE_S)
     reward = ca.if_else(is_new, 0.0, -(position_error + orientation_error))
     return Kernel(
         "step with faults",
@@ -119,33 +124,16 @@ def make_kernel_rows(batch: FaultBatch) -> FloatArray:
     """
     for events in batch.episodes:
         for event in events:
-            if event.kind in TORQUE_KINDS or event.parameters.get("at", "here") != "here":
+            kind = find_kind(event.kind)
+            if kind.needs_torques or kind.is_delayed(event.parameters):
                 raise InputError(
                     f"'{event.sentence()}' needs bodies and motors, and this loop has rates alone; use "
                     "holdfast.simulate_faults or a FaultWrapper"
                 )
-    parameters = batch.parameter.copy()
-    is_range = batch.kind == KINDS.index("reduced_range")
-    no_limits = np.array([KERNEL_INFINITY, -KERNEL_INFINITY, KERNEL_INFINITY])  # no travel, no lower, no upper stop
-    parameters = np.where(np.isnan(parameters), np.where(is_range[..., None], no_limits, 0.0), parameters)
+    absent = np.zeros((len(fault_kinds()) + 1, MAX_PARAMETERS))  # the last row: no fault
+    for kind in fault_kinds().values():
+        numbers = [parameter.absent for parameter in kind.parameters_by_name.values()]
+        absent[kind.code, : len(numbers)] = np.clip(numbers, -KERNEL_INFINITY, KERNEL_INFINITY)
+    parameters = np.where(np.isnan(batch.parameter), absent[batch.kind], batch.parameter)
     onsets, ends = (np.where(np.isfinite(times), times, KERNEL_INFINITY) for times in (batch.onset, batch.end))
     return np.concatenate([batch.kind, onsets, ends, parameters.reshape(len(batch), -1)], axis=1)
-
-
-def _all_true(*conditions: SX) -> SX:
-    conjunction = conditions[0]
-    for condition in conditions[1:]:
-        conjunction = ca.logic_and(conjunction, condition)
-    return conjunction
-
-
-def _minimum(a: SX, b: SX) -> SX:
-    return ca.if_else(a < b, a, b)
-
-
-def _maximum(a: SX, b: SX) -> SX:
-    return ca.if_else(a > b, a, b)
-
-
-def _clip(value: SX, lower: SX, upper: SX) -> SX:
-    return _minimum(_maximum(value, lower), upper)

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from holdfast.control.law import Law
 from holdfast.errors import HoldfastError, InputError
 from holdfast.faults.batch import make_batch
-from holdfast.faults.entry import KINDS
 from holdfast.faults.events import FaultEvents
-from holdfast.faults.learning.stepping import GOAL_NUMBERS, KERNEL_INFINITY, STATE_PARTS, build_step_kernel, make_kernel_rows
+from holdfast.faults.kind import fault_kinds
+from holdfast.faults.learning.stepping import GOAL_NUMBERS, STATE_PARTS, build_step_kernel, make_kernel_rows
 from holdfast.faults.scheme import FaultModel
+from holdfast.faults.step_symbols import KERNEL_INFINITY
 from holdfast.typing import FloatArray
 
 try:
@@ -180,7 +181,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
     def _draw_noise(self, rows: NDArray[np.int64]) -> FloatArray:
         """Draw the sensor noise (R, n) of some rows; zeros where no sensor is noisy."""
         shape = len(rows), self.law.arm.n
-        is_noisy = (self._fault_codes[rows] == KINDS.index("sensor_noise")).any()
+        is_noisy = np.isin(self._fault_codes[rows], [kind.code for kind in fault_kinds().values() if kind.draws_noise]).any()
         return self.np_random.standard_normal(shape) if is_noisy else np.zeros(shape)
 
     def _call_kernel(self, actions: Any, noise: FloatArray) -> None:

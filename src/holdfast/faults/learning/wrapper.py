@@ -12,10 +12,10 @@ import numpy as np
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.arm.model import Arm
 from holdfast.errors import HoldfastError, InputError
-from holdfast.faults.entry import SENSOR_KINDS
 from holdfast.faults.events import FaultEvent
 from holdfast.faults.feasibility import Feasibility, feasible
 from holdfast.faults.injector import FaultInjector
+from holdfast.faults.kind import find_kind
 from holdfast.faults.learning.physics_calls import PhysicsInterceptor
 from holdfast.faults.learning.recording import EpisodeRecorder
 from holdfast.faults.scheme import FaultModel, HasJointNames
@@ -216,8 +216,9 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
 
     def _prepare_episode(self) -> None:
         """Prepare the state of a new episode."""
-        kinds = {event.kind for event in self.injector.events}
-        self._has_sensor_faults, self._has_dropouts = bool(kinds & SENSOR_KINDS), "command_dropout" in kinds
+        kinds = [find_kind(event.kind) for event in self.injector.events]
+        self._has_sensor_faults = any(kind.is_sensor for kind in kinds)
+        self._has_dropouts = any(kind.drops_commands for kind in kinds)
         self._last_action: FloatArray | None = None
         self._success = None
         self._feasibility: Feasibility | None = None
@@ -247,7 +248,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         last_action = action if self._last_action is None else self._last_action
         held_action = np.array(action)
         for event in self.injector.active:
-            if event.kind == "command_dropout":
+            if find_kind(event.kind).drops_commands:
                 actuators = self.injector.actuators_of(event.joint)
                 held_action[actuators] = last_action[actuators]
         self._last_action = held_action
@@ -255,14 +256,14 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
 
     def _corrupt_observation(self, observation: Any) -> Any:
         """Return the observation with the readings of the failed sensors."""
-        if not self._has_sensor_faults or not any(sensor_event.kind in SENSOR_KINDS for sensor_event in self.injector.active):
+        if not self._has_sensor_faults or not any(find_kind(event.kind).is_sensor for event in self.injector.active):
             return observation
         true_q = self.injector.data.qpos[self._qpos_rows]
         reading_errors = self.injector.read_sensors(true_q) - true_q
         observations = observation if isinstance(observation, dict) else {"observation": observation}
         corrupted = np.array(observations["observation"])
         for event in self.injector.active:
-            if event.kind in SENSOR_KINDS:
+            if find_kind(event.kind).is_sensor:
                 entries = list(self._observes.get(event.joint, ()))
                 corrupted[entries] += reading_errors[self.injector.joints.index(event.joint)]
         return {**observations, "observation": corrupted} if isinstance(observation, dict) else corrupted
@@ -270,7 +271,9 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
     def _locate_entries(self, observation: Any) -> None:
         """Find the entries of the joints whose sensors will fail, once."""
         joints = [
-            event.joint for event in self.injector.events if event.kind in SENSOR_KINDS and event.joint not in self._observes
+            event.joint
+            for event in self.injector.events
+            if find_kind(event.kind).is_sensor and event.joint not in self._observes
         ]
         if self._entries_given or not joints:
             return
