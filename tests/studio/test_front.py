@@ -52,7 +52,7 @@ def test_every_button_of_the_first_state_does_something_or_is_asleep(studio, vis
     wait_for(page, lambda: page.get_by_role("button", name="Take the 60-second tour").is_enabled())
 
     def calm():
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         wait_for(page, lambda: "..." not in said(page))
         assert page.locator("[data-bad]").count() == 0, said(page)
 
@@ -99,12 +99,12 @@ def test_buttons_wake_when_they_can_work_and_toggles_show_the_state(studio, visi
     page.get_by_role("button", name="All healthy").click()
     wait_for(page, lambda: page.get_by_role("button", name="✓ healthy").count() == 3)
     window.ask("best-worst")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     wait_for(page, lambda: dict(buttons(page, "Choose"))["Take the orange one"].is_enabled())
     assert not window.panel.slide.disabled
     for k in range(2):
         window.ask("fail", (k, "locked"))
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert window.panel.slide.disabled  # no self-motion is left
     wait_for(page, lambda: not dict(buttons(page, "Choose"))["Take the orange one"].is_enabled())
 
@@ -176,7 +176,7 @@ def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, vi
     send(page, CRANE)
     wait_for(page, lambda: served.windows.get(window.client.client_id, window) is not window)
     other = served.windows[window.client.client_id]
-    assert other.settle(60)
+    assert other.wait_until_done(60)
     wait_for(page, lambda: "camera.stl" in said(page))
     assert other.state.arm == "inspection-crane.urdf"
     assert sorted(other.stage.figure.joints) == list(range(7))
@@ -185,7 +185,7 @@ def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, vi
     wait_for(page, lambda: other.state.failed == (2,))
     wait_for(page, lambda: "luff locked" in page.locator("[data-worst]").first.inner_text())
     other.ask("best-worst")  # in a process of its own
-    assert other.settle(60)
+    assert other.wait_until_done(60)
     wait_for(page, lambda: len(other.player.ghosts) == 2)
     [aside] = served._own.values()
     process = aside._process

@@ -70,7 +70,7 @@ def test_the_hand_is_dragged_and_says_when_it_cannot_follow(studio, visit):
     assert window.wait_until_done(60)
     np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], pose[:2, 3], atol=1e-5)
     window.ask("hand", ("end", numbers[:3] + np.array([50, 0, 0]), numbers[3:]))
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     wait_for(page, lambda: "Out of reach" in text_of(page))
     np.testing.assert_allclose(window.stage.gizmo.position, window.machine.tool_pose(window.q)[:3, 3], atol=1e-9)
 
@@ -105,11 +105,11 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
 
     wait_for(page, grabbed)  # again, as long as the handle is not drawn yet
     wait_for(page, lambda: window.held is None)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.stage.gizmo.position, machine.tool_pose(window.q)[:3, 3], atol=1e-9)
 
     window.ask("home")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
 
     def pressed():
         page.mouse.click(*on_screen(camera, machine.arm.frames(window.q)[2, :3, 3]))
@@ -119,7 +119,7 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     wait_for(page, pressed)
     window.ask("heal")
     window.ask("region")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     cloud = window.cloud
     at = np.array([on_screen(camera, place) for place in cloud.points])
     hand_at = np.array(on_screen(camera, machine.tool_pose(window.q)[:3, 3]))
@@ -132,7 +132,7 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
         return window.stage.chosen is not None
 
     wait_for(page, opened)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert np.nanmin(np.abs(cloud.q - window.q).max(axis=1)) == 0
 
 
@@ -143,7 +143,7 @@ def test_two_windows_have_two_arms(studio, visit):
     one.ask("fail", (0, "locked"))
     one.ask("joint", (1, -0.5))
     assert one.wait_until_done()
-    assert two.settle()
+    assert two.wait_until_done()
     assert one.state.conditions[0] == "locked"
     assert two.state.conditions[0] == "healthy"
     assert two.q[1] == 0.8
@@ -211,7 +211,7 @@ def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):
     at = (*pose_numbers(window.machine.tool_pose(window.q)),)
     other, second = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=at, show="laws", **PLANAR))
     wait_for(other, lambda: "drag the second handle away" in text_of(other))
-    assert second.settle(60)
+    assert second.wait_until_done(60)
 
 
 def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit):
@@ -237,7 +237,7 @@ def test_ghosts_do_not_outlive_what_they_are_of(studio, visit):
         assert window.wait_until_done(60)
         assert len(window.stage.ghosts) == 2
         ask()
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         left = len(window.stage.ghosts)
         assert (left == 0) or window.state.show == "best-worst"
         return left
@@ -260,19 +260,19 @@ def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     assert len(window.stage.ghosts) == 2
     wait_for(page, lambda: "pseudoinverse: reaches the target" in text_of(page))  # settled here is not drawn there
     window.ask("best-worst")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     window.ask("take1")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, window.player.ghosts[1])
     window.ask("clear")
     window.ask("region")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     sound = int(np.flatnonzero(np.isfinite(window.cloud.q).all(axis=1))[3])
     window.ask("point", sound)
     assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, window.cloud.q[sound])
     window.ask("clear")
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert window.state.show == "arm"
     assert window.stage.ghosts == []
     assert window.stage.cloud is None
@@ -301,7 +301,7 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
     wait_for(page, lambda: window.updates > before and abs(window.q[0] - np.radians(25)) < 1e-6)
     assert not given_up.is_set()
     window.ask("best-worst")  # newer: the older one gives way
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert given_up.is_set()
     assert len(window.stage.ghosts) == 2
 

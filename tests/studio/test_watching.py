@@ -25,12 +25,12 @@ def some(**more):
     values[7, 0] = np.nan
     given = {
         "onset": 1.0,
-        "alarm": 1.2,
+        "alarm_time": 1.2,
         "joint": 1,
-        "named": 1.22,
-        "said": ((1.32, "b is <locked>"),),
-        "untold": ("a did not",),
-        "record": "",
+        "isolation_time": 1.22,
+        "findings": ((1.32, "b is <locked>"),),
+        "inconclusive": ("a did not",),
+        "record_html": "",
     }
     return MonitorDemo(
         motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more}
