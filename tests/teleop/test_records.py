@@ -134,7 +134,7 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
         assert all(e.rating is not None for e in entries)
         training = made.entries(s.code, TrialKind.TRAINING)
         trials = made.read_trials(training)
-        times = np.where(trials.completed, trials.cycles, np.nan).tolist()
+        times = np.where(trials.is_completed, trials.cycles, np.nan).tolist()
         assert protocol.training.is_met_by(times)
         assert not protocol.training.is_met_by(times[:-1])
         np.testing.assert_array_equal(
@@ -212,7 +212,7 @@ def test_a_session_goes_on_where_it_stopped(records):
     one_trial(records, code, end=End.ABORTED)  # given up: not done again
     todo = Session(records, code).next_trial()
     assert todo.position == 2
-    order = records.protocol.session(0, 0)
+    order = records.protocol.session_order(0, 0)
     assert [todo.task, todo.scenario] == order[2].tolist()
     for _ in range(10):
         one_trial(records, code)
@@ -240,8 +240,8 @@ def test_deleting_a_subject_leaves_nothing(records):
     keep, gone = records.add_subject("keep").code, records.add_subject("gone", answers={"age": "37-secret"}).code
     for code in (keep, gone):
         one_trial(records, code)
-    records.event("note", subject=gone, data={"text": "remark-secret"})
-    commands = records.trials(records.entries(gone)).velocity.copy()
+    records.add_event("note", subject=gone, data={"text": "remark-secret"})
+    commands = records.read_trials(records.entries(gone)).velocity.copy()
     records.delete_subject(gone)
     assert [s.code for s in records.subjects()] == [keep]
     assert len(records.entries()) == 1
@@ -257,7 +257,7 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     code = records.add_subject().code
     number, _, q = one_trial(records, code, end=None)
     v = np.zeros((1, 2))
-    before = records.trials(records.entries()).q.copy()
+    before = records.read_trials(records.entries()).q.copy()
     for trial, first, velocity, configuration, message in [
         (number, 9, v, q[None], "continues with cycle 7, not 9"),
         (number, 6, v, q[None], "continues with cycle 7, not 6"),
@@ -280,7 +280,7 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
         records.add_subject("Ann Smith")
     with pytest.raises(hf.InputError, match="there is no subject nobody"):
         records.delete_subject("nobody")
-    np.testing.assert_array_equal(records.trials(records.entries()).q, before)
+    np.testing.assert_array_equal(records.read_trials(records.entries()).q, before)
     records.finish_trial(number, End.ARRIVED, q)
     with pytest.raises(hf.InputError, match="has ended"):
         records.append_cycles(number, 7, np.zeros(1), velocity=v, q=q[None])
