@@ -4,7 +4,7 @@ export const FORMAT = 1;
 export const MOST_CYCLES = 256; // in one message
 export const MOST_BYTES = 131072; // of one message
 
-/** The first message of a connection: a new session, or one that is resumed. A new session may bring its key, ``fresh``: said again where the answer was lost, it resumes what was begun then. */
+/** First message of a connection: a new session, or one that is resumed. A new session may bring its key, ``fresh``: said again where the answer was lost, it resumes what was begun then. */
 export interface Hello {
   type: "hello";
   format: number;
@@ -14,7 +14,7 @@ export interface Hello {
   fresh: string | null;
 }
 
-/** A form was filled in. */
+/** Answers of a form. */
 export interface AnswersMessage {
   type: "answers";
   seq: number;
@@ -22,7 +22,7 @@ export interface AnswersMessage {
   answers: Record<string, string | number | boolean>;
 }
 
-/** A trial begins: the next of the plan. */
+/** Beginning of the next trial of the plan. */
 export interface Begin {
   type: "begin";
   seq: number;
@@ -30,7 +30,7 @@ export interface Begin {
   position: number;
 }
 
-/** Control cycles of the trial under way: when (s since it began), commands, m/cycle, and joints when each began. */
+/** Control cycles of the current trial: time (s since it began), commands, m/cycle, and joints when each cycle began. */
 export interface Cycles {
   type: "cycles";
   seq: number;
@@ -40,7 +40,7 @@ export interface Cycles {
   q: number[][];
 }
 
-/** The trial under way is over; ``q`` is where the arm is. */
+/** End of the current trial; ``q`` is the final configuration of the arm. */
 export interface EndMessage {
   type: "end";
   seq: number;
@@ -48,7 +48,7 @@ export interface EndMessage {
   q: number[];
 }
 
-/** The rating of the last trial, a step from 0. */
+/** Rating of the last trial, a step from 0. */
 export interface Rate {
   type: "rate";
   seq: number;
@@ -56,7 +56,7 @@ export interface Rate {
   answers: Record<string, string | number | boolean>;
 }
 
-/** Something happened in the page: dropped frames, a hidden tab, a lost pad. */
+/** Event in the page: dropped frames, a hidden tab, a lost gamepad. */
 export interface EventMessage {
   type: "event";
   seq: number;
@@ -64,14 +64,14 @@ export interface EventMessage {
   data: Record<string, string | number | boolean>;
 }
 
-/** A task of the training; ``joint`` as in a trial: -1 unless every scenario of the protocol has a failure. */
+/** Task of the training; ``joint`` as in a trial: -1 unless every scenario of the protocol has a failure. */
 export interface TrainingTask {
   q0: number[];
   target: number[];
   joint: number;
 }
 
-/** A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``law`` is a code of the arm's, see /arm.js. */
+/** Trial of the plan; ``joint`` is the locked joint, from 0, or -1 for none; ``law`` is a code of the arm's, see /arm.js. */
 export interface PlannedTrial {
   task: number;
   law: number;
@@ -80,19 +80,19 @@ export interface PlannedTrial {
   joint: number;
 }
 
-/** The whole session, so that the page can continue without the network. */
+/** Plan of the whole session, so that the page can continue without the network. */
 export interface Plan {
   training: TrainingTask[];
   trials: PlannedTrial[];
 }
 
-/** What is on record: cycles of each training task, null where it was not completed, and how many trials. */
+/** Progress on record: cycles of each training task, null where it was not completed, and the number of trials. */
 export interface Done {
   training: (number | null)[];
   trials: number;
 }
 
-/** The answer to hello; ``seq`` is the last message on record, ``unrated`` says that the last trial has no rating yet. */
+/** Answer to hello; ``seq`` is the last message on record, ``unrated`` is true if the last trial has no rating yet. */
 export interface Welcome {
   type: "welcome";
   session: string;
@@ -106,13 +106,13 @@ export interface Welcome {
   over: boolean;
 }
 
-/** All messages up to ``seq`` are on the disk. */
+/** Acknowledgement that all messages up to ``seq`` are on the disk. */
 export interface Ack {
   type: "ack";
   seq: number;
 }
 
-/** A message changed nothing, and why; ``last`` is the last on record. A ``seq`` up to ``last`` is on record already. */
+/** Refusal of a message that changed nothing, with the reason; ``last`` is the last on record. A ``seq`` up to ``last`` is on record already. */
 export interface Refused {
   type: "refused";
   seq: number | null;
@@ -120,18 +120,18 @@ export interface Refused {
   last: number;
 }
 
-/** The experimenter stops the session after the trial under way, or resumes it. */
+/** Message that the experimenter pauses the session after the current trial, or resumes it. */
 export interface Pause {
   type: "pause";
   paused: boolean;
 }
 
-/** The records cannot be written: the disk is full, or the folder was deleted. Nothing more is acknowledged till welcome. */
+/** Message that the records cannot be written: the disk is full, or the folder was deleted. Acknowledgements resume after welcome. */
 export interface Unstored {
   type: "unstored";
 }
 
-/** The server closes the connection for good, and why; the page does not come back by itself. */
+/** Last message before the server closes the connection for good, with the reason; the page does not reconnect by itself. */
 export interface Bye {
   type: "bye";
   reason: string;

@@ -36,42 +36,42 @@ def one_round(window, page, rng: np.random.Generator, arm) -> None:
     from holdfast.arm.poses import pose_numbers
 
     for k in range(60):
-        window.ask("joint", (int(rng.integers(arm.n)), float(rng.uniform(-0.5, 0.5))))
+        window.request_action("joint", (int(rng.integers(arm.n)), float(rng.uniform(-0.5, 0.5))))
         if k % 10 == 0:
             page.wait_for_timeout(5)
-    window.settle()
+    window.wait_until_done()
     for _ in range(30):
         hand = np.array(pose_numbers(window.machine.tool_pose(window.q)))
-        window.ask("hand", ("update", hand[:3] + rng.normal(0, 0.02, 3), hand[3:]))
-        window.settle()
+        window.request_action("hand", ("update", hand[:3] + rng.normal(0, 0.02, 3), hand[3:]))
+        window.wait_until_done()
     k = int(rng.integers(arm.n))
     for condition in ("locked", "free", "healthy"):
-        window.ask("fail", (k, condition))
-    window.ask("index", str(rng.choice(["relative-manipulability", "minimum-singular-value"])))
-    window.ask("best-worst")
-    window.settle(120)
-    window.ask("take0")
-    window.ask("fail", (k, "locked"))
+        window.request_action("fail", (k, condition))
+    window.request_action("index", str(rng.choice(["relative-manipulability", "minimum-singular-value"])))
+    window.request_action("best-worst")
+    window.wait_until_done(120)
+    window.request_action("take0")
+    window.request_action("fail", (k, "locked"))
     hand = np.array(pose_numbers(window.machine.tool_pose(window.q)))
     goal = (*(hand[:3] + rng.normal(0, 0.1, 3)).tolist(), *hand[3:].tolist())
-    window.settle(120)
-    window.live.put("goal", lambda: setattr(window, "state", replace(window.state, target=goal)))
-    window.ask("laws", ("pseudoinverse", "damped:0.1"))
-    window.ask("laws")
-    window.settle(120)
+    window.wait_until_done(120)
+    window.live.submit("goal", lambda: setattr(window, "state", replace(window.state, target=goal)))
+    window.request_action("laws", ("pseudoinverse", "damped:0.1"))
+    window.request_action("laws")
+    window.wait_until_done(120)
     for t in np.linspace(0, 3, 20):
-        window.ask("time", float(t))
-        window.settle()
-    window.ask("clear")
-    window.ask("heal")
-    window.ask("region")
+        window.request_action("time", float(t))
+        window.wait_until_done()
+    window.request_action("clear")
+    window.request_action("heal")
+    window.request_action("region")
     page.wait_for_timeout(50)
-    window.ask("region")  # the newer one cancels the older
-    window.settle(120)
-    window.ask("point", int(rng.integers(1000)))
-    window.ask("clear")
-    window.ask("home")
-    window.settle(120)
+    window.request_action("region")  # the newer one cancels the older
+    window.wait_until_done(120)
+    window.request_action("point", int(rng.integers(1000)))
+    window.request_action("clear")
+    window.request_action("home")
+    window.wait_until_done(120)
 
 
 def main() -> None:

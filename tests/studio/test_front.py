@@ -52,7 +52,7 @@ def test_every_button_of_the_first_state_does_something_or_is_asleep(studio, vis
     wait_for(page, lambda: page.get_by_role("button", name="Take the 60-second tour").is_enabled())
 
     def calm():
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         wait_for(page, lambda: "..." not in said(page))
         assert page.locator("[data-bad]").count() == 0, said(page)
 
@@ -77,13 +77,13 @@ def test_every_button_of_the_first_state_does_something_or_is_asleep(studio, vis
             calm()
             window.player.pause()
             for what in ("clear", "heal", "home"):
-                window.ask(what)
+                window.request_action(what)
             calm()
     # What a client asks that does not keep to its buttons is said, not done.
-    window.ask("swing")
+    window.request_action("swing")
     wait_for(page, lambda: page.locator("[data-bad]").count() == 1)
     assert "No joint is free" in said(page)
-    window.ask("take0")
+    window.request_action("take0")
     wait_for(page, lambda: "no such ghost arm" in said(page))
 
 
@@ -94,17 +94,17 @@ def test_buttons_wake_when_they_can_work_and_toggles_show_the_state(studio, visi
     wait_for(page, lambda: page.get_by_role("button", name="✓ free").count() == 1)
     wait_for(page, lambda: page.get_by_role("button", name="✓ free", pressed=True).count() == 1)
     wait_for(page, lambda: page.get_by_role("button", name="healthy", exact=True, pressed=False).count() == 1)
-    assert window.stage._names[1].text == "2 free"
+    assert window.stage._joint_labels[1].text == "2 free"
     wait_for(page, page.get_by_role("button", name="Let the free joint swing").is_enabled)
     page.get_by_role("button", name="All healthy").click()
     wait_for(page, lambda: page.get_by_role("button", name="✓ healthy").count() == 3)
-    window.ask("best-worst")
-    assert window.settle(60)
+    window.request_action("best-worst")
+    assert window.wait_until_done(60)
     wait_for(page, lambda: dict(buttons(page, "Choose"))["Take the orange one"].is_enabled())
     assert not window.panel.slide.disabled
     for k in range(2):
-        window.ask("fail", (k, "locked"))
-    assert window.settle(60)
+        window.request_action("fail", (k, "locked"))
+    assert window.wait_until_done(60)
     assert window.panel.slide.disabled  # no self-motion is left
     wait_for(page, lambda: not dict(buttons(page, "Choose"))["Take the orange one"].is_enabled())
 
@@ -125,20 +125,20 @@ def test_the_tour_on_a_phone_in_the_dark(studio, visit):
 
     first = np.array(window.q)
     assert window.state.names[worst] in step(1)
-    wait_for(page, lambda: window.state.failed == (worst,))
+    wait_for(page, lambda: window.state.failed_joints == (worst,))
     assert "is locked" in step(2)
     wait_for(page, lambda: len(window.player.ghosts) == 2)
-    assert window.state.failed == ()
+    assert window.state.failed_joints == ()
     better = window.player.ghosts[0]
     step(3)
-    wait_for(page, lambda: window.state.failed == (worst,))
+    wait_for(page, lambda: window.state.failed_joints == (worst,))
     np.testing.assert_array_equal(window.q, better)
     np.testing.assert_allclose(window.machine.tool_pose(better)[:2, 3], window.machine.tool_pose(first)[:2, 3], atol=1e-6)
     assert "of the manipulability is left, where it was" in step(4)
     wait_for(page, lambda: window.state.show == "laws" and len(window.player.ghosts) == 2)
     step(5)
     wait_for(page, lambda: np.array_equal(window.q, first))
-    assert (window.state.show, window.state.failed) == ("arm", ())
+    assert (window.state.show, window.state.failed_joints) == ("arm", ())
     step(6)
     wait_for(page, lambda: page.locator("[data-tour]").count() == 0)
     # The controls have the whole width, at most the lower half or so, and fold.
@@ -157,7 +157,7 @@ def test_the_tour_on_a_phone_in_the_dark(studio, visit):
 def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, visit):
     served = studio("planar-3r", q=Q, **PLANAR)
     page, window = visit(served)
-    window.ask("fail", (1, "locked"))
+    window.request_action("fail", (1, "locked"))
     assert window.wait_until_done(60)
     before = window.state
     page.evaluate(DROP, ["<b>x</b>.urdf", "<robot name='x'><link name='a'/></robot>"])
@@ -176,19 +176,19 @@ def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, vi
     send(page, CRANE)
     wait_for(page, lambda: served.windows.get(window.client.client_id, window) is not window)
     other = served.windows[window.client.client_id]
-    assert other.settle(60)
+    assert other.wait_until_done(60)
     wait_for(page, lambda: "camera.stl" in said(page))
     assert other.state.arm == "inspection-crane.urdf"
     assert sorted(other.stage.figure.joints) == list(range(7))
     page.get_by_role("tab", name="Fail").click()
     page.get_by_role("button", name="locked", exact=True).nth(2).click()
-    wait_for(page, lambda: other.state.failed == (2,))
+    wait_for(page, lambda: other.state.failed_joints == (2,))
     wait_for(page, lambda: "luff locked" in page.locator("[data-worst]").first.inner_text())
-    other.ask("best-worst")  # in a process of its own
-    assert other.settle(60)
+    other.request_action("best-worst")  # in a process of its own
+    assert other.wait_until_done(60)
     wait_for(page, lambda: len(other.player.ghosts) == 2)
-    [aside] = served._own.values()
+    [aside] = served._own_processes.values()
     process = aside._process
     page.context.close()
     assert process.wait(20) is not None  # ended with its window
-    assert served._own == {}
+    assert served._own_processes == {}

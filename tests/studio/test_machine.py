@@ -88,13 +88,13 @@ def test_laws_are_made_once_and_misspelt_ones_refused(machine):
     assert machine.get_law("damped:0.2") is machine.get_law("damped:0.2")
     assert "damping 0.2" in machine.get_law("damped:0.2").describe()
     with pytest.raises(hf.InputError, match="'much' is not a number; give one: the damping"):
-        machine.law("damped:much")
+        machine.get_law("damped:much")
     with pytest.raises(hf.InputError, match="takes no setting; write pseudoinverse alone"):
-        machine.law("pseudoinverse:2")
+        machine.get_law("pseudoinverse:2")
     with pytest.raises(hf.InputError, match="give one"):
-        machine.law("damped:")
+        machine.get_law("damped:")
     with pytest.raises(hf.InputError, match="not known"):
-        machine.law("best")
+        machine.get_law("best")
 
 
 def test_a_target_beside_the_arm_is_within_its_limits_and_away(rng):

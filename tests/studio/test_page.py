@@ -49,7 +49,7 @@ def test_one_click_locks_a_joint_and_the_command_line_says_so(studio, visit):
     wait_for(page, lambda: f"--lock={name}" in page.inner_text("[data-command]"))
     page.get_by_role("tab", name="Fail").click()
     page.get_by_role("button", name="All healthy").click()
-    wait_for(page, lambda: not window.state.failed)
+    wait_for(page, lambda: not window.state.failed_joints)
 
 
 def test_a_joint_is_moved_by_its_slider_and_the_rest_stands(studio, visit):
@@ -66,11 +66,11 @@ def test_the_hand_is_dragged_and_says_when_it_cannot_follow(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
     pose = window.machine.tool_pose(window.machine.arm.check_configurations([0.4, 0.7, 0.9]))
     numbers = np.array(pose_numbers(pose))
-    window.ask("hand", ("update", numbers[:3], numbers[3:]))
+    window.request_action("hand", ("update", numbers[:3], numbers[3:]))
     assert window.wait_until_done(60)
     np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], pose[:2, 3], atol=1e-5)
-    window.ask("hand", ("end", numbers[:3] + np.array([50, 0, 0]), numbers[3:]))
-    assert window.settle(60)
+    window.request_action("hand", ("end", numbers[:3] + np.array([50, 0, 0]), numbers[3:]))
+    assert window.wait_until_done(60)
     wait_for(page, lambda: "Out of reach" in text_of(page))
     np.testing.assert_allclose(window.stage.gizmo.position, window.machine.tool_pose(window.q)[:3, 3], atol=1e-9)
 
@@ -104,12 +104,12 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
         return np.linalg.norm(window.q - q) > 0.1
 
     wait_for(page, grabbed)  # again, as long as the handle is not drawn yet
-    wait_for(page, lambda: window.held is None)
-    assert window.settle(60)
+    wait_for(page, lambda: window.dragged is None)
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.stage.gizmo.position, machine.tool_pose(window.q)[:3, 3], atol=1e-9)
 
-    window.ask("home")
-    assert window.settle(60)
+    window.request_action("home")
+    assert window.wait_until_done(60)
 
     def pressed():
         page.mouse.click(*on_screen(camera, machine.arm.frames(window.q)[2, :3, 3]))
@@ -117,9 +117,9 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
         return window.state.conditions[1] != "healthy"
 
     wait_for(page, pressed)
-    window.ask("heal")
-    window.ask("region")
-    assert window.settle(60)
+    window.request_action("heal")
+    window.request_action("region")
+    assert window.wait_until_done(60)
     cloud = window.cloud
     at = np.array([on_screen(camera, place) for place in cloud.points])
     hand_at = np.array(on_screen(camera, machine.tool_pose(window.q)[:3, 3]))
@@ -132,7 +132,7 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
         return window.stage.chosen is not None
 
     wait_for(page, opened)
-    assert window.settle(60)
+    assert window.wait_until_done(60)
     assert np.nanmin(np.abs(cloud.q - window.q).max(axis=1)) == 0
 
 
@@ -140,10 +140,10 @@ def test_two_windows_have_two_arms(studio, visit):
     served = studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR)
     first, one = visit(served)
     _, two = visit(served)
-    one.ask("fail", (0, "locked"))
-    one.ask("joint", (1, -0.5))
+    one.request_action("fail", (0, "locked"))
+    one.request_action("joint", (1, -0.5))
     assert one.wait_until_done()
-    assert two.settle()
+    assert two.wait_until_done()
     assert one.state.conditions[0] == "locked"
     assert two.state.conditions[0] == "healthy"
     assert two.q[1] == 0.8
@@ -185,12 +185,12 @@ def test_a_motion_is_opened_scrubbed_and_played(studio, visit, tmp_path):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
     send(page, tmp_path / "run.csv")
     wait_for(page, lambda: window.state.show == "file" and not window.panel.time.disabled)
-    window.ask("time", 2.0)
+    window.request_action("time", 2.0)
     assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, [np.interp(2.0, path.time, path.q[:, k]) for k in range(3)], atol=1e-6)
-    window.ask("play")
+    window.request_action("play")
     wait_for(page, lambda: window.state.time > 2.5)
-    window.ask("play")
+    window.request_action("play")
     shown = window.q
     send(page, {"name": "bad.csv", "mimeType": "text/csv", "buffer": b"time_s,joint1_rad\n0,1\n"})
     wait_for(page, lambda: "bad.csv" in text_of(page) and "is missing" in text_of(page))
@@ -211,7 +211,7 @@ def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):
     at = (*pose_numbers(window.machine.tool_pose(window.q)),)
     other, second = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=at, show="laws", **PLANAR))
     wait_for(other, lambda: "drag the second handle away" in text_of(other))
-    assert second.settle(60)
+    assert second.wait_until_done(60)
 
 
 def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit):
@@ -223,7 +223,7 @@ def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit
     before = np.array(window.player.ghosts[0])
     wait_for(page, lambda: np.abs(window.player.ghosts[0] - before).max() > 0.01)
     assert np.argmax(np.abs(window.player.ghosts[0] - before)) == 1
-    window.ask("time", 0.35)
+    window.request_action("time", 0.35)
     assert window.wait_until_done(60)
     assert (window.player.is_playing, window.state.time) == (False, 0.35)
     assert window.panel.play.label == "Play"
@@ -233,24 +233,24 @@ def test_ghosts_do_not_outlive_what_they_are_of(studio, visit):
     _, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
 
     def haunted(ask):
-        window.ask("best-worst")
+        window.request_action("best-worst")
         assert window.wait_until_done(60)
         assert len(window.stage.ghosts) == 2
         ask()
-        assert window.settle(60)
+        assert window.wait_until_done(60)
         left = len(window.stage.ghosts)
         assert (left == 0) or window.state.show == "best-worst"
         return left
 
-    assert haunted(lambda: window.ask("take0")) == 2  # of the same pose
-    assert haunted(lambda: window.ask("fail", (1, "healthy"))) == 2  # as it was
-    assert haunted(lambda: window.ask("joint", (0, 0.5))) == 0
-    assert haunted(lambda: window.ask("fail", (1, "locked"))) == 0
-    assert haunted(lambda: window.ask("heal")) == 0
+    assert haunted(lambda: window.request_action("take0")) == 2  # of the same pose
+    assert haunted(lambda: window.request_action("fail", (1, "healthy"))) == 2  # as it was
+    assert haunted(lambda: window.request_action("joint", (0, 0.5))) == 0
+    assert haunted(lambda: window.request_action("fail", (1, "locked"))) == 0
+    assert haunted(lambda: window.request_action("heal")) == 0
     pose = np.array(pose_numbers(window.machine.tool_pose(np.array([0.4, 0.7, 0.9]))))
-    assert haunted(lambda: window.ask("hand", ("update", pose[:3], pose[3:]))) == 0
-    assert haunted(lambda: window.ask("home")) == 0
-    assert haunted(lambda: window.ask("region")) == 0
+    assert haunted(lambda: window.request_action("hand", ("update", pose[:3], pose[3:]))) == 0
+    assert haunted(lambda: window.request_action("home")) == 0
+    assert haunted(lambda: window.request_action("region")) == 0
 
 
 def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
@@ -259,20 +259,20 @@ def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     assert window.wait_until_done(60)
     assert len(window.stage.ghosts) == 2
     wait_for(page, lambda: "pseudoinverse: reaches the target" in text_of(page))  # settled here is not drawn there
-    window.ask("best-worst")
-    assert window.settle(60)
-    window.ask("take1")
-    assert window.settle(60)
+    window.request_action("best-worst")
+    assert window.wait_until_done(60)
+    window.request_action("take1")
+    assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, window.player.ghosts[1])
-    window.ask("clear")
-    window.ask("region")
-    assert window.settle(60)
+    window.request_action("clear")
+    window.request_action("region")
+    assert window.wait_until_done(60)
     sound = int(np.flatnonzero(np.isfinite(window.cloud.q).all(axis=1))[3])
-    window.ask("point", sound)
+    window.request_action("point", sound)
     assert window.wait_until_done(60)
     np.testing.assert_allclose(window.q, window.cloud.q[sound])
-    window.ask("clear")
-    assert window.settle(60)
+    window.request_action("clear")
+    assert window.wait_until_done(60)
     assert window.state.show == "arm"
     assert window.stage.ghosts == []
     assert window.stage.cloud is None
@@ -292,7 +292,7 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
         finally:
             given_up.set()
 
-    window.worker.ask(endless)
+    window.worker.submit(endless)
     assert started.wait(10)
     before = window.updates
     box = page.get_by_role("textbox").first
@@ -300,8 +300,8 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
     box.press("Enter")
     wait_for(page, lambda: window.updates > before and abs(window.q[0] - np.radians(25)) < 1e-6)
     assert not given_up.is_set()
-    window.ask("best-worst")  # newer: the older one gives way
-    assert window.settle(60)
+    window.request_action("best-worst")  # newer: the older one gives way
+    assert window.wait_until_done(60)
     assert given_up.is_set()
     assert len(window.stage.ghosts) == 2
 
@@ -309,13 +309,13 @@ def test_the_page_goes_on_while_something_long_is_under_way(studio, visit):
 def test_sliding_along_the_self_motion_leaves_the_hand(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
     hand, q = window.machine.tool_pose(window.q), window.q
-    window.ask("slide", 1.0)
+    window.request_action("slide", 1.0)
     wait_for(page, lambda: np.linalg.norm(window.q - q) > 0.1)
-    window.ask("slide", 0.0)
+    window.request_action("slide", 0.0)
     assert window.wait_until_done(60)
     np.testing.assert_allclose(window.machine.tool_pose(window.q)[:2, 3], hand[:2, 3], atol=1e-4)
-    window.ask("fail", (0, "locked"))
-    window.ask("slide", 1.0)
+    window.request_action("fail", (0, "locked"))
+    window.request_action("slide", 1.0)
     wait_for(page, lambda: "no self-motion" in text_of(page))
 
 

@@ -145,7 +145,7 @@ def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
         [(url, status, content)] = found
         assert (url, status) == (page.url, 200)
         assert b"<html" in content
-    assert order == ["_choose_camera", "ready", "body_of"]
+    assert order == ["_choose_camera", "ready", "build_body"]
 
 
 def test_without_viser_there_is_a_sentence(monkeypatch):

@@ -47,10 +47,10 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_s
             f"Nearest (red line): {clear.obstacles.names[gap.pair]}, at least {gap.distance:.3g} m" in page.inner_text("body")
         ),
     )
-    window.ask("pick", "ball")
-    hand = window.machine.hand(window.q)
-    window.ask("object", ("ball", pose_numbers(hand)))
-    assert window.settle(60)
+    window.request_action("pick", "ball")
+    hand = window.machine.tool_pose(window.q)
+    window.request_action("object", ("ball", pose_numbers(hand)))
+    assert window.wait_until_done(60)
     wait_for(page, lambda: "In the way: " in page.inner_text("body") and "ball" in page.inner_text("body"))
     assert tuple(window.objects._handles["ball"].color) == (190, 30, 45)
     assert window.state.moved == (("ball", pose_numbers(hand)),)
@@ -68,11 +68,11 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_s
 
 def test_an_object_on_the_base_is_said_and_loses_nothing(cell_studio, visit):
     page, window = visit(cell_studio)
-    window.ask("object", ("ball", pose_numbers(at(0, 0, 0.05))))
+    window.request_action("object", ("ball", pose_numbers(at(0, 0, 0.05))))
     assert window.wait_until_done(60)
     wait_for(page, lambda: "may_touch" in page.inner_text("body"))
-    window.ask("object", ("ball", pose_numbers(at(0.1, 0.6, 0.9))))
-    assert window.settle(60)
+    window.request_action("object", ("ball", pose_numbers(at(0.1, 0.6, 0.9))))
+    assert window.wait_until_done(60)
     wait_for(page, lambda: "Nearest (red line): " in page.inner_text("body"))
 
 

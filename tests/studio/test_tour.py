@@ -38,7 +38,7 @@ def test_the_first_steps_for_the_panda(browser, closing, tmp_path):
     closing.append(served)
     assert coloured(tmp_path / "panda-start.png") > 0.01
     assert "panda_joint4 has failed" in page.inner_text("body")
-    assert window.state.failed == (3,)
+    assert window.state.failed_joints == (3,)
     page.context.close()
 
 

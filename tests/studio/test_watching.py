@@ -25,12 +25,12 @@ def some(**more):
     values[7, 0] = np.nan
     given = {
         "onset": 1.0,
-        "alarm": 1.2,
+        "alarm_time": 1.2,
         "joint": 1,
-        "named": 1.22,
-        "said": ((1.32, "b is <locked>"),),
-        "untold": ("a did not",),
-        "record": "",
+        "isolation_time": 1.22,
+        "findings": ((1.32, "b is <locked>"),),
+        "inconclusive": ("a did not",),
+        "record_html": "",
     }
     return MonitorDemo(
         motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more}
@@ -60,21 +60,21 @@ def test_a_fault_in_the_page_is_named(studio, visit):
     button = page.get_by_role("button", name="Move, fail and watch")
     wait_for(page, button.is_enabled)
     button.click()
-    wait_for(page, lambda: window.watched is not None)
-    window.ask("time", 8.0)
+    wait_for(page, lambda: window.monitor_demo is not None)
+    window.request_action("time", 8.0)
     wait_for(page, lambda: page.locator(".hf-watch[data-alarm]").count() == 1)
     wait_for(page, lambda: "panda_joint4 is locked" in page.locator(".hf-watch").inner_text())
-    by_page, by_python = page.locator(".hf-head").inner_text(), window.watched
-    late = 1000 * (by_python.alarm - by_python.onset)
+    by_page, by_python = page.locator(".hf-head").inner_text(), window.monitor_demo
+    late = 1000 * (by_python.alarm_time - by_python.onset)
     assert by_page == f"Alarm {late:.0f} ms after the fault; the joint: {window.state.names[by_python.joint]}, locked."
     assert "over: panda_joint4" in page.locator(".hf-watch svg").first.get_attribute("aria-label")
     assert axe.serious(page) == []
-    window.ask("fault", ("limp", "panda_joint2", 2.0))
-    window.ask("time", 0.5)
+    window.request_action("fault", ("limp", "panda_joint2", 2.0))
+    window.request_action("time", 0.5)
     wait_for(page, lambda: page.locator(".hf-head").inner_text() == "No alarm so far.")
     page.get_by_role("button", name="Inject the fault now").click()
-    wait_for(page, lambda: window.watched is not by_python)
-    assert window.watched.onset == pytest.approx(0.5, abs=0.01)
+    wait_for(page, lambda: window.monitor_demo is not by_python)
+    assert window.monitor_demo.onset == pytest.approx(0.5, abs=0.01)
     wait_for(page, lambda: "the joint: panda_joint2" in page.locator(".hf-head").inner_text())
     page.get_by_role("button", name="Clear").first.click()
     wait_for(page, lambda: page.locator(".hf-watch").count() == 0)

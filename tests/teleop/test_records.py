@@ -62,10 +62,10 @@ def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
     for k in range(cycles):
         v = records.protocol.stick.limit_velocity(generator.normal(0, 0.03, 2))
         records.append_cycles(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
-        written.append_cycles((v, q))
+        written.append((v, q))
         q, _ = plant.step_one(q, v, mask)
     if end is not None:
-        records.finish(number, end, q)
+        records.finish_trial(number, end, q)
     return number, written, q
 
 
@@ -74,9 +74,9 @@ def test_what_is_written_is_read(records):
     for _ in range(3):  # the training, which has no ratings
         training, _, _ = one_trial(records, code, cycles=5)
     with pytest.raises(hf.InputError, match="one of the training"):
-        records.rate(training, 2)
+        records.rate_trial(training, 2)
     number, written, last = one_trial(records, code)
-    records.rate(number, 2, {"comment": "slow"})
+    records.rate_trial(number, 2, {"comment": "slow"})
     with Records.open(records.folder) as again:
         (entry,) = again.entries(kind=TrialKind.TRIAL)
         trials = again.read_trials([entry])
@@ -134,7 +134,7 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
         assert all(e.rating is not None for e in entries)
         training = made.entries(s.code, TrialKind.TRAINING)
         trials = made.read_trials(training)
-        times = np.where(trials.completed, trials.cycles, np.nan).tolist()
+        times = np.where(trials.is_completed, trials.cycles, np.nan).tolist()
         assert protocol.training.is_met_by(times)
         assert not protocol.training.is_met_by(times[:-1])
         np.testing.assert_array_equal(
@@ -212,7 +212,7 @@ def test_a_session_goes_on_where_it_stopped(records):
     one_trial(records, code, end=End.ABORTED)  # given up: not done again
     todo = Session(records, code).next_trial()
     assert todo.position == 2
-    order = records.protocol.session(0, 0)
+    order = records.protocol.session_order(0, 0)
     assert [todo.task, todo.scenario] == order[2].tolist()
     for _ in range(10):
         one_trial(records, code)
@@ -240,8 +240,8 @@ def test_deleting_a_subject_leaves_nothing(records):
     keep, gone = records.add_subject("keep").code, records.add_subject("gone", answers={"age": "37-secret"}).code
     for code in (keep, gone):
         one_trial(records, code)
-    records.event("note", subject=gone, data={"text": "remark-secret"})
-    commands = records.trials(records.entries(gone)).velocity.copy()
+    records.add_event("note", subject=gone, data={"text": "remark-secret"})
+    commands = records.read_trials(records.entries(gone)).velocity.copy()
     records.delete_subject(gone)
     assert [s.code for s in records.subjects()] == [keep]
     assert len(records.entries()) == 1
@@ -257,7 +257,7 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     code = records.add_subject().code
     number, _, q = one_trial(records, code, end=None)
     v = np.zeros((1, 2))
-    before = records.trials(records.entries()).q.copy()
+    before = records.read_trials(records.entries()).q.copy()
     for trial, first, velocity, configuration, message in [
         (number, 9, v, q[None], "continues with cycle 7, not 9"),
         (number, 6, v, q[None], "continues with cycle 7, not 6"),
@@ -266,26 +266,26 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
         (number, 7, v, np.full((1, 3), np.nan), "NaN"),
     ]:
         with pytest.raises(hf.InputError, match=message):
-            records.append(trial, first, np.zeros(1), velocity=velocity, q=configuration)
+            records.append_cycles(trial, first, np.zeros(1), velocity=velocity, q=configuration)
     for early in (np.array([5.9 / 6]), np.array([-1.0])):
         with pytest.raises(hf.InputError, match="run backwards"):
-            records.append(number, 7, early, velocity=v, q=q[None])
+            records.append_cycles(number, 7, early, velocity=v, q=q[None])
     with pytest.raises(hf.InputError, match="run backwards"):
-        records.append(number, 7, np.array([3.0, 2.9]), velocity=np.zeros((2, 2)), q=np.stack([q, q]))
+        records.append_cycles(number, 7, np.array([3.0, 2.9]), velocity=np.zeros((2, 2)), q=np.stack([q, q]))
     with pytest.raises(hf.InputError, match="rating is 4"):
-        records.rate(number, 4)
+        records.rate_trial(number, 4)
     with pytest.raises(hf.InputError, match="a subject S01 already"):
         records.add_subject("S01")
     with pytest.raises(hf.InputError, match="cannot be a subject's code"):
         records.add_subject("Ann Smith")
     with pytest.raises(hf.InputError, match="there is no subject nobody"):
         records.delete_subject("nobody")
-    np.testing.assert_array_equal(records.trials(records.entries()).q, before)
-    records.finish(number, End.ARRIVED, q)
+    np.testing.assert_array_equal(records.read_trials(records.entries()).q, before)
+    records.finish_trial(number, End.ARRIVED, q)
     with pytest.raises(hf.InputError, match="has ended"):
-        records.append(number, 7, np.zeros(1), velocity=v, q=q[None])
+        records.append_cycles(number, 7, np.zeros(1), velocity=v, q=q[None])
     with pytest.raises(hf.InputError, match="ended already"):
-        records.finish(number, End.ARRIVED, q)
+        records.finish_trial(number, End.ARRIVED, q)
 
 
 def test_folders_that_are_no_experiment(records, protocol, tmp_path):

@@ -65,7 +65,7 @@ def count_trials(folder):
         return len(opened.entries())
 
 
-@pytest.mark.parametrize(("method", "step"), [("add_subject", 3), ("begin_trial", 11), ("rate", 13), ("set_state", 2)])
+@pytest.mark.parametrize(("method", "step"), [("add_subject", 3), ("begin_trial", 11), ("rate_trial", 13), ("set_state", 2)])
 def test_a_stopped_experiment_ends_with_the_same_bytes(protocol, complete, tmp_path, monkeypatch, capfd, method, step):
     """Ctrl-C at a later call of a method that records in each round, until the experiment is complete."""
     folder, original, counts = tmp_path / "stopped", getattr(Records, method), []

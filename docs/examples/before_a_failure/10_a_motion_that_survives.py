@@ -19,10 +19,8 @@ end[1, 3] = 0.5
 path = hf.paths.TimedPath(hf.paths.line(begin, end), hf.paths.Constant(10.0))
 index = hf.indices.relative_manipulability(arm)
 best = hf.plan_motion(arm, path, samples=51, spacing=0.1, compare=["least-norm", index])
-print(
-    f"survived: {best.survival:.3f} of all locks; "
-    f"no motion survives more than {best.survival_bound:.3f}"
-)
+print(f"survived: {best.survival:.3f} of all locks")
+print(f"no motion survives more than {best.survival_bound:.3f} of them")
 for other in best.comparisons:
     print(f"{other.survival:.3f}  {other.name}")
 

@@ -91,11 +91,12 @@ def _byte_blocks(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _sequence_blocks(x, inside)
     elif kind in (set, frozenset):  # whose order differs from start to start
         yield from _sequence_blocks(sorted(b"".join(_sequence_blocks([item], inside)) for item in x), inside)
-    elif hasattr(x, "made_of"):
+    elif hasattr(x, "made_of") or hasattr(x, "source_digest"):  # the second one: of a kernel or a loop
         _require_own(kind)
-        if x.made_of is None:
+        source = x.made_of if hasattr(x, "made_of") else x.source_digest
+        if source is None:
             raise _NoDigestError
-        yield from _byte_blocks(x.made_of, inside)
+        yield from _byte_blocks(source, inside)
     elif isinstance(x, Path):
         yield str(x).encode()
     elif _has_identity(kind):  # an arm: a part of all that is made for it

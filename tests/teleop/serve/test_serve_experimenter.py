@@ -60,7 +60,7 @@ def give_up(records, subject):
         tasks = protocol.tasks.take(np.array([task]))
         number = records.begin_trial(subject.code, TrialKind.TRIAL, position, scenario=scenario, tasks=tasks, task=task)
         records.finish_trial(number, End.ABORTED, tasks.q0[0])
-        records.rate(number, 1)
+        records.rate_trial(number, 1)
 
 
 @pytest.fixture(scope="module")

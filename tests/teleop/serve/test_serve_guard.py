@@ -269,7 +269,7 @@ def test_an_experiment_is_begun_or_opened(protocol, tmp_path):
     file = protocol.write(tmp_path / "p.yaml")
     assert open_or_create(tmp_path / "experiment", str(file)).to_yaml() == protocol.to_yaml()
     assert open_or_create(tmp_path / "experiment", None).to_yaml() == protocol.to_yaml()
-    assert open_or_create(tmp_path / "experiment", str(file)).to_yaml() == protocol.text()
+    assert open_or_create(tmp_path / "experiment", str(file)).to_yaml() == protocol.to_yaml()
     with pytest.raises(hf.InputError, match="another protocol"):
         open_or_create(tmp_path / "experiment", "goel2003")
     with pytest.raises(hf.StoreError, match="not an empty folder"):

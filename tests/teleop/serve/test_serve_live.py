@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import time
 from contextlib import suppress
 
 import numpy as np
@@ -22,7 +23,7 @@ class Page:
     def __init__(self):
         self.code, self.said = None, []
 
-    def answered(self, reply):
+    def send_reply(self, reply):
         self.said.append(reply)
 
     def pause(self, paused):
@@ -40,6 +41,14 @@ async def settled(control):
     """Everything that was given to the threads so far is done."""
     for keeper in (control.writer, control.reader, control.writer):
         await keeper.run_job(lambda _: None)
+
+
+async def next_message(message, seconds=30.0):
+    """The message that is awaited; the test fails if there is none in time."""
+    try:
+        return await asyncio.wait_for(message, seconds)
+    except TimeoutError:
+        pytest.fail(f"the experimenter's page was sent no message for {seconds:g} s")
 
 
 def test_slow_watchers_drop_old_messages_and_nobody_waits():
@@ -97,9 +106,10 @@ def test_the_experimenter_watches_and_acts(experiment):
             control.apply_message(one, messages.Cycles(type="cycles", seq=2, **cycle))
             await settled(control)
             assert one.said == [Ack(seq=1), Ack(seq=2)]
-            told = [await news]
+            told, deadline = [await next_message(news)], time.monotonic() + 30
             while {m["type"] for m in told} != {"cycle", "subjects"}:
-                told.append(await anext(watch))
+                assert time.monotonic() < deadline, f"after 30 s there were only messages of type {told[-1]['type']}"
+                told.append(await next_message(anext(watch)))
             shown = next(m for m in told if m["type"] == "cycle")
             assert (shown["subject"], shown["kind"], shown["position"], shown["q"]) == ("P1", "training", 0, q0)
             assert shown["healthy"] == [1, 1, 1]
@@ -193,7 +203,9 @@ def test_a_disk_that_is_full_stops_nobody_for_good(experiment):
             for k in range(200):
                 data = {f"k{i}": "x" * 3000 for i in range(9)}
                 control.apply_message(page, messages.EventMessage(type="event", seq=k + 1, kind="x", data=data))
+            deadline = time.monotonic() + 60
             while len(page.said) < 200:
+                assert time.monotonic() < deadline, f"after 60 s there were {len(page.said)} of 200 replies"
                 with suppress(hf.StoreError):  # the question is part of a transaction that is lost
                     await settled(control)
             broken = next(i for i, r in enumerate(page.said) if isinstance(r, hf.StoreError))

@@ -266,8 +266,8 @@ def test_folders_from_before_there_were_pages_open(records):
 
 
 def part(records):
-    with records.together():
-        records.event("two")
+    with records.transaction():
+        records.add_event("two")
         records.subject("nobody")
 
 
@@ -276,8 +276,8 @@ def test_a_failed_part_is_undone_and_the_rest_is_kept(records):
         records.add_event("one")
         with pytest.raises(hf.InputError, match="nobody"):
             part(records)
-        records.event("three")
+        records.add_event("three")
     assert [e["kind"] for e in records.events()] == ["one", "three"]
     assert records.events("one")[0]["kind"] == "one"
-    assert records.progress() == {}
+    assert records.count_trials() == {}
     assert records.entries(kind=TrialKind.TRIAL) == []
