@@ -30,7 +30,7 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution"
+        "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
         "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
         "bench": "FailActive",
@@ -76,7 +76,7 @@ VALUES = named(
         "reaction": "Action",
         "recovery": "Leg RestOfPath RelaxedRows TimedMotion RecoveryVerdict Verification",
         "shapes": "Piece",
-        "simulation": "Path",
+        "simulation": "RunPath",
         "solvers": "Component FibrePath",
         "teleop": "Binning CPM TrialRecord NextTrial RecordedCycles Subject TaskBank Trials",
         "teleop.analysis": "Anova CellMeans Condition Correlation Effect TaskGroups MixedModel TrialTable PairedComparison "
@@ -92,7 +92,7 @@ INPUTS = named(
         "bench": "BenchmarkCase",
         "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",
         "cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
-        "clearance": "Capsule IgnoredPair",
+        "clearance": "IgnoredPair LinkCapsule",
         "control": "Law",
         "convergence": "Places",
         "designs": "DesignJoints DesignParameter",
@@ -137,13 +137,14 @@ def test_every_function_returns_what_is_in_a_list():
     other = {
         "Any",
         "Arcs",
-        "Array",
+        "BoolArray",
         "Callable",
         "Clearance",
         "Missing",
         "frozenset",
         "Figure",
-        "Indices",
+        "FloatArray",
+        "IndexArray",
         "InverseKinematics",
         "Iterator",
         "K",
