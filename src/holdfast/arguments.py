@@ -20,6 +20,7 @@ from holdfast.errors import HoldfastError, InputError
 from holdfast.typing import FloatArray, P, T
 
 _FROM_IMPORT = re.compile(r"^ *from ([\w.]+) import (?:\(([^)]*)\)|(.+))$", re.MULTILINE)
+_SOURCE_FOLDER = Path(__file__).parents[1]
 LARGEST_EXACT_INTEGER = 2**53  # whole numbers up to here are numbers of 8 bytes as well
 
 
@@ -227,8 +228,13 @@ def _known_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> 
 
 
 def _parse_kinds(annotation: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
+    return _kinds_of_node(_parse_annotation(annotation), scope)
+
+
+@functools.cache
+def _parse_annotation(annotation: str) -> ast.expr:
     try:
-        return _kinds_of_node(ast.parse(annotation.strip(), mode="eval").body, scope)
+        return ast.parse(annotation.strip(), mode="eval").body
     except SyntaxError as error:
         raise LookupError(f"'{annotation}' is not understood") from error
 
@@ -284,35 +290,36 @@ def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
     value = scope.get(name, getattr(builtins, name, None))
     if isinstance(value, type) and value.__module__.partition(".")[0] == "holdfast":
         return (_class_kind(name, lambda: value),)
-    module = "builtins" if hasattr(builtins, name) else scope["__name__"]
+    module = scope["__name__"] if value is None or name not in _STANDARD_KINDS else ""
     while module.partition(".")[0] == "holdfast" and name in (imports := _read_imports(module)):
         module, name = imports[name]
-    if module.partition(".")[0] == "holdfast":
-        return _own_kinds(module, name)
     if name in ("Any", "object"):
         return _ANYTHING
+    if module.partition(".")[0] == "holdfast":
+        return _own_kinds(module, name)
     if name not in _STANDARD_KINDS and isinstance(value, type) and not getattr(value, "_is_protocol", False):
         return (_class_kind(name, lambda: value),)
     return (_STANDARD_KINDS[name],)
 
 
+@functools.cache
 def _own_kinds(module: str, name: str) -> tuple[_Kind, ...]:
     """Return the kinds that a class or an alias of this package stands for, from the text of the module that defines it."""
-    text = _read_text(module)
-    if re.search(rf"^class {name}\b", text, re.MULTILINE):
-        # Of a class whose module is not imported there are no instances.
-        return (_class_kind(name, lambda: getattr(sys.modules.get(module), name, None)),)
-    alias = re.search(rf"^ *{name}(?:: TypeAlias)? = (.+)$", text, re.MULTILINE)
-    if alias is None:
-        raise LookupError(f"{name} is not found in {module}")
-    return _parse_kinds(alias[1], vars(sys.modules[module]) if module in sys.modules else {"__name__": module})
+    for line in _read_text(module).splitlines():
+        if line.startswith((f"class {name}(", f"class {name}:")):
+            # Of a class whose module is not imported there are no instances.
+            return (_class_kind(name, lambda: getattr(sys.modules.get(module), name, None)),)
+        if line.lstrip().startswith((f"{name} = ", f"{name}: TypeAlias = ")):
+            scope = vars(sys.modules[module]) if module in sys.modules else {"__name__": module}
+            return _parse_kinds(line.partition(" = ")[2], scope)
+    raise LookupError(f"{name} is not found in {module}")
 
 
 @functools.cache
 def _read_imports(module: str) -> dict[str, tuple[str, str]]:
     """Return what a module of this package imports, also for type checkers alone: local name to module and name there."""
     imports = {}
-    for home, in_brackets, on_line in _FROM_IMPORT.findall(_read_text(module)):
+    for home, in_brackets, on_line in _FROM_IMPORT.findall(_read_text(module).partition("\n\n\n")[0]):
         for each in re.sub("#.*", "", in_brackets or on_line).split(","):
             original, _, local = each.strip().partition(" as ")
             imports[local or original] = home, original
@@ -322,8 +329,9 @@ def _read_imports(module: str) -> dict[str, tuple[str, str]]:
 @functools.cache
 def _read_text(module: str) -> str:
     """Return the text of a module of this package; of a package, that of its stub, which lists all that it offers."""
-    path = Path(__file__).parents[1].joinpath(*module.split("."))
-    return (path / "__init__.pyi" if path.is_dir() else path.with_suffix(".py")).read_text(encoding="utf-8")
+    path = f"{_SOURCE_FOLDER}/{module.replace('.', '/')}"
+    file = Path(f"{path}.py")
+    return (file if file.is_file() else Path(path, "__init__.pyi")).read_text(encoding="utf-8")
 
 
 # ---- sentences ---------------------------------------------------------------------------------------------------
