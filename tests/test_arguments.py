@@ -75,7 +75,7 @@ def test_a_class_of_the_same_name_is_refused():
     class Cell:
         pass
 
-    with pytest.raises(InputError, match=r"check_cell: cell is <.*>; it must be a Cell or text or a path"):
+    with pytest.raises(InputError, match=r"check_cell: cell is <.*; it must be a Cell or text or a path"):
         hf.check_cell(Cell())
 
 

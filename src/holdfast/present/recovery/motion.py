@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.files.output import write_files
-from holdfast.present import results
+from holdfast.present import call_presenter, results
 from holdfast.present.recovery.console import resample_path
 from holdfast.report.figures import (
     BLUE,
@@ -44,7 +44,7 @@ def drawings(recovery: Recovery) -> Drawings:
     """Draw the moving arm from the side and from above, its timing, and maps of the remaining workspace, as far as
     requested.
     """
-    remainder: Drawings = {} if recovery.left is None else recovery.left._present("drawings")
+    remainder: Drawings = {} if recovery.left is None else call_presenter(recovery.left, "drawings")
     timing: Drawings = {} if recovery.timed is None else {"timing": partial(_draw_timing, recovery)}
     return {"motion": partial(_draw_motion, recovery), **timing, **remainder}
 
