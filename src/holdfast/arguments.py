@@ -150,7 +150,7 @@ def _is_path(value: Any) -> bool:
     return isinstance(value, os.PathLike) and "\0" not in os.fspath(value)
 
 
-_SEED = _Kind("a whole number of 0 or more", lambda x: _is_integer(x) and x >= 0)
+_SEED_KIND = _Kind("a whole number of 0 or more", lambda x: _is_integer(x) and x >= 0)
 _STANDARD_KINDS = {
     "int": _Kind("a whole number", _is_whole),
     "float": _Kind("a number", _is_real),
@@ -166,7 +166,7 @@ _STANDARD_KINDS = {
     "tuple": _Kind("a sequence", _is_sequence),
     "Iterable": _Kind("a sequence", _is_iterable),
 }
-_ANYTHING: tuple[_Kind, ...] = ()
+_ANY_VALUE: tuple[_Kind, ...] = ()
 
 
 def _is_of_kinds(value: Any, kinds: tuple[_Kind, ...]) -> bool:
@@ -213,9 +213,9 @@ def read_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> tu
         LookupError: The annotation names something that is not found, or not understood.
     """
     if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or parameter.name in ("self", "cls"):
-        return _ANYTHING
+        return _ANY_VALUE
     if parameter.name == "seed":
-        return (_SEED,)
+        return (_SEED_KIND,)
     return _parse_kinds(str(parameter.annotation), inspect.unwrap(function).__globals__)
 
 
@@ -224,7 +224,7 @@ def _known_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> 
     try:
         return read_kinds(function, parameter)
     except LookupError:
-        return _ANYTHING
+        return _ANY_VALUE
 
 
 def _parse_kinds(annotation: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
@@ -249,7 +249,7 @@ def _kinds_of_node(node: ast.expr, scope: Mapping[str, Any]) -> tuple[_Kind, ...
     match node:
         case ast.BinOp(left, ast.BitOr(), right):
             kinds = _kinds_of_node(left, scope), _kinds_of_node(right, scope)
-            return kinds[0] + kinds[1] if all(kinds) else _ANYTHING
+            return kinds[0] + kinds[1] if all(kinds) else _ANY_VALUE
         case ast.Constant(str(text)):
             return _parse_kinds(text, scope)
         case ast.Constant(None):
@@ -294,7 +294,7 @@ def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
     while module.partition(".")[0] == "holdfast" and name in (imports := _read_imports(module)):
         module, name = imports[name]
     if name in ("Any", "object"):
-        return _ANYTHING
+        return _ANY_VALUE
     if module.partition(".")[0] == "holdfast":
         return _own_kinds(module, name)
     if name not in _STANDARD_KINDS and isinstance(value, type) and not getattr(value, "_is_protocol", False):

@@ -64,7 +64,7 @@ VALUES = named(
         "certificates": "SearchState",
         "endurance": "Approach BaselineMotion SearchBounds LockTests VelocityJump",
         "engine": "CellStatus DamagedChunk ChunkResult",
-        "equilibria": "Curve Segment",
+        "equilibria": "EquilibriumCurve Segment",
         "diagnosis": "FaultVerdict",
         "faults": "Episode Feasibility SuccessRate",
         "indices": "IndexEvaluation ObjectivePart WorstCase",
