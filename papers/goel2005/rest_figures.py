@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from holdfast.equilibria import Curves, EquilibriumCurve
-from holdfast.report import FIGURE_WIDTH_IN, INK, MARKER_STYLES, save_png, settle_layout, style
+from holdfast.report import INK, MARKER_STYLES, WIDTH_IN, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 
@@ -25,7 +25,7 @@ BAND = 1e-2  # below it the scale of the determinant is linear
 def figure_9(found: Sequence[Curves], path: Path) -> None:
     """Above the curves over the locked angle, below the determinant along them."""
     with style():
-        figure = Figure(figsize=(FIGURE_WIDTH_IN, 7.4))
+        figure = Figure(figsize=(WIDTH_IN, 7.4))
         upper, lower = figure.subplots(2, 3, height_ratios=(1.35, 1), sharex="col")
         for above, below, c, other in zip(upper, lower, found, (1, 0, 0), strict=True):
             for curve in c.curves:

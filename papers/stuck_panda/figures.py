@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.report import (
-    FIGURE_WIDTH_IN,
     INK,
     MARKER_STYLES,
+    WIDTH_IN,
     Stack,
     bin_positions,
     place_maps,
@@ -108,7 +108,7 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
     """Errors at rest over the locked angle, with where stuck runs ended: a panel for each task and law."""
     panels = list(dict.fromkeys((e.task, e.law) for e in found))
     with style():
-        figure = Figure(figsize=(FIGURE_WIDTH_IN, 3.3 * -(-len(panels) // 2) + 0.9))
+        figure = Figure(figsize=(WIDTH_IN, 3.3 * -(-len(panels) // 2) + 0.9))
         every = np.ravel(figure.subplots(-(-len(panels) // 2), 2, squeeze=False, sharex=True))
         for axes, (task, law) in zip(every, panels, strict=False):
             for e in (e for e in found if (e.task, e.law) == (task, law)):

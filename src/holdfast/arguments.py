@@ -187,22 +187,6 @@ def _class_kind(name: str, load: Callable[[], Any]) -> _Kind:
     return _Kind(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}", accepts)
 
 
-def _literal_kind(choices: list[str]) -> _Kind:
-    """Return the kind of a ``Literal``; where it has words, the function itself refuses another word."""
-    has_words = any(each.startswith("'") for each in choices)
-    return _Kind(f"one of {', '.join(choices)}", lambda x: repr(x) in choices or (has_words and isinstance(x, str)))
-
-
-def _container_kind(outer: _Kind, items: tuple[_Kind, ...], has_items: Callable[[Any], bool]) -> _Kind:
-    """Return a kind of containers whose items are of certain kinds; a function itself reads items that may be containers or
-    something else.
-    """
-    if len(items) > 1 and any(kind.description.startswith(("a sequence", "a mapping")) for kind in items):
-        return outer
-    description = outer.description + (f", each {_describe_kinds(items)}" if items else "")
-    return _Kind(description, lambda value: outer.accepts(value) and has_items(value))
-
-
 # ---- annotations -------------------------------------------------------------------------------------------------
 
 
@@ -210,33 +194,27 @@ def read_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> tu
     """Return the kinds of values that a parameter takes; none if it takes any value.
 
     Raises:
-        LookupError: The annotation names something that is not found, or not understood.
+        LookupError: The annotation names something that is not found.
+        SyntaxError: The annotation cannot be read, for example that of an alias on several lines.
     """
     if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or parameter.name in ("self", "cls"):
         return _ANY_VALUE
     if parameter.name == "seed":
         return (_SEED_KIND,)
-    return _parse_kinds(str(parameter.annotation), inspect.unwrap(function).__globals__)
+    return _kinds_of_node(_parse_annotation(str(parameter.annotation)), inspect.unwrap(function).__globals__)
 
 
 def _known_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> tuple[_Kind, ...]:
     """Return the kinds of values that a parameter takes; none if it takes any value, or if its annotation is not known."""
     try:
         return read_kinds(function, parameter)
-    except LookupError:
+    except (LookupError, SyntaxError):
         return _ANY_VALUE
-
-
-def _parse_kinds(annotation: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
-    return _kinds_of_node(_parse_annotation(annotation), scope)
 
 
 @functools.cache
 def _parse_annotation(annotation: str) -> ast.expr:
-    try:
-        return ast.parse(annotation.strip(), mode="eval").body
-    except SyntaxError as error:
-        raise LookupError(f"'{annotation}' is not understood") from error
+    return ast.parse(annotation.strip(), mode="eval").body
 
 
 def _kinds_of_node(node: ast.expr, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
@@ -251,7 +229,7 @@ def _kinds_of_node(node: ast.expr, scope: Mapping[str, Any]) -> tuple[_Kind, ...
             kinds = _kinds_of_node(left, scope), _kinds_of_node(right, scope)
             return kinds[0] + kinds[1] if all(kinds) else _ANY_VALUE
         case ast.Constant(str(text)):
-            return _parse_kinds(text, scope)
+            return _kinds_of_node(_parse_annotation(text), scope)
         case ast.Constant(None):
             return (_STANDARD_KINDS["None"],)
         case ast.Subscript(value, index):
@@ -269,20 +247,27 @@ def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any
     if outer == "Annotated":
         return _kinds_of_node(parts[0], scope)
     if outer == "Literal":
-        return (_literal_kind([ast.unparse(each) for each in parts]),)
+        choices = [ast.unparse(each) for each in parts]
+        has_words = any(each.startswith("'") for each in choices)  # another word is the function's to refuse
+        return (_Kind(f"one of {', '.join(choices)}", lambda x: repr(x) in choices or (has_words and isinstance(x, str))),)
     kind = _STANDARD_KINDS[outer]
     if outer not in ("Mapping", "Sequence", "Iterable", "tuple"):
         return (kind,)
     inner = [_kinds_of_node(each, scope) for each in parts if ast.unparse(each) != "..."]
     items = inner[-1] if outer == "Mapping" else inner[0]
 
-    def has_items(value: Any) -> bool:
+    if len(items) > 1 and any(each.description.startswith(("a sequence", "a mapping")) for each in items):
+        return (kind,)  # items that may be containers or something else are the function's to read
+
+    def accepts(value: Any) -> bool:
+        if not kind.accepts(value):
+            return False
         if outer == "tuple" and len(inner) == len(parts):
             return len(value) == len(inner) and all(map(_is_of_kinds, value, inner))
         values = value.values() if outer == "Mapping" else value if isinstance(value, (Sequence, np.ndarray)) else ()
         return all(_is_of_kinds(each, items) for each in values)
 
-    return (_container_kind(kind, items, has_items),)
+    return (_Kind(kind.description + (f", each {_describe_kinds(items)}" if items else ""), accepts),)
 
 
 def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
@@ -311,7 +296,7 @@ def _own_kinds(module: str, name: str) -> tuple[_Kind, ...]:
             return (_class_kind(name, lambda: getattr(sys.modules.get(module), name, None)),)
         if line.lstrip().startswith((f"{name} = ", f"{name}: TypeAlias = ")):
             scope = vars(sys.modules[module]) if module in sys.modules else {"__name__": module}
-            return _parse_kinds(line.partition(" = ")[2], scope)
+            return _kinds_of_node(_parse_annotation(line.partition(" = ")[2]), scope)
     raise LookupError(f"{name} is not found in {module}")
 
 

@@ -1,5 +1,5 @@
 from holdfast.report.curves import MARKER_STYLES as MARKER_STYLES
-from holdfast.report.figures import FIGURE_WIDTH_IN as FIGURE_WIDTH_IN
+from holdfast.report.figures import WIDTH_IN as WIDTH_IN
 from holdfast.report.figures import Bin as Bin
 from holdfast.report.figures import Curve as Curve
 from holdfast.report.figures import Mark as Mark

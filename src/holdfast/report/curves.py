@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from holdfast.report.figures import (
     BLUE,
     FAINT,
-    FIGURE_WIDTH_IN,
     GREEN,
     INK,
     ORANGE,
     PURPLE,
     SOFT,
+    WIDTH_IN,
     format_label,
     settle_layout,
     style,
@@ -81,7 +81,7 @@ def stationary_curves_figure(
         caption: One line below.
     """
     with style():
-        figure = Figure(figsize=(FIGURE_WIDTH_IN, 0.9 + 2.5 * len(ylabels)))
+        figure = Figure(figsize=(WIDTH_IN, 0.9 + 2.5 * len(ylabels)))
         panels = np.atleast_1d(figure.subplots(len(ylabels), 1, sharex=True))
         for panel, (axes, ylabel) in enumerate(zip(panels, ylabels, strict=True)):
             for lower, upper in reachable_intervals:
@@ -195,7 +195,7 @@ def basin_map_figure(
 def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float, float, float]], caption: str) -> Figure:
     """Plot fractions of initial configurations, each ``(value, low, high)``, as bars with their confidence intervals."""
     with style():
-        figure = Figure(figsize=(FIGURE_WIDTH_IN * 0.8, 1.2 + 0.32 * len(names)))
+        figure = Figure(figsize=(WIDTH_IN * 0.8, 1.2 + 0.32 * len(names)))
         axes: Axes = figure.add_subplot()
         positions = np.arange(len(names))
         percentages, lower, upper = (100 * np.array(column) for column in zip(*fractions, strict=True))

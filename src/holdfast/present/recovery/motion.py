@@ -17,10 +17,10 @@ from holdfast.present.recovery.console import resample_path
 from holdfast.report.figures import (
     BLUE,
     FAINT,
-    FIGURE_WIDTH_IN,
     ORANGE,
     SKY,
     SOFT,
+    WIDTH_IN,
     format_label,
     legend_below,
     save_png,
@@ -95,7 +95,7 @@ def _draw_motion(recovery: Recovery) -> Figure:
     with style():
         panel_width = 4.1 if len(views) > 1 else 5.0
         spans, height = fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
-        figure = Figure(figsize=(FIGURE_WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7))
+        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         center = extent_scene.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
@@ -136,7 +136,7 @@ def _draw_timing(recovery: Recovery) -> Figure:
     moving_joints = np.flatnonzero(np.abs(timed_motion.qd).max(axis=0) > 0)
     speed_limits = np.where(np.isfinite(recovery.degraded.v), recovery.degraded.v, np.abs(timed_motion.qd).max(axis=0))
     with style():
-        figure = Figure(figsize=(FIGURE_WIDTH_IN, 4.6))
+        figure = Figure(figsize=(WIDTH_IN, 4.6))
         panels = figure.subplots(2, 1, sharex=True)
         for axes, values, limits, label in (
             (panels[0], timed_motion.qd, speed_limits, "rate / limit"),
