@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from holdfast.equilibria import Curves, EquilibriumCurve
-from holdfast.report import INK, MARKER_STYLES, WIDTH_IN, save_png, settle_layout, style
+from holdfast.report import INK, KIND_STYLES, WIDTH_IN, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 
@@ -45,7 +45,7 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
             upper[0].annotate(name, (q[0], q[1]), (6, 6), textcoords="offset points", zorder=7)
         words = ("sink", "saddle", "source", "degenerate")
         handles = [
-            Line2D([], [], color=MARKER_STYLES[k][0], linewidth=MARKER_STYLES[k][1], linestyle=MARKER_STYLES[k][2], label=k)
+            Line2D([], [], color=KIND_STYLES[k][0], linewidth=KIND_STYLES[k][1], linestyle=KIND_STYLES[k][2], label=k)
             for k in words
         ]
         figure.legend(handles=handles, loc="outside upper center", ncols=4)
@@ -64,7 +64,7 @@ def _stretches(axes: Axes, curve: EquilibriumCurve, values: Array) -> None:
     x = np.degrees(curve.locked_values) % 360
     for s in curve.segments:
         rows = slice(s.first, s.last + 1)
-        color, width, line, _ = MARKER_STYLES[s.kind.word]
+        color, width, line, _ = KIND_STYLES[s.kind.word]
         a, b = x[rows].copy(), values[rows].copy()
         jumps = np.flatnonzero((np.abs(np.diff(a)) > 180) | (np.abs(np.diff(b)) > 180)) + 1
         axes.plot(np.insert(a, jumps, np.nan), np.insert(b, jumps, np.nan), color=color, linewidth=width, linestyle=line)

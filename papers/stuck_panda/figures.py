@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.report import (
     INK,
-    MARKER_STYLES,
+    KIND_STYLES,
     WIDTH_IN,
     Stack,
     bin_positions,
@@ -113,7 +113,7 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
         for axes, (task, law) in zip(every, panels, strict=False):
             for e in (e for e in found if (e.task, e.law) == (task, law)):
                 p = e.points
-                for kind, (color, _, _, marker) in MARKER_STYLES.items():
+                for kind, (color, _, _, marker) in KIND_STYLES.items():
                     for loose in (False, True):
                         rows = (np.array(p.kinds, dtype=object) == kind) & (p.continuum == loose)
                         levels = np.unique(np.round(p.error[rows], 3))
@@ -133,7 +133,7 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
             axes.set_xticks(range(-180, 1, 30))
         for axes in every[-2:]:
             axes.set_xlabel("joint 4 locked at, deg")
-        handles = [Line2D([], [], marker=m, color=c, linestyle="none", label=k) for k, (c, _, _, m) in MARKER_STYLES.items()]
+        handles = [Line2D([], [], marker=m, color=c, linestyle="none", label=k) for k, (c, _, _, m) in KIND_STYLES.items()]
         handles.append(
             Line2D([], [], marker="o", color=INK, markerfacecolor="none", linestyle="none", label="hollow: a continuum")
         )

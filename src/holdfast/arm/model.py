@@ -12,14 +12,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, check_constructor
 from holdfast.arm.dh import DH, build_from_rows
-from holdfast.arm.machine import (  # Chain and Joint: in annotations of inherited fields, which check_constructor reads
-    GRAVITY,
-    ArmData,
-    Chain,  # noqa: F401
-    Joint,  # noqa: F401
-    Link,
-    check_transform,
-)
+from holdfast.arm.machine import GRAVITY, ArmData, Chain, Joint, Link, check_transform  # noqa: F401  # for inherited fields
 from holdfast.caching import cached_property
 from holdfast.files.html import Html
 from holdfast.kernels.kernel import Kernel

@@ -1,4 +1,4 @@
-from holdfast.report.curves import MARKER_STYLES as MARKER_STYLES
+from holdfast.report.curves import KIND_STYLES as KIND_STYLES
 from holdfast.report.figures import WIDTH_IN as WIDTH_IN
 from holdfast.report.figures import Bin as Bin
 from holdfast.report.figures import Curve as Curve

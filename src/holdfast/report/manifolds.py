@@ -12,18 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from holdfast.report.figures import (
-    BLUE,
-    EMPTY_COLOR,
-    INK,
-    ORANGE,
-    SKY,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    settle_layout,
-    style,
-)
+from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.report.views import View
 from holdfast.typing import BoolArray, FloatArray
 
