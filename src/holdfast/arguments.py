@@ -296,7 +296,9 @@ def _own_kinds(module: str, name: str) -> tuple[_Kind, ...]:
             return (_class_kind(name, lambda: getattr(sys.modules.get(module), name, None)),)
         if line.lstrip().startswith((f"{name} = ", f"{name}: TypeAlias = ")):
             scope = vars(sys.modules[module]) if module in sys.modules else {"__name__": module}
-            return _kinds_of_node(_parse_annotation(line.partition(" = ")[2]), scope)
+            kinds = _kinds_of_node(_parse_annotation(line.partition(" = ")[2]), scope)
+            mapping = _STANDARD_KINDS["Mapping"]  # the values of such mappings are the function's to read
+            return tuple(mapping if each.description.startswith(mapping.description) else each for each in kinds)
     raise LookupError(f"{name} is not found in {module}")
 
 
