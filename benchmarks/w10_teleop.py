@@ -104,13 +104,13 @@ def eleven(q: np.ndarray, x: np.ndarray, v: np.ndarray, a: np.ndarray, target: n
 
 def bank(chosen: argparse.Namespace) -> str:
     from holdfast import arms
-    from holdfast.teleop import SCENARIOS, TaskBank, run_tasks, sample_tasks
+    from holdfast.teleop import SCENARIO_NAMES, TaskBank, run_tasks, sample_tasks
 
     each, few = (20, 2) if chosen.quick else (400, 10)
     arm = arms.load("planar-3r")
     tasks = sample_tasks(arm, each, seed=1)
     sample = np.linspace(0, len(tasks) - 1, few).astype(np.int64)
-    masks = [tasks.healthy_mask(s.failed) for s in SCENARIOS]
+    masks = [tasks.healthy_mask(s.failed) for s in SCENARIO_NAMES]
 
     def drawn() -> None:
         sample_tasks(arm, each, seed=1)
@@ -122,7 +122,7 @@ def bank(chosen: argparse.Namespace) -> str:
         return np.array(
             [
                 [trial(tasks.q0[i], tasks.target[i], mask[i], "tolerant" in s.law) for i in sample]
-                for s, mask in zip(SCENARIOS, masks, strict=True)
+                for s, mask in zip(SCENARIO_NAMES, masks, strict=True)
             ]
         )
 
@@ -144,17 +144,17 @@ def bank(chosen: argparse.Namespace) -> str:
             "-",
             f"of it {draw:.2g} s to draw reachable tasks; asked for: below {BANK_ASKED:g} s for 1200 on two quiet cores",
         ],
-        ["the trials and measures of it", harness.number(whole), "1", "-", f"{len(tasks) * len(SCENARIOS)} trials"],
+        ["the trials and measures of it", harness.number(whole), "1", "-", f"{len(tasks) * len(SCENARIO_NAMES)} trials"],
         [
             "NumPy, a trial at a time",
             harness.number(factor * statistics.median(second)),
             str(ratio),
             f"{error:.0e}",
-            f"extrapolated from {len(sample)} tasks in {len(SCENARIOS)} scenarios",
+            f"extrapolated from {len(sample)} tasks in {len(SCENARIO_NAMES)} scenarios",
         ],
     ]
     head = ["contender", "s", "holdfast is faster by (range)", "largest difference of a measure", "note"]
-    return harness.table(f"W10: {len(tasks)} tasks in {len(SCENARIOS)} scenarios, planar 3R", head, lines)
+    return harness.table(f"W10: {len(tasks)} tasks in {len(SCENARIO_NAMES)} scenarios, planar 3R", head, lines)
 
 
 # ---- the experiment --------------------------------------------------------------------------------------------------------

@@ -27,9 +27,9 @@ OTHERS = {
     "StationaryPoints": "a result, of indices",
     "is_stuck": "a matrix, not an arm: indices of its columns",
     "stuck_subspace": "a matrix, not an arm: indices of its columns",
-    "WhatIsLeft": "a result: flags",
-    "Path": "a drawn path of a run: flags",
-    **dict.fromkeys(("read_locks", "locks_at", "locks_given", "degraded_at"), "reads it, for all those below"),
+    "RemainingWorkspace": "a result: flags",
+    "RunPath": "a drawn path of a run: flags",
+    **dict.fromkeys(("read_locks", "locks_at", "locks_with_values", "degraded_at"), "reads it, for all those below"),
     "simulate_physics": "gives it to simulate as it is",
 }
 

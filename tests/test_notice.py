@@ -319,7 +319,7 @@ def test_every_public_function_that_may_take_long_says_so():
     silent = set()
     for name in hf.__all__:
         function = getattr(hf, name)
-        if inspect.isfunction(function) and not {"says", "working"} & set(inspect.unwrap(function).__globals__):
+        if inspect.isfunction(function) and not {"reports_progress", "report_work"} & set(inspect.unwrap(function).__globals__):
             silent.add(name)
     assert silent <= set(QUICK)
 

@@ -85,8 +85,8 @@ def test_what_is_read_from_the_text_is_what_python_sees(kind, name):
 
 def test_help_and_errors_need_nothing_that_computes():
     code = (
-        "import json, sys; from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES\n"
-        "told = [r.usage for r in (INDICES, LAWS, SUSCEPTIBILITIES)]\n"
+        "import json, sys; from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY\n"
+        "told = [r.usage for r in (INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY)]\n"
         "print(json.dumps([told, sorted({'casadi', 'scipy', 'llvmlite', 'matplotlib'} & set(sys.modules))]))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

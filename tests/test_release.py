@@ -29,7 +29,7 @@ def steps(file: Path) -> list[dict]:
 def test_the_wheel_holds_the_package_and_nothing_else(tmp_path):
     """Installed elsewhere, and run, by ``make release``."""
     (wheel,) = release.build(ROOT, tmp_path, "wheel")
-    assert wheel.name == f"holdfast-{release.version(ROOT)}-py3-none-any.whl"
+    assert wheel.name == f"holdfast_arms-{release.version(ROOT)}-py3-none-any.whl"
     assert release.amiss(ROOT, wheel) == []
     with zipfile.ZipFile(wheel) as pack:
         names = pack.namelist()
@@ -37,7 +37,7 @@ def test_the_wheel_holds_the_package_and_nothing_else(tmp_path):
     needed |= {"report/templates/page.html", "teleop/protocol/goel2003.yaml", "teleop/serve/texts/en.yaml"}
     needed |= {f"teleop/serve/static/{name}" for name in ("index.html", "station.js", "worker.js", "licences.txt", "icon.svg")}
     assert {f"holdfast/{name}" for name in needed} <= set(names)
-    assert {name.split("/")[0] for name in names} == {"holdfast", f"holdfast-{release.version(ROOT)}.dist-info"}
+    assert {name.split("/")[0] for name in names} == {"holdfast", f"holdfast_arms-{release.version(ROOT)}.dist-info"}
 
     # One file less, one more, another requirement: each is told.
     worse = tmp_path / "worse" / wheel.name

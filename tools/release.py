@@ -91,7 +91,7 @@ def amiss(root: Path, wheel: Path) -> list[str]:
     """What a wheel lacks or has too much, its licence and its metadata included."""
     with zipfile.ZipFile(wheel) as pack:
         names = set(pack.namelist())
-        about = f"holdfast-{version(root)}.dist-info/"
+        about = f"holdfast_arms-{version(root)}.dist-info/"
         metadata = pack.read(about + "METADATA").decode() if about + "METADATA" in names else ""
         wrong = pack.testzip()
     held = {name for name in names if not name.startswith(about)}

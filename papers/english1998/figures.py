@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, save_png, settle_layout, style
+from holdfast.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH_IN, save_png, settle_layout, style
 from holdfast.solvers import self_motion
 from papers.english1998.hardware import DURATION as HARDWARE_DURATION
 from papers.english1998.hardware import SCALES, Hardware
@@ -33,7 +33,7 @@ def draw_arm(axes: Axes, places: Array, color: str = INK, width: float = 2.0, si
 def figure_4(planar: Planar, found: Extremes, path: Path) -> None:
     """Worst and best configuration of a point."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 4.4))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 4.4))
         for axes, name, q, value in zip(
             figure.subplots(1, 2), ("worst", "best"), (found.worst, found.best), reversed(found.values), strict=True
         ):
@@ -63,7 +63,7 @@ def figure_4(planar: Planar, found: Extremes, path: Path) -> None:
 def figure_5(planar: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Global, path: Path) -> None:
     """The torque criterion along the line, both ways."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 6.4))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 6.4))
         top, bottom = figure.subplots(2, 1, height_ratios=(1.15, 1))
         _arms_along(top, planar, there)
         x = there.poses[:, 0, 3]
@@ -87,7 +87,7 @@ def figure_5(planar: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Gl
 def figure_6(planar: Planar, motion: hf.Trajectory, borders: Sequence[float], path: Path, capped: bool = False) -> None:
     """Fig. 6, and with ``capped`` Fig. 8: the swing criterion and the joint-rate norm along the line."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 8.0))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 8.0))
         top, middle, bottom = figure.subplots(3, 1, height_ratios=(1.25, 1, 1))
         _arms_along(top, planar, motion)
         x = motion.poses[:, 0, 3]
@@ -117,7 +117,7 @@ def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -
     y = float(motion.poses[0, 1, 3])
     texts = ("start of the line", "outside the region of zero cost", "at its border", "inside: the minimum has split")
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 9.2))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 9.2))
         grid = figure.subplots(4, 2, width_ratios=(1, 2.2))
         for k, (x, text, (left, right)) in enumerate(zip(places, texts, grid, strict=True)):
             here = motion.q[int(np.argmin(np.abs(motion.poses[:, 0, 3] - x)))]
@@ -145,7 +145,7 @@ def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -
 def figure_9_11(hardware: Hardware, motion: hf.Trajectory, text: str, path: Path) -> None:
     """The arm at three points of the path, from the side of its base axis and along the path."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 4.3))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 4.3))
         axes = figure.subplots(1, 3, sharey=True)
         for ax, k in zip(axes, (0, len(motion.time) // 2, len(motion.time) - 1), strict=True):
             places = hardware.joints(motion.q[k])
@@ -164,7 +164,7 @@ def figure_9_11(hardware: Hardware, motion: hf.Trajectory, text: str, path: Path
 def figure_10(hardware: Hardware, path: Path) -> None:
     """Torque of joint 2 along the path, made small, for three times."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 7.0))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 7.0))
         panels = figure.subplots(len(SCALES), 1, sharex=True, sharey=True)
         for ax, scale in zip(panels, SCALES, strict=True):
             ax.plot(hardware.way, hardware.torque(hardware.small, scale), color=BLUE, label="whole dynamics")
@@ -181,7 +181,7 @@ def figure_10(hardware: Hardware, path: Path) -> None:
 def figure_12(hardware: Hardware, path: Path) -> None:
     """Torque of joint 2 along the path, made large, beside what it is when made small."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.78, 3.8))
+        figure = Figure(figsize=(WIDTH_IN * 0.78, 3.8))
         axes = figure.subplots()
         axes.plot(
             hardware.way, np.abs(hardware.torque(hardware.large, 1.0)), color=BLUE, label=f"made large, {HARDWARE_DURATION:g} s"

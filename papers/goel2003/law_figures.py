@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, legend_below, save_png, settle_layout, style
+from holdfast.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
 
 if TYPE_CHECKING:
     from papers.goel2003.peak_error import TwoMinima
@@ -21,7 +21,7 @@ def two_minima(found: TwoMinima, path: Path) -> None:
     largest = float(found.error.largest[0])
     damping = np.geomspace(1e-4, largest, 1500)
     with style():
-        figure = Figure(figsize=(WIDTH * 0.62, 4.4))
+        figure = Figure(figsize=(WIDTH_IN * 0.62, 4.4))
         axes = figure.subplots()
         axes.semilogx(damping, found.error(damping[None])[0], color=BLUE, label="peak velocity error")
         none = float(found.error(np.zeros(1))[0])
@@ -38,7 +38,7 @@ def two_minima(found: TwoMinima, path: Path) -> None:
 def trade_off(curves: Sequence[hf.control.TradeOff], path: Path) -> None:
     """Post-failure gain and pre-failure price against the allowed error, an arm per row."""
     with style():
-        figure = Figure(figsize=(WIDTH, 7.6))
+        figure = Figure(figsize=(WIDTH_IN, 7.6))
         for row, curve in zip(figure.subplots(len(curves), 2), curves, strict=True):
             curve.figures(row)
             row[0].set_title(f"{curve.arm.name}, {curve.task.name}: what the failed arm gains")

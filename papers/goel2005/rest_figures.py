@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from holdfast.equilibria import Curve, Curves
-from holdfast.report import INK, KINDS, WIDTH, save_png, settle_layout, style
+from holdfast.equilibria import Curves, EquilibriumCurve
+from holdfast.report import INK, KIND_STYLES, WIDTH_IN, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 
@@ -25,7 +25,7 @@ BAND = 1e-2  # below it the scale of the determinant is linear
 def figure_9(found: Sequence[Curves], path: Path) -> None:
     """Above the curves over the locked angle, below the determinant along them."""
     with style():
-        figure = Figure(figsize=(WIDTH, 7.4))
+        figure = Figure(figsize=(WIDTH_IN, 7.4))
         upper, lower = figure.subplots(2, 3, height_ratios=(1.35, 1), sharex="col")
         for above, below, c, other in zip(upper, lower, found, (1, 0, 0), strict=True):
             for curve in c.curves:
@@ -44,7 +44,10 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
             upper[0].plot(q[0], q[1], "o", color="white", markeredgecolor=INK, markersize=6, zorder=6)
             upper[0].annotate(name, (q[0], q[1]), (6, 6), textcoords="offset points", zorder=7)
         words = ("sink", "saddle", "source", "degenerate")
-        handles = [Line2D([], [], color=KINDS[k][0], linewidth=KINDS[k][1], linestyle=KINDS[k][2], label=k) for k in words]
+        handles = [
+            Line2D([], [], color=KIND_STYLES[k][0], linewidth=KIND_STYLES[k][1], linestyle=KIND_STYLES[k][2], label=k)
+            for k in words
+        ]
         figure.legend(handles=handles, loc="outside upper center", ncols=4)
         drawing.caption(
             figure,
@@ -56,12 +59,12 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
         save_png(settle_layout(figure), path, dpi=110)
 
 
-def _stretches(axes: Axes, curve: Curve, values: Array) -> None:
+def _stretches(axes: Axes, curve: EquilibriumCurve, values: Array) -> None:
     """Values along a curve over the locked angle, drawn by kind, broken where an angle comes round."""
     x = np.degrees(curve.locked_values) % 360
     for s in curve.segments:
         rows = slice(s.first, s.last + 1)
-        color, width, line, _ = KINDS[s.kind.word]
+        color, width, line, _ = KIND_STYLES[s.kind.word]
         a, b = x[rows].copy(), values[rows].copy()
         jumps = np.flatnonzero((np.abs(np.diff(a)) > 180) | (np.abs(np.diff(b)) > 180)) + 1
         axes.plot(np.insert(a, jumps, np.nan), np.insert(b, jumps, np.nan), color=color, linewidth=width, linestyle=line)

@@ -189,11 +189,11 @@ def cycle_table() -> list[str]:
 
 def figure_cycle(path: Path) -> None:
     """The limit cycle in the plane of the healthy joints."""
-    from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, legend_below, save_png, settle_layout, style
+    from holdfast.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
 
     points = at(168.30)
     with style():
-        figure = Figure(figsize=(WIDTH * 0.62, 5.0))
+        figure = Figure(figsize=(WIDTH_IN * 0.62, 5.0))
         axes = figure.subplots()
         for start, color, text in ((0.3, SOFT, "from inside"), (7.0, BLUE, "from outside")):
             way = beside_source(points, start).path(0, 40_001)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import BLUE, FAINT, INK, WIDTH, save_png, settle_layout, style
+from holdfast.report import BLUE, FAINT, INK, WIDTH_IN, save_png, settle_layout, style
 from papers.goel2005 import drawing
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 def figure_5_6(found: Sequence[hf.Runs], title: str, path: Path) -> None:
     """Both elbows of a start."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.82, 4.7))
+        figure = Figure(figsize=(WIDTH_IN * 0.82, 4.7))
         for axes, run in zip(figure.subplots(1, 2, sharey=True), found, strict=True):
             time = _draw(axes, run, 30.0)
             axes.set_title(f"{run.outcome}, error {run.error:.4f} m" if run.error > 1e-4 else str(run.outcome))
@@ -36,7 +36,7 @@ def figure_5_6(found: Sequence[hf.Runs], title: str, path: Path) -> None:
 def figure_7(turning: hf.Runs, resting: hf.Runs, path: Path) -> None:
     """An arm that never rests, and one just beyond the angle from which on it does."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.82, 7.6))
+        figure = Figure(figsize=(WIDTH_IN * 0.82, 7.6))
         upper, lower = figure.subplots(2, 2, height_ratios=(1.5, 1))
         for axes, below, run, name in zip(upper, lower, (turning, resting), ("30", "44"), strict=True):
             _draw(axes, run, 12.0)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from holdfast.report import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH, legend_below, save_png, settle_layout, style
+from holdfast.report import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.drawing import point
 from papers.goel2005.two_link_motion import START, Ended, hand, rate, target, wrapped
@@ -21,7 +21,7 @@ GREEN = "#007a5e"
 def figure_1(stuck: Ended, path: Path) -> None:
     """The geometry of rest: command and column of the locked joint are parallel."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.5, 5.0))
+        figure = Figure(figsize=(WIDTH_IN * 0.5, 5.0))
         axes = figure.subplots()
         q, x = stuck.run.q_final, stuck.run.target
         at = hand(q[1])
@@ -53,7 +53,7 @@ def figure_1(stuck: Ended, path: Path) -> None:
 def figure_2(found: Sequence[Ended], path: Path) -> None:
     """The four targets."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.5, 5.0))
+        figure = Figure(figsize=(WIDTH_IN * 0.5, 5.0))
         axes = figure.subplots()
         axes.add_patch(Circle((0, 0), 2, facecolor="#eef1f4", edgecolor=SOFT, linewidth=0.8, zorder=0))
         axes.add_patch(Circle((1, 0), 1, fill=False, edgecolor=BLUE, linewidth=1.5, zorder=1))
@@ -78,7 +78,7 @@ def figure_3_4(rho: float, found: Sequence[Ended], path: Path) -> None:
     with style(), np.errstate(divide="ignore", invalid="ignore"):
         speed = rate(np.deg2rad(angle), target(rho, phi))
         growth = np.sin(np.deg2rad(angle - phi)) * speed
-        figure = Figure(figsize=(WIDTH * 0.72, 7.4))
+        figure = Figure(figsize=(WIDTH_IN * 0.72, 7.4))
         axes = figure.subplots()
         axes.contourf(phi, angle, np.where(growth > 0, 1.0, -1.0), [-2, 0, 2], colors=[SKY, "#f3f4f6"])
         _arrows(axes, rho)

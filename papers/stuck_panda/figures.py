@@ -12,7 +12,18 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import INK, KINDS, WIDTH, Stack, bin_positions, place_maps, save_png, settle_layout, stack_figure, style
+from holdfast.report import (
+    INK,
+    KIND_STYLES,
+    WIDTH_IN,
+    Stack,
+    bin_positions,
+    place_maps,
+    save_png,
+    settle_layout,
+    stack_figure,
+    style,
+)
 from papers.stuck_panda.study import ELBOW, SHOWN, Elbow, arm
 
 Array = NDArray[np.float64]
@@ -97,12 +108,12 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
     """Errors at rest over the locked angle, with where stuck runs ended: a panel for each task and law."""
     panels = list(dict.fromkeys((e.task, e.law) for e in found))
     with style():
-        figure = Figure(figsize=(WIDTH, 3.3 * -(-len(panels) // 2) + 0.9))
+        figure = Figure(figsize=(WIDTH_IN, 3.3 * -(-len(panels) // 2) + 0.9))
         every = np.ravel(figure.subplots(-(-len(panels) // 2), 2, squeeze=False, sharex=True))
         for axes, (task, law) in zip(every, panels, strict=False):
             for e in (e for e in found if (e.task, e.law) == (task, law)):
                 p = e.points
-                for kind, (color, _, _, marker) in KINDS.items():
+                for kind, (color, _, _, marker) in KIND_STYLES.items():
                     for loose in (False, True):
                         rows = (np.array(p.kinds, dtype=object) == kind) & (p.continuum == loose)
                         levels = np.unique(np.round(p.error[rows], 3))
@@ -122,7 +133,7 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
             axes.set_xticks(range(-180, 1, 30))
         for axes in every[-2:]:
             axes.set_xlabel("joint 4 locked at, deg")
-        handles = [Line2D([], [], marker=m, color=c, linestyle="none", label=k) for k, (c, _, _, m) in KINDS.items()]
+        handles = [Line2D([], [], marker=m, color=c, linestyle="none", label=k) for k, (c, _, _, m) in KIND_STYLES.items()]
         handles.append(
             Line2D([], [], marker="o", color=INK, markerfacecolor="none", linestyle="none", label="hollow: a continuum")
         )

@@ -11,7 +11,7 @@ from typing import Any
 
 from holdfast.renamed import find_successor
 
-_OFFERED = re.compile(r"^from ([\w.]+) import (\w+) as \2$", re.MULTILINE)
+_OFFERED_NAME = re.compile(r"^from ([\w.]+) import (\w+) as \2$", re.MULTILINE)
 
 
 def offer(package: str) -> None:
@@ -26,7 +26,7 @@ def offer(package: str) -> None:
     """
     module = sys.modules[package]
     stub = Path(str(module.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
-    homes = {name: home for home, name in _OFFERED.findall(stub)}
+    homes = {name: home for home, name in _OFFERED_NAME.findall(stub)}
 
     def get(name: str) -> Any:
         home = homes.get(name, package)

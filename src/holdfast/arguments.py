@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import ast
+import builtins
 import functools
 import inspect
 import os
+import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, ParamSpec, TypeVar
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, InputError
+from holdfast.typing import FloatArray, P, T
 
-P = ParamSpec("P")
-T = TypeVar("T")
+_FROM_IMPORT = re.compile(r"^ *from ([\w.]+) import (?:\(([^)]*)\)|(.+))$", re.MULTILINE)
+_SOURCE_FOLDER = Path(__file__).parents[1]
 LARGEST_EXACT_INTEGER = 2**53  # whole numbers up to here are numbers of 8 bytes as well
 
 
-def require_real_numbers(value: Any, label: str, wanted: str = "numbers in an array") -> NDArray[np.float64]:
+def require_real_numbers(value: Any, label: str, wanted: str = "numbers in an array") -> FloatArray:
     """Return an array of real numbers as float64, or raise :class:`holdfast.InputError`.
 
     Args:
@@ -45,32 +51,30 @@ def require_real_numbers(value: Any, label: str, wanted: str = "numbers in an ar
 def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
     """Wrap a function so that it rejects arguments of another kind than their annotations state.
 
-    A public function that would fail somewhere within, with an error of another package, says at its door what it takes.
-    Looked at are the kinds in :data:`_CHECKS_BY_KIND` and the classes in :data:`_KNOWN_CLASSES`, these by name, so that nothing
-    is imported; where an annotation says anything else, the argument is left to the function.
+    A public function that would otherwise fail deep in its computation, with an error of another package, states which
+    argument is wrong. The annotations are read from the text of the modules on the first call (:func:`read_kinds`), so that
+    nothing is imported for them. An argument whose annotation names something unknown is left to the function.
 
     Raises:
         InputError: When the function is called with such an argument.
         HoldfastError: When NumPy cannot factor a matrix within the function.
     """
-    signature = inspect.signature(function)
-    expected_kinds = {name: _kinds_of(str(parameter.annotation)) for name, parameter in signature.parameters.items()}
-    for name, parameter in signature.parameters.items():
-        if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL):
-            expected_kinds[name] = ()
-        elif name == "seed":
-            expected_kinds[name] = ("seed",)
 
-    names = [name for name, parameter in signature.parameters.items() if parameter.kind is not parameter.KEYWORD_ONLY]
+    @functools.cache
+    def read_signature() -> tuple[list[str], dict[str, tuple[_Kind, ...]]]:
+        parameters = inspect.signature(function).parameters.values()
+        names = [each.name for each in parameters if each.kind is not each.KEYWORD_ONLY]
+        return names, {each.name: _known_kinds(function, each) for each in parameters}
 
     @functools.wraps(function)
     def call_checked(*args: P.args, **kwargs: P.kwargs) -> T:
-        # By place and by name: binding the arguments to the signature would take longer than all the rest.
+        names, kinds_by_name = read_signature()
+        # By position and by name: binding the arguments to the signature would take longer than all the rest.
         for name, value in (*zip(names, args, strict=False), *kwargs.items()):
-            kinds = expected_kinds.get(name)
-            if kinds and not any(_is_of_kind(value, kind) for kind in kinds):
+            kinds = kinds_by_name.get(name)
+            if kinds and not _is_of_kinds(value, kinds):
                 label = f"{function.__qualname__.removesuffix('.__init__')}: {name} is {_describe_value(value)}"
-                raise InputError(f"{label}; it must be {' or '.join(dict.fromkeys(_describe_kind(kind) for kind in kinds))}")
+                raise InputError(f"{label}; it must be {_describe_kinds(kinds)}")
         try:
             return function(*args, **kwargs)
         except np.linalg.LinAlgError as error:
@@ -88,58 +92,6 @@ def check_constructor(checked_type: type[T]) -> type[T]:
     """Return the class with a constructor that checks its arguments."""
     setattr(checked_type, "__init__", check_arguments(checked_type.__init__))  # noqa: B010
     return checked_type
-
-
-# ---- annotations -------------------------------------------------------------------------------------------------
-
-# Names that the packages give to unions.
-_ALIAS_KINDS = {
-    "Vary": "DesignSpace | Iterable[str | DesignParameter] | Mapping[str, Any]",
-    "FailureSpec": "str | int | Iterable[Any]",
-    **dict.fromkeys(("Locked", "LockedAt"), "Mapping | str | int | Sequence[Any] | ndarray | Degraded"),
-    "LockedValues": "Mapping | Degraded",
-    "Limits": "ArrayLike | Mapping[str | int, ArrayLike]",
-    "TaskSpec": "str | Task | Sequence[str]",
-    "CellLike": "Cell | str | Path",
-    "KeepLike": "ToolConstraint | str | Sequence[Any]",
-    "Array": "ArrayLike",
-    "FloatArray": "ArrayLike",
-    "Progress": "Callable",
-    **dict.fromkeys(("Frame", "JointType", "Method", "MetricName", "Mode", "Over", "React", "RelativeTo", "Sampling"), "str"),
-}
-
-
-def _split_outside_brackets(text: str, separator: str) -> list[str]:
-    """Split a text at the signs that are outside brackets."""
-    parts, depth = [""], 0
-    for letter in text.strip():
-        depth += (letter == "[") - (letter == "]")
-        if letter == separator and not depth:
-            parts.append("")
-        else:
-            parts[-1] += letter
-    return [part.strip() for part in parts]
-
-
-@functools.cache
-def _kinds_of(annotation: str) -> tuple[str, ...]:
-    """Return ``A | B[C | D]`` as its alternatives; none if one is not known, so that any value passes."""
-    kinds: list[str] = []
-    for part in _split_outside_brackets(annotation.strip().strip("'\""), "|"):
-        part = _inner_kinds(part)[0] if _outer_kind(part) == "Annotated" else part
-        kinds += _split_outside_brackets(_ALIAS_KINDS[part], "|") if part in _ALIAS_KINDS else [part]
-    return tuple(kinds) if all(_outer_kind(kind) in (*_CHECKS_BY_KIND, *_KNOWN_CLASSES, "Literal") for kind in kinds) else ()
-
-
-@functools.cache
-def _outer_kind(kind: str) -> str:
-    return kind.partition("[")[0].rpartition(".")[2]
-
-
-@functools.cache
-def _inner_kinds(kind: str) -> tuple[str, ...]:
-    """Return the kinds within the brackets."""
-    return tuple(_split_outside_brackets(kind.partition("[")[2].removesuffix("]"), ",")) if "[" in kind else ()
 
 
 # ---- values ------------------------------------------------------------------------------------------------------
@@ -177,104 +129,199 @@ def _is_iterable(value: Any) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and getattr(value, "ndim", 1) > 0
 
 
-_CHECKS_BY_KIND: dict[str, tuple[str, Callable[[Any], bool]]] = {
-    "seed": (
-        "a whole number of 0 or more",
-        lambda x: _is_integer(x) and x >= 0,
-    ),
-    "int": ("a whole number", _is_whole),
-    "float": ("a number", _is_real),
-    "bool": ("True or False", lambda x: isinstance(x, (bool, np.bool_))),
-    "str": ("text", _is_text),
-    "None": ("None", lambda x: x is None),
-    "Path": ("a path", lambda x: (isinstance(x, os.PathLike) and "\0" not in os.fspath(x)) or _has_class_name(x, "Path")),
-    "ArrayLike": ("numbers", _is_numeric),
-    "Callable": ("a function", callable),
-    "Mapping": ("a mapping", lambda x: isinstance(x, Mapping)),
-    "Sequence": ("a sequence", lambda x: isinstance(x, Sequence) and not isinstance(x, (str, bytes))),
-    "tuple": ("a sequence", lambda x: isinstance(x, Sequence) and not isinstance(x, (str, bytes))),
-    "Iterable": ("a sequence", _is_iterable),
-    "ndarray": ("an array", lambda x: isinstance(x, np.ndarray)),
+@dataclass(frozen=True)
+class _Kind:
+    """Kind of values.
+
+    Attributes:
+        description: Noun phrase for errors.
+        accepts: Returns whether a value is of the kind.
+    """
+
+    description: str
+    accepts: Callable[[Any], bool]
+
+
+def _is_sequence(value: Any) -> bool:
+    return isinstance(value, Sequence) and not isinstance(value, (str, bytes))
+
+
+def _is_path(value: Any) -> bool:
+    return isinstance(value, os.PathLike) and "\0" not in os.fspath(value)
+
+
+_SEED_KIND = _Kind("a whole number of 0 or more", lambda x: _is_integer(x) and x >= 0)
+_STANDARD_KINDS = {
+    "int": _Kind("a whole number", _is_whole),
+    "float": _Kind("a number", _is_real),
+    "bool": _Kind("True or False", lambda x: isinstance(x, (bool, np.bool_))),
+    "str": _Kind("text", _is_text),
+    "None": _Kind("None", lambda x: x is None),
+    "Path": _Kind("a path", _is_path),
+    "ArrayLike": _Kind("numbers", _is_numeric),
+    "NDArray": _Kind("numbers", _is_numeric),
+    "Callable": _Kind("a function", callable),
+    "Mapping": _Kind("a mapping", lambda x: isinstance(x, Mapping)),
+    "Sequence": _Kind("a sequence", _is_sequence),
+    "tuple": _Kind("a sequence", _is_sequence),
+    "Iterable": _Kind("a sequence", _is_iterable),
 }
-_KNOWN_CLASSES = (
-    *(
-        "Arm",
-        "Assessment",
-        "Body",
-        "Capsules",
-        "Cell",
-        "Clearance",
-        "DH",
-        "Degraded",
-        "DesignSpace",
-        "FailureRates",
-        "Index",
-        "Joint",
-    ),
-    *(
-        "ToolConstraint",
-        "FaultModel",
-        "Law",
-        "Link",
-        "Monitor",
-        "Objective",
-        "DesignParameter",
-        "Places",
-        "Body",
-        "BoundClaim",
-        "OutOfReachClaim",
-        "ReachClaim",
-        "Region",
-        "Servos",
-        "StructuralZeroClaim",
-        "Task",
-        "TimedPath",
-        "TolerantClaim",
-        "Trajectory",
-    ),
-)
+_ANY_VALUE: tuple[_Kind, ...] = ()
 
 
-def _has_class_name(value: Any, name: str) -> bool:
-    return any(kind.__name__ == name for kind in type(value).__mro__)
+def _is_of_kinds(value: Any, kinds: tuple[_Kind, ...]) -> bool:
+    return not kinds or any(kind.accepts(value) for kind in kinds)
 
 
-def _is_of_kind(value: Any, kind: str) -> bool:
-    outer, inner = _outer_kind(kind), _inner_kinds(kind)
+def _describe_kinds(kinds: tuple[_Kind, ...]) -> str:
+    return " or ".join(dict.fromkeys(kind.description for kind in kinds))
+
+
+def _class_kind(name: str, load: Callable[[], Any]) -> _Kind:
+    """Return the kind of the instances of the class that a function returns; there are none where it returns None."""
+
+    def accepts(value: Any) -> bool:
+        loaded = load()
+        return loaded is not None and isinstance(value, loaded)
+
+    return _Kind(f"{'an' if name[0] in 'AEIOU' else 'a'} {name}", accepts)
+
+
+# ---- annotations -------------------------------------------------------------------------------------------------
+
+
+def read_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> tuple[_Kind, ...]:
+    """Return the kinds of values that a parameter takes; none if it takes any value.
+
+    Raises:
+        LookupError: The annotation names something that is not found.
+        SyntaxError: The annotation cannot be read, for example that of an alias on several lines.
+    """
+    if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or parameter.name in ("self", "cls"):
+        return _ANY_VALUE
+    if parameter.name == "seed":
+        return (_SEED_KIND,)
+    return _kinds_of_node(_parse_annotation(str(parameter.annotation)), inspect.unwrap(function).__globals__)
+
+
+def _known_kinds(function: Callable[..., Any], parameter: inspect.Parameter) -> tuple[_Kind, ...]:
+    """Return the kinds of values that a parameter takes; none if it takes any value, or if its annotation is not known."""
+    try:
+        return read_kinds(function, parameter)
+    except (LookupError, SyntaxError):
+        return _ANY_VALUE
+
+
+@functools.cache
+def _parse_annotation(annotation: str) -> ast.expr:
+    return ast.parse(annotation.strip(), mode="eval").body
+
+
+def _kinds_of_node(node: ast.expr, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
+    """Return the kinds that a part of an annotation stands for.
+
+    Args:
+        node: The part.
+        scope: Global names of the module of the annotation, with ``__name__``.
+    """
+    match node:
+        case ast.BinOp(left, ast.BitOr(), right):
+            kinds = _kinds_of_node(left, scope), _kinds_of_node(right, scope)
+            return kinds[0] + kinds[1] if all(kinds) else _ANY_VALUE
+        case ast.Constant(str(text)):
+            return _kinds_of_node(_parse_annotation(text), scope)
+        case ast.Constant(None):
+            return (_STANDARD_KINDS["None"],)
+        case ast.Subscript(value, index):
+            parts = index.elts if isinstance(index, ast.Tuple) else [index]
+            return _kinds_with_parts(ast.unparse(value).rpartition(".")[2], parts, scope)
+        case ast.Name(name):
+            return _kinds_of_name(name, scope)
+        case ast.Attribute(ast.Name(module), name):
+            return _kinds_of_name(name, vars(scope[module]))
+    raise LookupError(f"'{ast.unparse(node)}' is not understood")
+
+
+def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
+    """Return the kinds of an annotation with brackets: ``outer[parts]``."""
+    if outer == "Annotated":
+        return _kinds_of_node(parts[0], scope)
     if outer == "Literal":
-        are_words = any(x.startswith(("'", '"')) for x in inner)
-        return repr(value) in inner or (are_words and isinstance(value, str))  # another word is the function's to refuse
-    if outer not in _CHECKS_BY_KIND:
-        return _has_class_name(value, outer)
-    if not _CHECKS_BY_KIND[outer][1](value):
-        return False
-    if outer == "Mapping" and inner:
-        return _are_of_kind(value.values(), inner[-1])
-    if outer == "tuple" and inner and inner[-1] != "...":
-        return len(value) == len(inner) and all(_are_of_kind([x], part) for x, part in zip(value, inner, strict=True))
-    items = outer in ("Sequence", "tuple", "Iterable") and inner and isinstance(value, (Sequence, np.ndarray))
-    return not items or _are_of_kind(value, inner[0])
+        choices = [ast.unparse(each) for each in parts]
+        has_words = any(each.startswith("'") for each in choices)  # another word is the function's to refuse
+        return (_Kind(f"one of {', '.join(choices)}", lambda x: repr(x) in choices or (has_words and isinstance(x, str))),)
+    kind = _STANDARD_KINDS[outer]
+    if outer not in ("Mapping", "Sequence", "Iterable", "tuple"):
+        return (kind,)
+    inner = [_kinds_of_node(each, scope) for each in parts if ast.unparse(each) != "..."]
+    items = inner[-1] if outer == "Mapping" else inner[0]
+
+    if len(items) > 1 and any(each.description.startswith(("a sequence", "a mapping")) for each in items):
+        return (kind,)  # items that may be containers or something else are the function's to read
+
+    def accepts(value: Any) -> bool:
+        if not kind.accepts(value):
+            return False
+        if outer == "tuple" and len(inner) == len(parts):
+            return len(value) == len(inner) and all(map(_is_of_kinds, value, inner))
+        values = value.values() if outer == "Mapping" else value if isinstance(value, (Sequence, np.ndarray)) else ()
+        return all(_is_of_kinds(each, items) for each in values)
+
+    return (_Kind(kind.description + (f", each {_describe_kinds(items)}" if items else ""), accepts),)
 
 
-def _are_of_kind(values: Iterable[Any], annotation: str) -> bool:
-    kinds = _kinds_of(annotation)
-    return not kinds or all(any(_is_of_kind(value, kind) for kind in kinds) for value in values)
+def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
+    """Return the kinds that a name of a module stands for: a standard kind, a class, or an alias of other kinds."""
+    value = scope.get(name, getattr(builtins, name, None))
+    if isinstance(value, type) and value.__module__.partition(".")[0] == "holdfast":
+        return (_class_kind(name, lambda: value),)
+    module = scope["__name__"] if value is None or name not in _STANDARD_KINDS else ""
+    while module.partition(".")[0] == "holdfast" and name in (imports := _read_imports(module)):
+        module, name = imports[name]
+    if name in ("Any", "object"):
+        return _ANY_VALUE
+    if module.partition(".")[0] == "holdfast":
+        return _own_kinds(module, name)
+    if name not in _STANDARD_KINDS and isinstance(value, type) and not getattr(value, "_is_protocol", False):
+        return (_class_kind(name, lambda: value),)
+    return (_STANDARD_KINDS[name],)
+
+
+@functools.cache
+def _own_kinds(module: str, name: str) -> tuple[_Kind, ...]:
+    """Return the kinds that a class or an alias of this package stands for, from the text of the module that defines it."""
+    for line in _read_text(module).splitlines():
+        if line.startswith((f"class {name}(", f"class {name}:")):
+            # Of a class whose module is not imported there are no instances.
+            return (_class_kind(name, lambda: getattr(sys.modules.get(module), name, None)),)
+        if line.lstrip().startswith((f"{name} = ", f"{name}: TypeAlias = ")):
+            scope = vars(sys.modules[module]) if module in sys.modules else {"__name__": module}
+            kinds = _kinds_of_node(_parse_annotation(line.partition(" = ")[2]), scope)
+            mapping = _STANDARD_KINDS["Mapping"]  # the values of such mappings are the function's to read
+            return tuple(mapping if each.description.startswith(mapping.description) else each for each in kinds)
+    raise LookupError(f"{name} is not found in {module}")
+
+
+@functools.cache
+def _read_imports(module: str) -> dict[str, tuple[str, str]]:
+    """Return what a module of this package imports, also for type checkers alone: local name to module and name there."""
+    imports = {}
+    for home, in_brackets, on_line in _FROM_IMPORT.findall(_read_text(module).partition("\n\n\n")[0]):
+        for each in re.sub("#.*", "", in_brackets or on_line).split(","):
+            original, _, local = each.strip().partition(" as ")
+            imports[local or original] = home, original
+    return imports
+
+
+@functools.cache
+def _read_text(module: str) -> str:
+    """Return the text of a module of this package; of a package, that of its stub, which lists all that it offers."""
+    path = f"{_SOURCE_FOLDER}/{module.replace('.', '/')}"
+    file = Path(f"{path}.py")
+    return (file if file.is_file() else Path(path, "__init__.pyi")).read_text(encoding="utf-8")
 
 
 # ---- sentences ---------------------------------------------------------------------------------------------------
-
-
-def _describe_kind(kind: str) -> str:
-    outer, inner = _outer_kind(kind), _inner_kinds(kind)
-    if outer == "Literal":
-        return f"one of {', '.join(inner)}"
-    if outer in _CHECKS_BY_KIND:
-        items = (inner[-1] if outer == "Mapping" else inner[0]) if inner else ""
-        item_kinds = (
-            [_describe_kind(x) for x in _kinds_of(items)] if outer in ("Mapping", "Sequence", "tuple", "Iterable") else []
-        )
-        return _CHECKS_BY_KIND[outer][0] + (f", each {' or '.join(item_kinds)}" if item_kinds else "")
-    return f"{'an' if outer[0] in 'AEIO' else 'a'} {outer}"
 
 
 def _describe_value(value: Any) -> str:

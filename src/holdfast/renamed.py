@@ -2,7 +2,7 @@
 
 import re
 
-COMMANDS = {
+COMMAND_SUCCESSORS = {
     "ceiling": "upper-bound",
     "endure": "plan-motion",
     "judge": "compare-arms",
@@ -11,7 +11,7 @@ COMMANDS = {
     "records": "record-designs",
     "rehearse": "simulate-logs",
 }
-OPTIONS = {
+OPTION_SUCCESSORS = {
     "--anywhere": "--any-pose",
     "--body": "--robot",
     "--climbs": "--local-searches",

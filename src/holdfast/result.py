@@ -26,10 +26,9 @@ class Presentable:
 
     def _present(self, function: str, *arguments: Any, **options: Any) -> Any:
         """Call a function of the modules that present this class, which are imported only now."""
-        from holdfast.present import find_presenter
+        from holdfast.present import call_presenter
 
-        names = [each.__name__ for each in type(self).__mro__]
-        return find_presenter(names, function)(self, *arguments, **options)
+        return call_presenter(self, function, *arguments, **options)
 
 
 class Result(Presentable):

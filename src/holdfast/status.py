@@ -32,10 +32,10 @@ class Status(IntEnum):
     @property
     def sentence(self) -> str:
         """What it means and what to try."""
-        return _SENTENCES[self]
+        return _STATUS_SENTENCES[self]
 
 
-_SENTENCES = {
+_STATUS_SENTENCES = {
     Status.OK: "solved",
     Status.NOT_FOUND: "no solution was found within the budget: give more restarts or widen the joint limits; "
     "this does not prove that there is none",

@@ -9,14 +9,14 @@ import pytest
 from holdfast import renamed
 
 
-@pytest.mark.parametrize("old", sorted(renamed.COMMANDS))
+@pytest.mark.parametrize("old", sorted(renamed.COMMAND_SUCCESSORS))
 def test_a_renamed_command_names_its_successor(cli, old):
     code, out, error = cli(old)
     assert (code, out) == (2, "")
     assert error.startswith(f"holdfast: No such command '{old}'")
-    assert error.endswith(f"; it is now '{renamed.COMMANDS[old]}'\n")
+    assert error.endswith(f"; it is now '{renamed.COMMAND_SUCCESSORS[old]}'\n")
     assert len(error.splitlines()) == 1
-    assert cli(renamed.COMMANDS[old], "--help")[0] == 0
+    assert cli(renamed.COMMAND_SUCCESSORS[old], "--help")[0] == 0
 
 
 @pytest.mark.parametrize(
@@ -33,9 +33,9 @@ def test_a_renamed_command_names_its_successor(cli, old):
 def test_a_renamed_option_names_its_successor(cli, command, old):
     code, _, error = cli(command, "planar-3r", old, "1")
     assert code == 2
-    assert error.endswith(f"; it is now '{renamed.OPTIONS[old]}'\n")
+    assert error.endswith(f"; it is now '{renamed.OPTION_SUCCESSORS[old]}'\n")
     assert len(error.splitlines()) == 1
-    assert renamed.OPTIONS[old] in cli(command, "--help")[1]
+    assert renamed.OPTION_SUCCESSORS[old] in cli(command, "--help")[1]
 
 
 def renamed_public_names():

@@ -12,6 +12,7 @@ from holdfast.control import pseudoinverse
 from holdfast.convergence.analysis import StartConfigurations
 from holdfast.convergence.origins import mean_intervals
 from holdfast.convergence.places import read_places
+from holdfast.present import call_presenter
 
 CELLS = 5
 
@@ -169,4 +170,4 @@ def test_targets_of_a_spatial_arm_are_analyses_of_their_own(spatial, goal):
         np.testing.assert_array_equal(found.target_intervals()[name][0], one.intervals()[name])
         assert np.isnan(found.values[name][1]).all()
         np.testing.assert_array_equal(found.means()[name], one.means()[name])
-    assert set(found._present("drawings")) == {"reach-top", "reach-side", "finish-top", "finish-side"}
+    assert set(call_presenter(found, "drawings")) == {"reach-top", "reach-side", "finish-top", "finish-side"}

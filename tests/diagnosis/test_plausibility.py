@@ -13,6 +13,7 @@ import holdfast as hf
 from holdfast.diagnosis.observer import accumulate_excess
 from holdfast.errors import InputError
 from holdfast.faults import Log
+from holdfast.present import call_presenter
 
 LINK = """<link name="{0}"><inertial><origin xyz="0.02 0 0.15"/><mass value="{1}"/>
 <inertia ixx="0.03" iyy="0.04" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
@@ -187,7 +188,7 @@ def test_a_fast_record_without_torques_is_printed_without_a_warning(crane, healt
     fast = np.stack([2.0 * t, 0.5 + t, 0.8 - t], axis=1)
     found = hf.diagnosis.diagnose(crane, Log(t=t, q_ref=fast, q=fast + 1e-4), bounds)
     assert not found.verdict.alarm
-    assert found._present("tables")[0].rows
+    assert call_presenter(found, "tables")[0].rows
 
 
 @pytest.mark.parametrize("joints", [[0, 1, 2], [1]])

@@ -104,8 +104,10 @@ def test_wrong_input_is_one_sentence(three):
         hf.basins(three, [1.5, 1.5], {0: 0, 1: 1}, grid=5)
     with pytest.raises(InputError, match="starts is 0"):
         hf.basins(three, [1.5, 1.5], {0: 0.0}, starts=0)
-    for locked in ({1: None}, 1, "joint2"):
-        with pytest.raises(InputError, match="locked gives no value for 'joint2'"):
+    with pytest.raises(InputError, match="locked gives no value for 'joint2'"):
+        hf.basins(three, [1.5, 1.5], {1: None})
+    for locked in (1, "joint2"):
+        with pytest.raises(InputError, match="it must be a mapping or a Degraded"):
             hf.basins(three, [1.5, 1.5], locked)
     runs = hf.simulate(three, [0.1, 0.2, 0.3], [1.5, 1.5])
     with pytest.raises(InputError, match="did not end moving"):

@@ -170,5 +170,5 @@ def test_what_a_draw_refuses():
         hf.faults.FaultModel([hf.faults.limp(together=5)]).draw(JOINTS)
     with pytest.raises(InputError, match="episode is -1"):
         MODEL.draw(JOINTS, episode=-1)
-    with pytest.raises(InputError, match="an entry of the faults is 'locked'; make it by"):
+    with pytest.raises(InputError, match="it must be a sequence, each a Fault"):
         hf.faults.FaultModel(["locked"])

@@ -49,7 +49,7 @@ def test_value_is_the_quadratic_form(planar, rng, monkeypatch):
         (np.eye(4), r"shape \(4, 4\)"),
         ([1, np.nan, 1], "NaN or infinity"),
         ([1, np.inf, 1], "NaN or infinity"),
-        ([[1, 2], [3]], "must be 3 numbers"),
+        ([[1, 2], [3]], "must be numbers or one of 'effort', 'worst-case' or None"),
         ("largest", "'largest' are not known"),
         ("effort", r"joint 'joint1' of 'planar-3r' has no largest effort above 0.*worst-case"),
     ],

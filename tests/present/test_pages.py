@@ -14,6 +14,7 @@ import pytest
 from test_notebook import INPUTS, MADE, X
 
 import holdfast as hf
+from holdfast.present import call_presenter
 from holdfast.present.physics import swing
 from holdfast.present.simulation.run import _RunReport
 from holdfast.recovery.recovery import RecoveryOutcome
@@ -131,7 +132,7 @@ def test_how_a_recovery_ended(ending):
     found = MADE["Recovery"]()
     gone = replace(found, ending=ending, q=np.zeros((0, 3)), legs=(), left=None)
     for each in (replace(found, ending=ending), gone):
-        says_something(each._present("story").answer)
+        says_something(call_presenter(each, "story").answer)
 
 
 @pytest.mark.parametrize("outcome", list(swing.ENDS) if hasattr(swing, "ENDS") else ["rest", "stop", "balanced", "moving"])
@@ -153,7 +154,7 @@ def test_how_a_joint_swings(outcome):
         outcome=outcome,
         drops=(drop,),
     )
-    story = found._present("story")
+    story = call_presenter(found, "story")
     says_something(story.answer)
     assert all(not value.startswith("0 ") for value, _ in story.facts)
 
@@ -180,6 +181,6 @@ def test_where_nothing_is_found_the_answer_says_so():
         "No configuration was found at any": replace(mapped, code=np.full_like(mapped.code, 255)),
     }  # fmt: skip
     for words, result in cases.items():
-        answer = result._present("story").answer
+        answer = call_presenter(result, "story").answer
         says_something(answer)
         assert words in answer, answer

@@ -13,6 +13,7 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task, task_from_rows
 from holdfast.clearance import Capsules
+from holdfast.present import call_presenter
 from holdfast.recovery import RecoveryOutcome, attempt
 from holdfast.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.recovery.proofs.flood import (
@@ -140,7 +141,7 @@ def test_the_verdict_says_that_it_is_proved(ring, kind, monkeypatch):
     assert not found.ok
     assert not len(found.q)
     assert "up to floating point" in found.proof
-    assert "disconnected" in found._present("story").answer
+    assert "disconnected" in call_presenter(found, "story").answer
     assert found.to_dict()["verdict"]["kind"] == "disconnected"
 
 

@@ -12,6 +12,7 @@ import holdfast as hf
 import oracles
 from holdfast.arm.task import as_task
 from holdfast.clearance.exact.engines import is_library_installed
+from holdfast.present import call_presenter
 from holdfast.recovery import RecoveryOutcome, attempt, completion
 from holdfast.recovery.proofs import reach
 from holdfast.recovery.proofs.of_path import order_by_relevance
@@ -187,7 +188,7 @@ def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
     assert found.verdict.why
     assert f"verdict: {answer}" in " ".join(found.describe())
     assert found.to_dict()["verdict"]["answer"] == answer
-    assert answer in found._present("story").answer
+    assert answer in call_presenter(found, "story").answer
 
 
 @pytest.mark.skipif(not is_library_installed(), reason="no library for exact signs")

@@ -8,7 +8,7 @@ from holdfast.teleop.trials.driving import EndRules, drive_trials
 from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfort, sample_people
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
-from holdfast.teleop.trials.scenarios import SCENARIOS
+from holdfast.teleop.trials.scenarios import SCENARIO_NAMES
 from holdfast.teleop.trials.stick import Joystick
 
 PERFECT = Person(delay=0, lag=0, noise=0, bias=0, slowing=0, gives_up=1e6)
@@ -17,7 +17,7 @@ RULES = EndRules(at_rest=True, cycle_limit=5000, patience=10_000)
 
 @pytest.fixture(scope="module")
 def plant():
-    return JoystickPlant(SCENARIOS[0].make_law(hf.arms.load("planar-3r")))
+    return JoystickPlant(SCENARIO_NAMES[0].make_law(hf.arms.load("planar-3r")))
 
 
 def run(plant, people, rate=6.0, q0=(0.3, 0.8, 0.6), target=(-0.4, 1.6), healthy=(1, 1, 1), seed=0):

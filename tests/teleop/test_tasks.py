@@ -17,7 +17,7 @@ from holdfast.teleop.bank.tasks import make_task_bank, sample_tasks
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules, drive_trials
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
-from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks
+from holdfast.teleop.trials.scenarios import SCENARIO_NAMES, PointTasks
 from holdfast.teleop.trials.stick import Joystick
 
 
@@ -128,7 +128,7 @@ def test_the_folded_line_traps_the_pseudoinverse_only(arm):
     """The task of the specification, section 7.2: stuck after about 390 cycles; the other law takes about 504."""
     angle = np.pi / 4 + np.arccos(1 / np.hypot(1.5, 1.5))
     task = PointTasks(np.array([[angle, *np.deg2rad([-66.0098, 155.7258])]]), np.array([[1.5, 1.5]]), np.array([0]))
-    plants = [JoystickPlant(SCENARIOS[k].make_law(arm)) for k in (2, 3)]
+    plants = [JoystickPlant(SCENARIO_NAMES[k].make_law(arm)) for k in (2, 3)]
     twice = {
         name: np.repeat(rows, 2, axis=0)
         for name, rows in (("q0", task.q0), ("target", task.target), ("healthy", task.healthy_mask(True)))
@@ -149,7 +149,7 @@ def test_a_trapped_task_stands_still_and_can_be_done(bank, arm):
 def test_spatial_arm(rng):
     arm = hf.arms.load("panda")
     bank = make_task_bank(
-        arm, per_joint=2, joints=["panda_joint2", 4], distance=0.4, task="position", seed=1, scenarios=SCENARIOS[::2]
+        arm, per_joint=2, joints=["panda_joint2", 4], distance=0.4, task="position", seed=1, scenarios=SCENARIO_NAMES[::2]
     )
     assert bank.measures.shape == (2, 4, 11)
     assert (bank.end[0] == End.ARRIVED).all()

@@ -9,7 +9,7 @@ from holdfast.teleop.trials.driving import ComputerOperator, EndRules, Operator,
 from holdfast.teleop.trials.performance import compute_cpm, compute_measures
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End, Trials
-from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks
+from holdfast.teleop.trials.scenarios import SCENARIO_NAMES, PointTasks
 from holdfast.teleop.trials.stick import Joystick
 
 
@@ -20,7 +20,7 @@ def arm():
 
 @pytest.fixture(scope="module")
 def plants(arm):
-    return [JoystickPlant(SCENARIOS[k].make_law(arm)) for k in (0, 1)]
+    return [JoystickPlant(SCENARIO_NAMES[k].make_law(arm)) for k in (0, 1)]
 
 
 @pytest.fixture

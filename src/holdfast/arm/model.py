@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, check_constructor
 from holdfast.arm.dh import DH, build_from_rows
-from holdfast.arm.machine import GRAVITY, ArmData, Link, check_transform
+from holdfast.arm.machine import GRAVITY, ArmData, Chain, Joint, Link, check_transform  # noqa: F401  # for inherited fields
 from holdfast.caching import cached_property
 from holdfast.files.html import Html
 from holdfast.kernels.kernel import Kernel

@@ -20,7 +20,7 @@ from holdfast.cli.declaration import as_typer
 from holdfast.cli.interrupt import STOPPED_EXIT_CODE
 from holdfast.cli.layout import PanelCommand, PanelGroup
 from holdfast.errors import ArmError, HoldfastError
-from holdfast.renamed import COMMANDS, OPTIONS
+from holdfast.renamed import COMMAND_SUCCESSORS, OPTION_SUCCESSORS
 
 PANEL_TITLES = {  # of the help, in its order, by the folder
     "start": "Start here",
@@ -187,7 +187,7 @@ def _name_successor(message: str) -> str:
     """Return the new name of a command or option that the error message calls unknown; empty if it was never known."""
     unknown = re.search(r"No such (?:command|option):? '?([\w-]+)", message)
     name = unknown.group(1) if unknown else ""
-    successor = COMMANDS.get(name) or OPTIONS.get(name)
+    successor = COMMAND_SUCCESSORS.get(name) or OPTION_SUCCESSORS.get(name)
     return f"; it is now '{successor}'" if successor else ""
 
 

@@ -33,7 +33,5 @@ class JacobianTranspose(Law):
 def jacobian_transpose(
     arm: Arm, task: TaskSpec = "pose", *, gain: float = 1.0, speed_limit: float | None = None
 ) -> JacobianTranspose:
-    """Make the law of joint rates along the gradient of the error, with the step that minimises the remaining
-    error; Buss 2004.
-    """
+    """Make the law of joint rates along the error gradient, with the step of the smallest remaining error; Buss 2004."""
     return JacobianTranspose(arm, task, gain, speed_limit=speed_limit)

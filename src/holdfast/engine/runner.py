@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from numpy.typing import NDArray
 
@@ -46,6 +46,7 @@ class ChunkResult:
     problem: HoldfastError | None = None
 
 
+@runtime_checkable
 class Runner(Protocol):
     """Interface that computes tasks in parallel."""
 

@@ -1,7 +1,7 @@
 from holdfast.equilibria.attraction import Basins as Basins
 from holdfast.equilibria.attraction import basins as basins
-from holdfast.equilibria.curves import Curve as Curve
 from holdfast.equilibria.curves import Curves as Curves
+from holdfast.equilibria.curves import EquilibriumCurve as EquilibriumCurve
 from holdfast.equilibria.curves import Segment as Segment
 from holdfast.equilibria.limit_cycles import Orbit as Orbit
 from holdfast.equilibria.limit_cycles import orbit as orbit

@@ -43,7 +43,7 @@ class Segment:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Curve:
+class EquilibriumCurve:
     """One curve of erroneous stationary points over the locked value.
 
     Attributes:
@@ -115,7 +115,7 @@ class Curves(Result):
     law: Law
     target: FloatArray
     joint: int
-    curves: tuple[Curve, ...]
+    curves: tuple[EquilibriumCurve, ...]
     loose: StationaryPoints
     starts: int
     _system: RestSystem = field(repr=False)

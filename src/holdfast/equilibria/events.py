@@ -15,7 +15,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.equilibria.curves import Curve, Segment
+from holdfast.equilibria.curves import EquilibriumCurve, Segment
 from holdfast.equilibria.stability import Kind, classify_kinds
 from holdfast.equilibria.system import RestSystem
 from holdfast.typing import FloatArray
@@ -41,7 +41,7 @@ class CurveEvent(IntEnum):
     PAIR = 5
 
 
-def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_constant: bool) -> Curve:
+def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_constant: bool) -> EquilibriumCurve:
     """Make a curve from its traced points z (K, size), with all events inserted as points."""
     n = system.law.arm.n
     tests, tangents = _evaluate_tests(system, joint, z, np.gradient(z, axis=0))
@@ -60,7 +60,7 @@ def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_
     point_kinds = np.full(len(q), Kind.DEGENERATE, dtype=np.uint8) if is_constant else classify_kinds(eigenvalues, scaled_error)
     point_kinds[label == CurveEvent.TARGET] = Kind.SOLUTION
     segments = (Segment(Kind.DEGENERATE, 0, len(q) - 1),) if is_constant else _split_segments(system, z, label, point_kinds)
-    return Curve(
+    return EquilibriumCurve(
         q=q,
         joint=joint,
         kind=point_kinds,

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from holdfast.control.law import Law
-from holdfast.equilibria.curves import Curve, Curves
+from holdfast.equilibria.curves import Curves, EquilibriumCurve
 from holdfast.equilibria.equations import EQUATION_TOLERANCE
 from holdfast.equilibria.events import mark_events
 from holdfast.equilibria.points import classify_points
@@ -72,11 +72,11 @@ class RestCurveTracer:
 
     def find_curves(
         self, generator: np.random.Generator, report_progress: Progress = ignore_progress
-    ) -> tuple[list[Curve], FloatArray, int]:
+    ) -> tuple[list[EquilibriumCurve], FloatArray, int]:
         """Find every curve to which a start converges, until some waves bring no new one, the points on none, and the starts
         used.
         """
-        curves: list[Curve] = []
+        curves: list[EquilibriumCurve] = []
         loose_points = np.empty((0, self._n))
         starts = idle_waves = 0
         for _ in range(MAX_WAVES):
@@ -113,7 +113,7 @@ class RestCurveTracer:
             & (np.linalg.norm(right_vectors[:, -1, : -2 - self.system.law.task.m], axis=1) > _SURFACE_TOLERANCE)
         )
 
-    def _select_off_curves(self, z: FloatArray, curves: Sequence[Curve]) -> FloatArray:
+    def _select_off_curves(self, z: FloatArray, curves: Sequence[EquilibriumCurve]) -> FloatArray:
         """Select those of z (N, size) that lie on none of the curves."""
         for curve in curves:
             if len(z):
@@ -123,7 +123,7 @@ class RestCurveTracer:
                 z = z[distance_to_curve(self._arm, component, z[:, : self._n]) > _ON_CURVE_FRACTION * self.spacing]
         return z
 
-    def _trace_curve(self, seed: FloatArray) -> Curve | None:
+    def _trace_curve(self, seed: FloatArray) -> EquilibriumCurve | None:
         start, tangent, is_found = self._correct_point(seed, None)
         if not is_found:
             return None

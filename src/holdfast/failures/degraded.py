@@ -200,7 +200,7 @@ LockedAt = _At | Degraded
 LockedValues = Mapping[str, ArrayLike] | Mapping[int, ArrayLike] | Mapping[str | int, ArrayLike] | Degraded  # (N,) of each
 LockedAnywhere = str | int | Sequence[str | int] | Mapping[str, None] | Mapping[int, None] | Mapping[str | int, None]
 _Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str | int, float | None]
-Locked = str | int | Sequence[str | int] | _Mapping | Degraded
+Locked = _Mapping | str | int | Iterable[str | int] | Degraded
 
 
 def _values_by_name(arm: Arm, given: Mapping[Any, Any], what: str) -> dict[str, Any]:

@@ -24,7 +24,7 @@ import numpy as np
 from holdfast.caching import cached_property
 from holdfast.provenance import versions
 
-_PACKAGE = Path(__file__).parents[1]
+_PACKAGE_FOLDER = Path(__file__).parents[1]
 _UNRELATED_FOLDERS = {"cli", "present", "report", "__pycache__"}  # no expression is built there, and nothing below imports them
 
 
@@ -50,11 +50,11 @@ def fingerprint(*parts: object) -> str | None:
 @functools.lru_cache(maxsize=1)
 def _sources_digest() -> str:
     hasher, is_complete = hashlib.sha256(repr(versions("holdfast", "casadi", "numpy")).encode()), False
-    for folder, folders, files in os.walk(_PACKAGE):
+    for folder, folders, files in os.walk(_PACKAGE_FOLDER):
         folders[:] = sorted(set(folders) - _UNRELATED_FOLDERS)
         for name in sorted(file for file in files if file.endswith((".py", ".c"))):
             path, is_complete = f"{folder}/{name}", True
-            hasher.update(path[len(str(_PACKAGE)) :].encode())
+            hasher.update(path[len(str(_PACKAGE_FOLDER)) :].encode())
             with open(path, "rb") as file:  # noqa: PTH123  (pathlib takes as long again)
                 hasher.update(file.read())
     if not is_complete:  # they lie in an archive

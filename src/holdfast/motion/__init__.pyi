@@ -6,7 +6,7 @@ from holdfast.motion.resolution import Rates as Rates
 from holdfast.motion.resolution import Resolution as Resolution
 from holdfast.motion.slowness import SlowMotion as SlowMotion
 from holdfast.motion.slowness import slow_enough as slow_enough
-from holdfast.motion.tracking import METHODS as METHODS
+from holdfast.motion.tracking import METHOD_NAMES as METHOD_NAMES
 from holdfast.motion.tracking import follow as follow
 from holdfast.motion.trajectory import Event as Event
 from holdfast.motion.trajectory import Trajectory as Trajectory

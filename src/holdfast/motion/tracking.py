@@ -31,7 +31,7 @@ from holdfast.typing import FloatArray
 
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
 OPTIMUM_METHODS = ("gradient-projection", "extended-jacobian")  # these stay at a local best
-METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
+METHOD_NAMES = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
 _MIN_CONTROL_STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
 _SETTLING_STEPS = 10  # steps: time constant of the gain that is chosen if none is given
@@ -114,8 +114,8 @@ def follow(
     resolved_task = choose_task(arm, objective, task, "pose" if path.path.oriented else "position")
     if samples < 3:
         raise InputError(f"samples is {samples}; it must be 3 or more")
-    if method not in METHODS:
-        raise InputError(f"method '{method}' is not known; use one of {', '.join(METHODS)}")
+    if method not in METHOD_NAMES:
+        raise InputError(f"method '{method}' is not known; use one of {', '.join(METHOD_NAMES)}")
     if rate_cap is not None and not rate_cap > 0:
         raise InputError(f"rate_cap is {rate_cap:g}; it must be above 0, or None")
     if not np.isfinite(margin):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from holdfast.errors import InputError
 from holdfast.typing import FloatArray
 
 
+@runtime_checkable
 class Timing(Protocol):
     """Progress of s from 0 to 1. Any object with these members is accepted; each method takes t (N,), s, and returns (N,).
 

@@ -12,6 +12,7 @@ from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from holdfast.present import call_presenter
 from holdfast.present.printing import TextTable
 from holdfast.result import Presentable
 from holdfast.words import join_units
@@ -30,12 +31,12 @@ _PIXELS_PER_INCH = 96  # px
 def build_card(result: Presentable) -> str:
     """Return the notebook view of a result as HTML without scripts and style sheets, for the end of a cell."""
     name = _variable_name(result)
-    headline, *remarks = result._present("sentences")
+    headline, *remarks = call_presenter(result, "sentences")
     parts = [f"<p><strong>{escape(headline)}</strong></p>"]
     parts += [f"<p>{escape(remark)}</p>" for remark in remarks[: _MAX_SENTENCES - 1]]
-    parts.append(_format_table(result._present("key_table")))
-    parts.append(result._present("picture", headline))
-    if next_calls := result._present("next_steps", name):
+    parts.append(_format_table(call_presenter(result, "key_table")))
+    parts.append(call_presenter(result, "picture", headline))
+    if next_calls := call_presenter(result, "next_steps", name):
         code = escape("\n".join(map(_format_step, next_calls)), quote=False)
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
     return f'<div class="holdfast" style="max-width:60em">{join_units("".join(parts), html=True)}</div>'

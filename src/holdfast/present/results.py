@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.errors import InputError
 from holdfast.files.output import make_folder
 from holdfast.notice import reports_progress
-from holdfast.present import find_presenter
+from holdfast.present import call_presenter, find_presenter
 from holdfast.present.printing import TextTable, make_console, print_json, print_table, print_written_files, to_json_types
 from holdfast.present.story import PageContent, build_method_blocks
 from holdfast.result import Presentable, Result
@@ -41,7 +41,7 @@ def print_result(
         print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))
         return
     out = make_console()
-    result._present("show", out, **options)
+    call_presenter(result, "show", out, **options)
     print_written_files(out, files)
 
 
@@ -72,7 +72,7 @@ def write_outputs(result: Result, plot: Path | None, out: Path | None = None) ->
 
 def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
     """Return the numbers of the result in JSON types."""
-    data: dict[str, Any] = to_json_types(result._present("to_dict", *args, **options))
+    data: dict[str, Any] = to_json_types(call_presenter(result, "to_dict", *args, **options))
     return data
 
 
@@ -80,7 +80,7 @@ def show(result: Result, out: Console) -> None:
     """Print the sentences and the tables."""
     for sentence in result.describe():
         out.print(sentence, markup=False, soft_wrap=True)
-    for table in result._present("tables"):
+    for table in call_presenter(result, "tables"):
         print_table(out, table)
 
 
@@ -92,7 +92,7 @@ def tables(result: Result) -> list[TextTable]:
 
 def figures(result: Result, **options: Any) -> dict[str, Figure]:
     """Draw all figures of the result."""
-    return {name: draw_figure() for name, draw_figure in result._present("drawings", **options).items()}
+    return {name: draw_figure() for name, draw_figure in call_presenter(result, "drawings", **options).items()}
 
 
 def drawings(result: Result, **options: Any) -> Drawings:
@@ -100,8 +100,7 @@ def drawings(result: Result, **options: Any) -> Drawings:
 
     Of a class that has none of its own they are what it draws at once, if anything.
     """
-    names = [base.__name__ for base in type(result).__mro__]
-    draw_all = find_presenter(names, "figures")
+    draw_all = find_presenter(type(result), "figures")
     figures_by_name = {} if draw_all is figures else draw_all(result, **options)
     return {name: partial(_return_figure, figure) for name, figure in figures_by_name.items()}
 
@@ -127,7 +126,7 @@ def write(
     """
     from holdfast.report import page
 
-    content = content or result._present("story")
+    content = content or call_presenter(result, "story")
     figure_blocks: dict[str, list[page.Block]] = {}
     for name, figure in (result.figures() if drawn is None else drawn).items():
         captions = content.figures.get(name, ("What was found", ""))
@@ -136,7 +135,7 @@ def write(
         title, caption = captions
         description = f"{content.title}: {title.lower()}"
         figure_blocks.setdefault(title, []).append(page.Picture(_render_svg(figure, name, description), caption))
-    tables = result._present("tables") if content.tables is None else content.tables
+    tables = call_presenter(result, "tables") if content.tables is None else content.tables
     return page.write(
         page.Page(
             content.title,
@@ -189,7 +188,7 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     folder, figures_by_name = make_folder(folder), result.figures()
     pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in figures_by_name.items()]
     report_file = folder / "report.html"
-    uses_default_page = find_presenter([base.__name__ for base in type(result).__mro__], "write") is write
+    uses_default_page = find_presenter(type(result), "write") is write
     return [
         *pictures,
         write(result, report_file, command, figures_by_name)
@@ -202,9 +201,9 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
     """Draw one figure of the result, the first if none is named; a notebook shows it with or without pyplot."""
     from holdfast.present.notebook import show_once
 
-    draw_functions = result._present("drawings", **options) if name or options else result._present("main_figure")
+    draw_functions = call_presenter(result, "drawings", **options) if name or options else call_presenter(result, "main_figure")
     if not draw_functions:
-        suggestions = " or ".join(step.partition("  #")[0] for step in result._present("next_steps", "result"))
+        suggestions = " or ".join(step.partition("  #")[0] for step in call_presenter(result, "next_steps", "result"))
         raise InputError(f"{type(result).__name__} has no figure; ask {suggestions} instead")
     if name and name not in draw_functions:
         raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(draw_functions)}")
@@ -215,7 +214,7 @@ def main_figure(result: Result) -> Drawings:
     """Return the first figure with its name; nothing where there is none. A presenter with a faster figure overrides this
     function.
     """
-    return dict(list(result._present("drawings").items())[:1])
+    return dict(list(call_presenter(result, "drawings").items())[:1])
 
 
 def sentences(thing: Any) -> list[str]:
@@ -226,7 +225,7 @@ def sentences(thing: Any) -> list[str]:
 
 def key_table(result: Result) -> TextTable:
     """Return the first table, or the scalar entries of ``to_dict`` if there is none."""
-    for table in result._present("tables"):
+    for table in call_presenter(result, "tables"):
         return table  # type: ignore[no-any-return]
     rows = [
         [key.replace("_", " "), str(value)] for key, value in result.to_dict().items() if isinstance(value, (str, int, float))
@@ -244,7 +243,7 @@ def picture(thing: Presentable, about: str) -> str:
     """Return the main figure of a result as HTML, if it has one."""
     from holdfast.present.notebook import embed_figure
 
-    draw_functions = thing._present("main_figure") if isinstance(thing, Result) else {}
+    draw_functions = call_presenter(thing, "main_figure") if isinstance(thing, Result) else {}
     return "".join(embed_figure(draw_figure(), f"{name}: {about}") for name, draw_figure in draw_functions.items())
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from holdfast.certificates.claims import TolerantClaim
 
-Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
+Limits = ArrayLike | Mapping[str | int, ArrayLike] | Mapping[int, ArrayLike]
 
 DEFAULT_POINTS = 1000
 DEFAULT_ANGLES = 24

@@ -1,5 +1,5 @@
-from holdfast.report.curves import KINDS as KINDS
-from holdfast.report.figures import WIDTH as WIDTH
+from holdfast.report.curves import KIND_STYLES as KIND_STYLES
+from holdfast.report.figures import WIDTH_IN as WIDTH_IN
 from holdfast.report.figures import Bin as Bin
 from holdfast.report.figures import Curve as Curve
 from holdfast.report.figures import Mark as Mark

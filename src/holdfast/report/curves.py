@@ -15,11 +15,11 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.report.figures import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.typing import FloatArray
 
 # Colour, line width, line style and marker of each kind; sinks stand out.
-KINDS: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
+KIND_STYLES: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
     "solution": (GREEN, 1.6, "-", "o"),
     "sink": (ORANGE, 3.0, "-", "v"),
     "saddle": (BLUE, 1.3, "-", "X"),
@@ -69,13 +69,13 @@ def stationary_curves_figure(
         caption: One line below.
     """
     with style():
-        figure = Figure(figsize=(WIDTH, 0.9 + 2.5 * len(ylabels)))
+        figure = Figure(figsize=(WIDTH_IN, 0.9 + 2.5 * len(ylabels)))
         panels = np.atleast_1d(figure.subplots(len(ylabels), 1, sharex=True))
         for panel, (axes, ylabel) in enumerate(zip(panels, ylabels, strict=True)):
             for lower, upper in reachable_intervals:
                 axes.axvspan(lower, upper, color=_REACHABLE_COLOR, linewidth=0, zorder=0)
             for curve in curves:
-                color, width, dashes, _ = KINDS[curve.kind]
+                color, width, dashes, _ = KIND_STYLES[curve.kind]
                 axes.plot(
                     *_break_at_jumps(curve.locked_values, curve.panel_values[panel]),
                     color=color,
@@ -83,7 +83,7 @@ def stationary_curves_figure(
                     linestyle=dashes,
                 )
             for point in isolated_points:
-                color, _, _, marker = KINDS[point.kind]
+                color, _, _, marker = KIND_STYLES[point.kind]
                 axes.plot(
                     point.locked_values,
                     point.panel_values[panel],
@@ -100,9 +100,11 @@ def stationary_curves_figure(
         panels[-1].set_xlabel(xlabel)
         if xlabel.endswith("deg"):
             panels[-1].xaxis.set_major_locator(MultipleLocator(30))
-        present_kinds = [kind for kind in KINDS if any(element.kind == kind for element in (*curves, *isolated_points))]
+        present_kinds = [kind for kind in KIND_STYLES if any(element.kind == kind for element in (*curves, *isolated_points))]
         handles: list[Line2D | Patch] = [
-            Line2D([], [], color=KINDS[kind][0], linewidth=KINDS[kind][1], linestyle=KINDS[kind][2], label=kind)
+            Line2D(
+                [], [], color=KIND_STYLES[kind][0], linewidth=KIND_STYLES[kind][1], linestyle=KIND_STYLES[kind][2], label=kind
+            )
             for kind in present_kinds
         ]
         if reachable_intervals:
@@ -142,7 +144,7 @@ def basin_map_figure(
         for boundary in lines:
             axes.plot(*_break_at_jumps(*boundary, extent[1] - extent[0]), color=INK, linewidth=0.9)
         for kind, x, y, name in points:
-            color, _, _, marker = KINDS[kind]
+            color, _, _, marker = KIND_STYLES[kind]
             axes.plot([x], [y], marker, color=color, markersize=8, markeredgecolor="white", markeredgewidth=1.0)
             if name in names:
                 axes.annotate(format_label(name), (x, y), (7, 6), textcoords="offset points", fontsize=9, color=INK)
@@ -153,7 +155,9 @@ def basin_map_figure(
         ]
         unnamed = sorted({kind for kind, _, _, name in points if name not in names})
         handles += [
-            Line2D([], [], marker=KINDS[point_kind][3], color=KINDS[point_kind][0], linestyle="none", label=point_kind)
+            Line2D(
+                [], [], marker=KIND_STYLES[point_kind][3], color=KIND_STYLES[point_kind][0], linestyle="none", label=point_kind
+            )
             for point_kind in unnamed
         ]
         if lines:
@@ -169,7 +173,7 @@ def basin_map_figure(
 def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float, float, float]], caption: str) -> Figure:
     """Plot fractions of initial configurations, each ``(value, low, high)``, as bars with their confidence intervals."""
     with style():
-        figure = Figure(figsize=(WIDTH * 0.8, 1.2 + 0.32 * len(names)))
+        figure = Figure(figsize=(WIDTH_IN * 0.8, 1.2 + 0.32 * len(names)))
         axes: Axes = figure.add_subplot()
         positions = np.arange(len(names))
         percentages, lower, upper = (100 * np.array(column) for column in zip(*fractions, strict=True))

@@ -45,7 +45,7 @@ from holdfast.words import format_percent, on_one_line
 # Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
 CURVE_COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
 _CURVE_DASHES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))
-WIDTH = 10.0  # inches: 960 px in a page
+WIDTH_IN = 10.0  # inches: 960 px in a page
 
 _FIGURE_STYLE: dict[str, Any] = {
     "font.family": "sans-serif",
@@ -278,7 +278,7 @@ def distribution_figure(
 ) -> Figure:
     """Plot a histogram on the left and cumulative distributions on the right, over the same axis."""
     with style():
-        figure = Figure(figsize=(WIDTH, 3.9))
+        figure = Figure(figsize=(WIDTH_IN, 3.9))
         histogram_axes, cdf_axes = figure.subplots(1, 2)
         draw_histogram(histogram_axes, bins, marks, xlabel, log)
         draw_cdf(cdf_axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
@@ -303,7 +303,7 @@ def compare_cdf_figure(
     labels = list(dict.fromkeys(curve.label for _, curves in panels for curve in curves))
     with style():
         legend_rows = -(-(len(labels) + len(marks)) // 3)
-        figure = Figure(figsize=(WIDTH if len(panels) > 1 else 0.75 * WIDTH, 3.9 + 0.2 * legend_rows))
+        figure = Figure(figsize=(WIDTH_IN if len(panels) > 1 else 0.75 * WIDTH_IN, 3.9 + 0.2 * legend_rows))
         all_axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for axes, (title, curves) in zip(all_axes, panels, strict=True):
             for curve in curves:
@@ -349,7 +349,7 @@ def bar_figure(
     max_count = max(counts, default=0) or 1
     stressed_count = max_count if stress == "most" else min(counts)
     with style():
-        figure = Figure(figsize=(WIDTH * 0.8, 0.75 + 0.27 * len(names)))
+        figure = Figure(figsize=(WIDTH_IN * 0.8, 0.75 + 0.27 * len(names)))
         axes = figure.add_subplot()
         positions = np.arange(len(names))
         axes.barh(positions, counts, height=0.64, color=[BLUE if bar_count == stressed_count else SKY for bar_count in counts])

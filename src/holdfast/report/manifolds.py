@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.report.views import View
 from holdfast.typing import BoolArray, FloatArray
 
@@ -52,7 +52,7 @@ def self_motion_figure(
     """
     with style():
         height = max(0.86 * len(joints) + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
-        figure = Figure(figsize=(WIDTH, height))
+        figure = Figure(figsize=(WIDTH_IN, height))
         joint_figure, arm_figure = np.asarray(figure.subfigures(1, 2, width_ratios=(1.25, 1.0)))
         joint_axes = np.atleast_1d(joint_figure.subplots(len(joints), 1, sharex=True))
         total_length = sum(float(lengths[-1]) for lengths, _ in curves) or 1.0
@@ -152,7 +152,7 @@ def region_figure(
         caption: One line.
     """
     with style():
-        figure = Figure(figsize=(WIDTH, 4.6))
+        figure = Figure(figsize=(WIDTH_IN, 4.6))
         panels = figure.subplots(1, len(maps) + 1, width_ratios=[1.0] * len(maps) + [0.9 if len(maps) > 1 else 1.1])
         for axes, region_map in zip(panels, maps, strict=False):
             _draw_map(axes, region_map)

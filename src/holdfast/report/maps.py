@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, WIDTH, settle_layout, style
+from holdfast.report.figures import INK, WIDTH_IN, settle_layout, style
 from holdfast.report.scenes import Scale, label_color_bar
 from holdfast.report.views import View
 from holdfast.typing import FloatArray
@@ -54,7 +54,7 @@ def map_figure(
             float(view_height / view_width) for view_width, view_height in (view.project(upper - lower) for view in views)
         )
         height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, height * len(samples)))
+        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else 6.2, height * len(samples)))
         panels = figure.subplots(len(samples), len(views), squeeze=False)
         for name, axes_row, grid_row in zip(samples, panels, grids, strict=True):
             for axes, view, (x_edges, y_edges, mean, value_counts, point_counts) in zip(axes_row, views, grid_row, strict=True):
@@ -97,7 +97,7 @@ def share_figure(
     with style():
         view_width, view_height = view.project(upper - lower)
         aspect = float(view_height / view_width)
-        figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8))
+        figure = Figure(figsize=(WIDTH_IN, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8))
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for panel_axes, (title, has_property) in zip(axes, panels, strict=True):
             x_edges, y_edges, fractions, point_counts, _ = _average_cells(

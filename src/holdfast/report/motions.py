@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.report.views import View
 from holdfast.typing import FloatArray
 
@@ -60,7 +60,7 @@ class TimePanel:
 def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s") -> Figure:
     """Plot panels side by side over time, with one line of text below that states the computed quantity."""
     with style():
-        figure = Figure(figsize=(WIDTH * len(panels) / 2.4, 3.7))
+        figure = Figure(figsize=(WIDTH_IN * len(panels) / 2.4, 3.7))
         for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
             draw_panel(axes, panel, xlabel)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
@@ -97,7 +97,7 @@ def stick_motion_figure(
     The path of the motion, dashed, is what the tool was ``path_label`` to do.
     """
     with style():
-        figure = Figure(figsize=(WIDTH * (1.0 if len(views) == 1 else 1.4), 4.4))
+        figure = Figure(figsize=(WIDTH_IN * (1.0 if len(views) == 1 else 1.4), 4.4))
         *view_axes, panel_axes = figure.subplots(1, len(views) + 1)
         for axes, view in zip(view_axes, views, strict=True):
             _draw_stick_figure(axes, motion, view, path_label)

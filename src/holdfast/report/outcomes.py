@@ -21,7 +21,7 @@ from holdfast.report.figures import (
     PURPLE,
     SKY,
     SOFT,
-    WIDTH,
+    WIDTH_IN,
     format_label,
     settle_layout,
     style,
@@ -67,7 +67,7 @@ def stack_figure(
     """
     bar_count = sum(len(stack.bars) for stack in stacks)
     with style():
-        figure = Figure(figsize=(WIDTH, 1.2 + 0.215 * bar_count + 0.12 * len(stacks)))
+        figure = Figure(figsize=(WIDTH_IN, 1.2 + 0.215 * bar_count + 0.12 * len(stacks)))
         axes = figure.add_subplot()
         next_position, ticks, labels, middles = 0.0, [], [], []
         for stack in stacks:
@@ -133,7 +133,7 @@ class Spread:
 def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
     """Plot quantiles side by side: a thin line from 5 to 95 %, a thick one from 25 to 75 %, a dot at the median."""
     with style():
-        figure = Figure(figsize=(WIDTH, 1.25 + 0.3 * len(names)))
+        figure = Figure(figsize=(WIDTH_IN, 1.25 + 0.3 * len(names)))
         all_axes = figure.subplots(1, len(spreads), squeeze=False, sharey=True)[0]
         for axes, spread in zip(all_axes, spreads, strict=True):
             _draw_spread(axes, spread)
@@ -177,7 +177,7 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
     """Plot differences as dots with their intervals, one panel per quantity, whose name and unit are under the axis."""
     max_gains = max(len(gains) for _, gains in panels)
     with style():
-        figure = Figure(figsize=(WIDTH, 1.3 + (0.16 + 0.19 * max_gains) * len(cases)))
+        figure = Figure(figsize=(WIDTH_IN, 1.3 + (0.16 + 0.19 * max_gains) * len(cases)))
         all_axes = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
         for axes, (label, gains) in zip(all_axes, panels, strict=True):
             axes.axvline(0, color=SOFT, linewidth=1.0)
@@ -192,7 +192,7 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
 def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: str) -> Figure:
     """Plot fractions over several cases, from 0 to 1: dots with their intervals, one colour and marker per method."""
     with style():
-        figure = Figure(figsize=(WIDTH, 1.1 + (0.16 + 0.1 * len(fractions)) * len(cases)))
+        figure = Figure(figsize=(WIDTH_IN, 1.1 + (0.16 + 0.1 * len(fractions)) * len(cases)))
         axes = figure.add_subplot()
         for row in range(1, len(cases), 2):
             axes.axhspan(row - 0.5, row + 0.5, color=FAINT, alpha=0.25, linewidth=0)

@@ -22,7 +22,7 @@ from holdfast.report.viewer import embed_viewer_library, read_template, to_scrip
 from holdfast.words import join_units
 
 Cell = str | Markup
-FOOTER = "Written by holdfast. This file needs no network and no other file."
+FOOTER_TEXT = "Written by holdfast. This file needs no network and no other file."
 _BREAKABLE_LETTERS = 15  # letters of a cell that is broken where need be
 _UNBROKEN_TABLE_ROWS = 16  # rows of a table that is kept on one sheet of paper
 
@@ -172,7 +172,7 @@ class Page:
     facts: Sequence[tuple[Cell, Cell]] = ()
     method: Sequence[Block] = ()
     again: str | Sequence[Block] = ()
-    footer: Cell = FOOTER
+    footer: Cell = FOOTER_TEXT
 
     @property
     def parts(self) -> list[tuple[str, Section]]:

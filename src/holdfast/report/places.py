@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import EMPTY_COLOR, INK, ORANGE, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.report.figures import EMPTY_COLOR, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.report.scenes import Scale, label_color_bar
 from holdfast.typing import FloatArray
 
@@ -53,7 +53,7 @@ def place_maps(
     scale = Scale(0.0, most)
     with style():
         column_count, row_count = len(columns), len(rows)
-        panel_edge = min(2.5, max(1.7, WIDTH / column_count))
+        panel_edge = min(2.5, max(1.7, WIDTH_IN / column_count))
         figure = Figure(figsize=(panel_edge * column_count + 1.4, (panel_edge + 0.15) * row_count + 0.9))
         panels = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for row, (name, values) in enumerate(rows.items()):

@@ -20,7 +20,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, ORANGE, SOFT, WIDTH, settle_layout, style
+from holdfast.report.figures import INK, ORANGE, SOFT, WIDTH_IN, settle_layout, style
 from holdfast.report.views import View
 from holdfast.typing import FloatArray
 
@@ -254,7 +254,7 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str
     with style():
         panel_width = 4.1 if len(views) > 1 else 5.0
         spans, height = fit_view_spans(scene, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel_width + 2.2, height + 1.5))
+        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else panel_width + 2.2, height + 1.5))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(panels, views, strict=True):
             draw_view(axes, scene, view, scale, choose_dot_area(scene, views, panel_width / spans[0]), spans, panel_width)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +27,7 @@ from holdfast.typing import FloatArray
 Method = Literal["adaptive", "rk4"]
 
 
+@runtime_checkable
 class LockSchedule(Protocol):
     """Faults that state when joints lock."""
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from holdfast.present.stick_figure import choose_views
-from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, format_label, settle_layout, style, svg
+from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH_IN, format_label, settle_layout, style, svg
 from holdfast.studio.scene.machine import CompiledArm
 from holdfast.studio.state import State
 from holdfast.typing import FloatArray
@@ -40,7 +40,7 @@ def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArra
     chains = machine.arm.frames(np.array([*ghosts, state.q]))[..., :3, 3]
     views = choose_views(machine.arm, chains)
     with style():
-        figure = Figure(figsize=(WIDTH, WIDTH / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH))
+        figure = Figure(figsize=(WIDTH_IN, WIDTH_IN / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH_IN))
         for position, view in enumerate(views, 1):
             axes = figure.add_subplot(1, len(views), position)
             for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):

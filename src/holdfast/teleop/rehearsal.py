@@ -16,7 +16,7 @@ from holdfast.notice import reports_progress, warn_now
 from holdfast.teleop.bank.tasks import drive_tasks
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Subject, SubjectKind, SubjectState, TrialKind
-from holdfast.teleop.records.file import LOCK, RECORDS_FILE
+from holdfast.teleop.records.file import LOCK_FILE, RECORDS_FILE
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import completion_times, find_training_scenario, select_valid_trials, training_tasks
 from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfort, sample_people
@@ -64,7 +64,7 @@ def simulate_experiment(
         raise InputError("there are no simulated operators; give 1 or more")
     records = _open(Path(folder), protocol, operators, seed)
     try:
-        with lock_folder(records.folder, LOCK):
+        with lock_folder(records.folder, LOCK_FILE):
             subjects = _enrol(records, people)
             trained = _train_people(records, subjects, people, training_seed, report_progress)
             ready = [person for person, passed in enumerate(trained) if passed]

@@ -306,8 +306,7 @@ def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
 
 @constructor(needs=("inertia",))
 def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
-    """The angle through which each revolute joint swings with the others fixed until it hangs; English and Maciejewski 1998,
-    eq. (36)-(39).
+    """The angle that each revolute joint swings, the others fixed, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
 
     In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a prismatic joint, for a balanced one and
     where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.

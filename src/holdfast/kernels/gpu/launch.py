@@ -14,7 +14,7 @@ from holdfast.errors import InputError
 from holdfast.kernels.gpu.arrays import BorrowedArray, DeviceArray
 from holdfast.kernels.gpu.driver import LEGACY_STREAM, DeviceMemory, get_device
 from holdfast.kernels.gpu.ptx import make_ptx
-from holdfast.kernels.llvm.translation import NAME
+from holdfast.kernels.llvm.translation import FUNCTION_NAME
 from holdfast.kernels.program import Program
 from holdfast.typing import FloatArray
 
@@ -35,7 +35,7 @@ class DeviceProgram:
 
     def __init__(self, program: Program, ordinal: int) -> None:
         self.program, self.device = program, get_device(ordinal)
-        self._function = self.device.load_function(make_ptx(program, self.device.capability), NAME)
+        self._function = self.device.load_function(make_ptx(program, self.device.capability), FUNCTION_NAME)
 
     def _launch_kernel(
         self, function: Any, addresses: Sequence[tuple[int, ...]], size: int, *, rows: int, stream: int, more_arguments: Any
@@ -102,7 +102,9 @@ class DeviceProgram:
 
     @cached_property
     def _loop_function(self) -> Any:
-        return self.device.load_function(make_ptx(self.program, self.device.capability, state=self.program.n_out - 1), NAME)
+        return self.device.load_function(
+            make_ptx(self.program, self.device.capability, state=self.program.n_out - 1), FUNCTION_NAME
+        )
 
     def run_loop(
         self,

@@ -16,7 +16,7 @@ from typing import Any
 from holdfast.errors import KernelError
 from holdfast.kernels import cache
 from holdfast.kernels.llvm.arithmetic import TargetMachine
-from holdfast.kernels.llvm.translation import NAME, Emitter
+from holdfast.kernels.llvm.translation import FUNCTION_NAME, Emitter
 from holdfast.kernels.program import Program
 
 GPU_ARCHITECTURES = (70, 75, 80, 86, 89, 90)  # sm_70 and so on; the driver translates for later ones
@@ -105,7 +105,7 @@ class DeviceRows(Emitter):
         return "\n".join(
             [
                 *sorted(self.declared),
-                f"define {kind}void @{NAME}({', '.join(parameters)}) nounwind {{",
+                f"define {kind}void @{FUNCTION_NAME}({', '.join(parameters)}) nounwind {{",
                 *["entry:", *thread, "%some = icmp ult i64 %i, %n", "br i1 %some, label %start, label %end"],
                 *["start:", body, "br label %end"],
                 *["end:", "ret void", "}"],

@@ -16,7 +16,7 @@ from typing import Any
 
 from holdfast.errors import KernelError
 from holdfast.kernels.llvm.arithmetic import TargetMachine
-from holdfast.kernels.llvm.translation import NAME, emit
+from holdfast.kernels.llvm.translation import FUNCTION_NAME, emit
 from holdfast.kernels.program import Program
 
 COMPILE_LEVELS = (0, 1)
@@ -102,7 +102,7 @@ class MachineCode:
             self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine(0))
             self._engine.add_object_file(llvm.object_file.ObjectFileRef.from_data(data))
             self._engine.finalize_object()
-            self.address: int = self._engine.get_function_address(NAME)
+            self.address: int = self._engine.get_function_address(FUNCTION_NAME)
         except RuntimeError as error:
             raise KernelError(f"compiled code cannot be loaded: {error}") from error
         # Calls release the interpreter lock.

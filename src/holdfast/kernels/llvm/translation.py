@@ -18,10 +18,10 @@ from holdfast.kernels.llvm.arithmetic import Arithmetic, TargetMachine, emit_sin
 from holdfast.kernels.llvm.functions import EMITTED_FUNCTIONS
 from holdfast.kernels.program import OP_NAMES, Program
 
-NAME = "rows"  # of the function
+FUNCTION_NAME = "rows"  # of the function
 
 # A comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
-_COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
+_COMPARISON_NAMES = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
 
 
 def emit(program: Program, machine: TargetMachine) -> str:
@@ -56,7 +56,7 @@ class Emitter(Arithmetic):
         lanes = self.machine.lanes
         head, body = "\n".join(sorted(self.declared)), "\n".join(self.lines)
         return f"""{head}
-define void @{NAME}(ptr noalias %in, ptr noalias %out, i64 %stride, i64 %n) nounwind {{
+define void @{FUNCTION_NAME}(ptr noalias %in, ptr noalias %out, i64 %stride, i64 %n) nounwind {{
 entry:
 %some = icmp ugt i64 %n, 0
 br i1 %some, label %loop, label %end
@@ -165,8 +165,8 @@ ret void
         return None
 
     def _emit_operation(self, k: int, op: int, a: str, b: str) -> str:
-        if op in _COMPARISONS:
-            return self.mask_to_number(self.compare(_COMPARISONS[op], a, b))
+        if op in _COMPARISON_NAMES:
+            return self.mask_to_number(self.compare(_COMPARISON_NAMES[op], a, b))
         if op in EMITTED_FUNCTIONS:
             return EMITTED_FUNCTIONS[op](self, a, b)
         if op in (ca.OP_SIN, ca.OP_COS, ca.OP_TAN):
@@ -240,7 +240,7 @@ _EMITTERS_BY_OPERATION: dict[int, Callable[[Emitter, str, str], str]] = {
 SUPPORTED_OPERATIONS = frozenset(
     {ca.OP_CONST, ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_SQ, ca.OP_SIN, ca.OP_COS, ca.OP_TAN}
     | EMITTED_FUNCTIONS.keys()
-    | _COMPARISONS.keys()
+    | _COMPARISON_NAMES.keys()
     | _EMITTERS_BY_OPERATION.keys()
 )
 

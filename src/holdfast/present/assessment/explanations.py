@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from holdfast.indices.index import Index
 
-_LOST = "0 means that some direction of the task is lost"
+_ZERO_EXPLANATION = "0 means that some direction of the task is lost"
 _INDEX_EXPLANATIONS = {
-    "relative-manipulability": f"fraction of the manipulability that is left after the worst failure; 1 means no loss, {_LOST}",
-    "manipulability": f"volume of tool velocities at joint rates of norm 1 after the worst failure; {_LOST}",
-    "ceiling-fraction": f"1 means as much as the best known arm of this size keeps after the worst failure, {_LOST}",
+    "relative-manipulability": f"fraction of the manipulability that is left after the worst failure; 1 means no loss, "
+    f"{_ZERO_EXPLANATION}",
+    "manipulability": f"volume of tool velocities at joint rates of norm 1 after the worst failure; {_ZERO_EXPLANATION}",
+    "ceiling-fraction": f"1 means as much as the best known arm of this size keeps after the worst failure, "
+    f"{_ZERO_EXPLANATION}",
     "mean-singular-value": "mean tool speed over the directions of the task at joint rates of norm 1 after the worst failure",
     "geometric-mean-singular-value": "geometric mean of the tool speeds over the directions of the task at joint rates "
-    f"of norm 1 after the worst failure; {_LOST}",
-    "minimum-singular-value": f"tool speed in the slowest direction at joint rates of norm 1 after the worst failure; {_LOST}",
+    f"of norm 1 after the worst failure; {_ZERO_EXPLANATION}",
+    "minimum-singular-value": f"tool speed in the slowest direction at joint rates of norm 1 after the worst failure; "
+    f"{_ZERO_EXPLANATION}",
     "condition-number": "tool speed in the fastest direction over that in the slowest one after the worst failure; 1 is best, "
     "and infinite means that some direction of the task is lost",
     "directional-velocity": "largest tool speed in that direction at joint rates of norm 1 after the worst failure; 0 means "

@@ -175,14 +175,14 @@ def _draw_witness(proof: Found) -> Figure:
     """Draw the position of each joint within its range."""
     from matplotlib.figure import Figure
 
-    from holdfast.report.figures import FAINT, ORANGE, WIDTH, format_label, settle_layout, style
+    from holdfast.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
 
     arm, q = proof.claim.arm, _marked_configuration(proof)
     spans = joint_ranges(proof.claim) if isinstance(proof, Refutation) else proof.claim.joint_box
     assert q is not None
     scale = _display_factors(~arm.prismatic)
     with style():
-        figure = Figure(figsize=(WIDTH, 0.9 + 0.3 * arm.n), layout="constrained")
+        figure = Figure(figsize=(WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
         axes = figure.subplots()
         rows = np.arange(arm.n)
         axes.hlines(rows, *(spans * scale[:, None]).T, color=FAINT, linewidth=7)
@@ -196,13 +196,13 @@ def _draw_value_scale(proof: ManipulabilityBound) -> Figure:
     """Draw a line of values: those that occur, the extreme, and those that are proved not to occur."""
     from matplotlib.figure import Figure
 
-    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, settle_layout, style
+    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
 
     claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
     bound, value = claim.threshold, proof.value
     axis_end = min(claim.most, 1.6 * max(bound, value))
     with style():
-        figure = Figure(figsize=(WIDTH, 1.9), layout="constrained")
+        figure = Figure(figsize=(WIDTH_IN, 1.9), layout="constrained")
         axes = figure.subplots()
         excluded_range = (bound, axis_end) if is_upper_bound else (0.0, bound)
         if proof.refuted:
@@ -232,10 +232,10 @@ def _draw_boxes(proof: Found, leaves: LeafBoxes) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, settle_layout, style
+    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
 
     with style():
-        figure = Figure(figsize=(WIDTH, 4.2), layout="constrained")
+        figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
         plane, bars = figure.subplots(1, 2)
         _draw_projection(plane, leaves, _marked_configuration(proof))
         counts = [np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided)]

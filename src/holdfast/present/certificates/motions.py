@@ -145,14 +145,14 @@ def figures(proof: PathProof) -> dict[str, Figure]:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH, settle_layout, style
+    from holdfast.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
 
     column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
     row_count = -(-len(proof.parts) // column_count)
     with style():
         figure = Figure(
             figsize=(
-                WIDTH * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS),
+                WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS),
                 2.7 * row_count + 0.7,
             ),
             layout="constrained",

@@ -15,7 +15,7 @@ from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.verifier import format_percent
-from holdfast.present import results
+from holdfast.present import call_presenter, results
 from holdfast.present.printing import TextTable
 from holdfast.present.story import PageContent
 
@@ -42,12 +42,12 @@ def write(
     ``check``: What the verifier says of it, if it was asked; ``file``: where the certificate is; ``ranges``: the working
     ranges, if they were found by samples.
     """
-    content: PageContent = proof._present("story")
+    content: PageContent = call_presenter(proof, "story")
     report = replace(
         content,
         answer=content.answer.replace(UNVERIFIED_NOTE, _describe_verification(proof, check)),
         lines=[*(content.lines if check is None else check.describe()[:1]), *(ranges.describe() if ranges else [])],
-        tables=[tabulate_parts(proof, check), *(content.tables or []), *(ranges._present("tables") if ranges else [])],
+        tables=[tabulate_parts(proof, check), *(content.tables or []), *(call_presenter(ranges, "tables") if ranges else [])],
         method=[*content.method, *_list_check_instructions(proof, check, file)],
     )
     return results.write(proof, path, command, drawn, report)

@@ -60,10 +60,10 @@ def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[in
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH, settle_layout, style
+    from holdfast.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
 
     with style():
-        figure = Figure(figsize=(WIDTH if len(slices) > 1 else WIDTH / 2, 3.9), layout="constrained")
+        figure = Figure(figsize=(WIDTH_IN if len(slices) > 1 else WIDTH_IN / 2, 3.9), layout="constrained")
         for axes, (first_axis, second_axis, fixed_axis) in zip(np.ravel(figure.subplots(1, len(slices))), slices, strict=True):
             _draw_slice(axes, box, cells, (first_axis, second_axis), fixed_axis)
         patches = [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from holdfast.control.trade_offs import TradeOff
-from holdfast.report.figures import BLUE, ORANGE, SKY, WIDTH, format_label, legend_below, settle_layout, style
+from holdfast.report.figures import BLUE, ORANGE, SKY, WIDTH_IN, format_label, legend_below, settle_layout, style
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -21,7 +21,7 @@ def figures(curve: TradeOff, into: Iterable[Axes] | None = None) -> dict[str, Fi
         _draw_panels(curve, *into)
         return {}
     with style():
-        figure = Figure(figsize=(WIDTH, 3.9))
+        figure = Figure(figsize=(WIDTH_IN, 3.9))
         gain, cost = figure.subplots(1, 2)
         _draw_panels(curve, gain, cost)
         legend_below(figure, cost, 4)

@@ -13,7 +13,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.present.stick_figure import choose_views
 from holdfast.regions.region import Region
-from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.report.scenes import Scale, Scene, draw_view, fit_view_spans
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.typing import FloatArray
@@ -40,7 +40,7 @@ def draw_pareto_front(
         bound: What no configuration can exceed, drawn if it is near.
     """
     with style():
-        figure = Figure(figsize=(WIDTH, 4.6))
+        figure = Figure(figsize=(WIDTH_IN, 4.6))
         axes = figure.add_subplot()
         axes.scatter(reach, quantiles, s=14, color=SKY, linewidths=0, rasterized=True)
         front_rows = np.asarray(front, dtype=int)
@@ -100,7 +100,7 @@ def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, 
     extents = np.concatenate([s.extent for s in scenes])
     common_scene = Scene(extents, np.full(len(extents), np.nan), no_points)
     with style():
-        figure = Figure(figsize=(WIDTH, 5.4))
+        figure = Figure(figsize=(WIDTH_IN, 5.4))
         panels: Sequence[Axes] = figure.subplots(1, 2)
         spans, height = fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
@@ -140,7 +140,7 @@ def draw_parameters(
     column_count = 2 if len(names) == 4 else min(3, len(names))
     row_count = -(-len(names) // column_count)
     with style():
-        figure = Figure(figsize=(WIDTH, 2.5 * row_count + 0.5))
+        figure = Figure(figsize=(WIDTH_IN, 2.5 * row_count + 0.5))
         panels = figure.subplots(row_count, column_count, squeeze=False, sharey=True)
         for index, axes in enumerate(panels.flat):
             if index >= len(names):

@@ -22,7 +22,7 @@ def figures(diagnosis: Diagnosis) -> dict[str, Figure]:
     names, verdict = [name for name in _PANEL_TITLES if name in diagnosis.signals.levels], diagnosis.verdict
     joints = diagnosis.arm.joint_names
     with style.style():
-        figure = Figure(figsize=(1.25 * style.WIDTH, 0.6 + 1.9 * len(names)))
+        figure = Figure(figsize=(1.25 * style.WIDTH_IN, 0.6 + 1.9 * len(names)))
         panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
         for name, axes in zip(names, panels, strict=True):
             values = getattr(diagnosis.scaled, name).reshape(len(diagnosis.log.t), -1)

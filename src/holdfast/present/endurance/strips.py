@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from holdfast.report.figures import INK, SOFT, WIDTH, format_label, legend_below, settle_layout, style
+from holdfast.report.figures import INK, SOFT, WIDTH_IN, format_label, legend_below, settle_layout, style
 from holdfast.report.palette import EMPTY_COLOR
 from holdfast.report.scenes import Scale, label_color_bar
 from holdfast.report.timelines import LINE_COLORS
@@ -53,7 +53,7 @@ def draw_strips(
     column_count = min(4, len(panels))
     row_count = -(-len(panels) // column_count)
     with style():
-        figure = Figure(figsize=(WIDTH, 2.2 * row_count + 1.1))
+        figure = Figure(figsize=(WIDTH_IN, 2.2 * row_count + 1.1))
         axes = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for panel_axes in axes.ravel()[len(panels) :]:
             panel_axes.set_visible(False)
@@ -97,7 +97,7 @@ def draw_lines(
     smooth curves.
     """
     with style():
-        figure = Figure(figsize=(WIDTH, 3.6))
+        figure = Figure(figsize=(WIDTH_IN, 3.6))
         axes = figure.subplots()
         for index, (name, values) in enumerate(lines):
             line_width, layer = (1.2, 2.0) if index or not percents else (2.2, 2.5)

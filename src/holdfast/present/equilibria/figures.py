@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.equilibria.attraction import Basins
-from holdfast.equilibria.curves import Curve, Curves
+from holdfast.equilibria.curves import Curves, EquilibriumCurve
 from holdfast.equilibria.points import StationaryPoints
 from holdfast.equilibria.system import wrap_angles
 from holdfast.report.curves import StationaryCurve, basin_fraction_figure, basin_map_figure, stationary_curves_figure
@@ -35,7 +35,7 @@ def draw_curves(curves: Curves) -> Figure:
         *(_axis_label(arm, index) for index in other_joints),
     ]
 
-    def plot_rows(stationary: Curve | StationaryPoints, selected: slice | NDArray[np.bool_]) -> list[FloatArray]:
+    def plot_rows(stationary: EquilibriumCurve | StationaryPoints, selected: slice | NDArray[np.bool_]) -> list[FloatArray]:
         errors = display_errors(curves.law, stationary.q[selected], stationary.error[selected], curves.target)
         return [*errors, *(_display_values(arm, stationary.q[selected], index) for index in other_joints)]
 

@@ -45,7 +45,7 @@ def figures(run: PhysicalRun) -> dict[str, Figure]:
     extent = np.ptp(np.vstack([run.x, kinematic_path.x]), axis=0)
     first_axis, second_axis = sorted(np.argsort(extent)[-2:])
     with style.style():
-        figure = Figure(figsize=((1.6 if run.law.task.angular else 1.25) * style.WIDTH, 4.1))
+        figure = Figure(figsize=((1.6 if run.law.task.angular else 1.25) * style.WIDTH_IN, 4.1))
         angular = run.law.task.angular
         path_axes, error_axes, *angle_axes, servo_axes = figure.subplots(1, 4 if angular else 3)
         path_axes.plot(

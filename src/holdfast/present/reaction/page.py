@@ -24,7 +24,7 @@ def figures(run: FaultRun) -> dict[str, Figure]:
     time, faulty_joints = run.time[samples], {event.joint for event in run.events}
     unit = "rad or m" if run.arm.prismatic.any() else "rad"
     with style.style():
-        figure = Figure(figsize=(1.25 * style.WIDTH, 6.2))
+        figure = Figure(figsize=(1.25 * style.WIDTH_IN, 6.2))
         distance_axes, error_axes, joint_axes = figure.subplots(3, 1, sharex=True)
         distance_axes.plot(time, 1e3 * run.position_error[samples], color=style.BLUE)
         distance_axes.set(ylabel="mm", title="Tool to its target", ylim=(0, None))

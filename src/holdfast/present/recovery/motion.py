@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.files.output import write_files
-from holdfast.present import results
+from holdfast.present import call_presenter, results
 from holdfast.present.recovery.console import resample_path
 from holdfast.report.figures import (
     BLUE,
@@ -20,7 +20,7 @@ from holdfast.report.figures import (
     ORANGE,
     SKY,
     SOFT,
-    WIDTH,
+    WIDTH_IN,
     format_label,
     legend_below,
     save_png,
@@ -44,7 +44,7 @@ def drawings(recovery: Recovery) -> Drawings:
     """Draw the moving arm from the side and from above, its timing, and maps of the remaining workspace, as far as
     requested.
     """
-    remainder: Drawings = {} if recovery.left is None else recovery.left._present("drawings")
+    remainder: Drawings = {} if recovery.left is None else call_presenter(recovery.left, "drawings")
     timing: Drawings = {} if recovery.timed is None else {"timing": partial(_draw_timing, recovery)}
     return {"motion": partial(_draw_motion, recovery), **timing, **remainder}
 
@@ -95,7 +95,7 @@ def _draw_motion(recovery: Recovery) -> Figure:
     with style():
         panel_width = 4.1 if len(views) > 1 else 5.0
         spans, height = fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel_width + 2.6, height + 1.7))
+        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         center = extent_scene.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
@@ -136,7 +136,7 @@ def _draw_timing(recovery: Recovery) -> Figure:
     moving_joints = np.flatnonzero(np.abs(timed_motion.qd).max(axis=0) > 0)
     speed_limits = np.where(np.isfinite(recovery.degraded.v), recovery.degraded.v, np.abs(timed_motion.qd).max(axis=0))
     with style():
-        figure = Figure(figsize=(WIDTH, 4.6))
+        figure = Figure(figsize=(WIDTH_IN, 4.6))
         panels = figure.subplots(2, 1, sharex=True)
         for axes, values, limits, label in (
             (panels[0], timed_motion.qd, speed_limits, "rate / limit"),

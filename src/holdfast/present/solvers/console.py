@@ -247,7 +247,7 @@ def next_steps(optima: Optima, name: str) -> list[str]:
     if isinstance(optima.objective, (Index, Susceptibility)):
         steps = [f"{name}.objective.by_joint({name}.q)  # whichever joint fails"]
     if optima.q.ndim == 1 and optima.success:
-        steps.append(f'{name}.arm.show([{name}.before, {name}.q], labels=["before", "best"])')
+        steps.append(f'{name}.arm.show([{name}.q_before, {name}.q], labels=["before", "best"])')
     return steps
 
 

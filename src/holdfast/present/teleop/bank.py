@@ -80,12 +80,12 @@ def bank_figure(
     """
     from matplotlib.figure import Figure
 
-    from holdfast.report.figures import WIDTH, legend_below, settle_layout, style
+    from holdfast.report.figures import WIDTH_IN, legend_below, settle_layout, style
 
     chosen_tasks = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
     special_tasks = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
     with style():
-        figure = Figure(figsize=(WIDTH, 6.2))
+        figure = Figure(figsize=(WIDTH_IN, 6.2))
         axes = figure.add_subplot()
         _draw_bank(axes, bank, cells)
         _label_tasks(axes, bank, chosen_tasks, 1, special=False)

@@ -14,10 +14,10 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, format_label, legend_below, settle_layout, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH_IN, format_label, legend_below, settle_layout, style
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.result import Analysis
-from holdfast.teleop.trials.performance import MEASURES
+from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES
 from holdfast.typing import FloatArray
 
 SERIES_COLORS = (BLUE, ORANGE, "#007a5e", "#a8497f", "#c58a00", "#4aa3d6")
@@ -43,7 +43,7 @@ class Scatter:
 def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
     """Draw one dot for each task, coloured by its group (Fig. 3)."""
     with style():
-        figure = Figure(figsize=(WIDTH * len(panels) / 3 if len(panels) < 3 else WIDTH, 3.9))
+        figure = Figure(figsize=(WIDTH_IN * len(panels) / 3 if len(panels) < 3 else WIDTH_IN, 3.9))
         for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
             for group, name in enumerate(names):
                 in_group = panel.groups == group
@@ -73,7 +73,7 @@ def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
     kinds = [("median_operator", titles[0])] + ([] if analysis.computer is None else [("computer", titles[1])])
     scenarios = [condition.scenario for condition in analysis.conditions]
     with style():
-        figure = Figure(figsize=(WIDTH, 3.5 * len(kinds)))
+        figure = Figure(figsize=(WIDTH_IN, 3.5 * len(kinds)))
         for axes, (kind, title) in zip(figure.subplots(len(kinds), 1, squeeze=False)[:, 0], kinds, strict=True):
             values = np.column_stack([table[f"{kind}_cpm_{scenario}"].to_numpy(dtype=np.float64) for scenario in scenarios])
             order = np.argsort(np.where(np.isnan(values[:, 0]), np.inf, values[:, 0]), kind="stable")
@@ -116,7 +116,7 @@ def draw_cell_means(analysis: Analysis) -> Figure:
 
     values, names = analysis.cells.values, analysis.cells.groups
     with style():
-        figure = Figure(figsize=(0.72 * WIDTH, 3.9))
+        figure = Figure(figsize=(0.72 * WIDTH_IN, 3.9))
         axes = figure.add_subplot()
         positions = np.arange(len(names))
         for series, law in enumerate(analysis.cells.laws):
@@ -177,7 +177,7 @@ def measures_figure(
         row_count = -(-len(values) // columns)
         height = 2.2 * row_count + 0.9
         # Many panels: placed by hand, the automatic layout would take most of the time.
-        figure = Figure(figsize=(WIDTH, height))
+        figure = Figure(figsize=(WIDTH_IN, height))
         figure.set_layout_engine("none")
         layout = {"left": 0.05, "right": 0.995, "top": 1 - 0.4 / height, "bottom": 0.8 / height, "wspace": 0.34, "hspace": 0.46}
         panels = figure.subplots(row_count, columns, squeeze=False, gridspec_kw=layout).ravel()
@@ -200,7 +200,7 @@ def measures_figure(
 
 def label_measure(measure: int) -> tuple[str, float]:
     """Return the name of a measure, from 0, with its display unit, and the factor that converts its values."""
-    definition = MEASURES[measure]
+    definition = PERFORMANCE_MEASURES[measure]
     if definition.name == "M12":
         return "M12 rating", 1.0
     if "direction" in definition.about:
@@ -278,7 +278,7 @@ def draw_power(analysis: Analysis) -> Figure:
     table = analysis.table("power_curve")
     effects = list(dict.fromkeys(table["effect"]))
     with style():
-        figure = Figure(figsize=(WIDTH, 3.3))
+        figure = Figure(figsize=(WIDTH_IN, 3.3))
         for axes, effect in zip(figure.subplots(1, len(effects), sharey=True), effects, strict=True):
             effect_rows = table[table["effect"] == effect]
             subject_counts = effect_rows["subjects"].to_numpy(dtype=np.float64)

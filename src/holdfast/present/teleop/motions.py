@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 
 from holdfast.arm.model import Arm
-from holdfast.report.figures import FAINT, INK, ORANGE, SOFT, WIDTH, format_label, settle_layout, style
+from holdfast.report.figures import FAINT, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.typing import FloatArray
 
 _TIME_COLORMAP = LinearSegmentedColormap.from_list("time", ["#b9d6ee", "#0a5c9e", "#04233f"])
@@ -83,8 +83,8 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
     with style():
         columns = min(4, len(motions))
         row_count = -(-len(motions) // columns)
-        height = 0.45 + row_count * (WIDTH / columns + 0.3)
-        figure = Figure(figsize=(WIDTH, height))
+        height = 0.45 + row_count * (WIDTH_IN / columns + 0.3)
+        figure = Figure(figsize=(WIDTH_IN, height))
         figure.set_layout_engine("none")
         layout = {
             "left": 0.055,

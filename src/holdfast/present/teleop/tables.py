@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from holdfast.files.output import write_files
 from holdfast.files.spreadsheet import write_csv_text
 from holdfast.teleop.analysis.observations import CAUSE_SENTENCES
-from holdfast.teleop.trials.performance import MEASURES
+from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -112,7 +112,7 @@ _COLUMN_MEANINGS = (
         "1",
     ),
     ("fraction_of_subsets", "fraction of random subsets of so many subjects with a significant effect", "1"),
-    *((m.name, m.about, m.unit) for m in MEASURES),
+    *((m.name, m.about, m.unit) for m in PERFORMANCE_MEASURES),
     ("table|column|meaning", "of this list", ""),
     (r"[a-z0-9_]+", "cell mean of the law and group of tasks in its name", "1"),
 )

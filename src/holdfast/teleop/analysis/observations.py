@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES, compute_cpm
+from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES, compute_cpm
 from holdfast.teleop.trials.recordings import End
 from holdfast.typing import FloatArray
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Words = NDArray[Any]
 
-MEASURE_NAMES = tuple(m.name for m in MEASURES)
+MEASURE_NAMES = tuple(m.name for m in PERFORMANCE_MEASURES)
 REQUIRED_COLUMNS = ("subject", "task", "scenario", "law", "failed", "end", *MEASURE_NAMES[:RECORDED_MEASURES])
 END_NAMES = tuple(e.name.lower() for e in End)
 UNRATED_CAUSE = "no rating"

@@ -13,7 +13,7 @@ from holdfast.teleop.analysis.comparisons import compare_pairs, correct_by_holm
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.observations import CAUSE_SENTENCES, MEASURE_NAMES, TrialTable
-from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES
+from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES
 from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
@@ -103,7 +103,9 @@ def compare_measures(observed: TrialTable, conditions: Sequence[int], confidence
                 for scenario in (first_scenario, second_scenario)
             )
             about, unit = (
-                ("combined performance measure", "1") if index == 0 else (MEASURES[index - 1].about, MEASURES[index - 1].unit)
+                ("combined performance measure", "1")
+                if index == 0
+                else (PERFORMANCE_MEASURES[index - 1].about, PERFORMANCE_MEASURES[index - 1].unit)
             )
             comparison_rows.append(
                 {
@@ -256,7 +258,7 @@ def tabulate_measures(observed: TrialTable, computer: TrialTable | None) -> Data
                     "law": condition.law,
                     "failed": int(condition.failed),
                     "measure": name,
-                    "unit": "1" if measure == 0 else MEASURES[measure - 1].unit,
+                    "unit": "1" if measure == 0 else PERFORMANCE_MEASURES[measure - 1].unit,
                     "trials": int(values.size),
                     "mean": float(values.mean()) if values.size else float("nan"),
                     "sd": float(values.std(ddof=1)) if values.size > 1 else float("nan"),
@@ -305,7 +307,7 @@ def tabulate_normalisers(observed: TrialTable, computer: TrialTable | None) -> D
     """Return the normaliser of each measure in the CPM."""
     from pandas import DataFrame
 
-    columns: dict[str, Any] = {"measure": MEASURE_NAMES, "unit": [measure.unit for measure in MEASURES]}
+    columns: dict[str, Any] = {"measure": MEASURE_NAMES, "unit": [measure.unit for measure in PERFORMANCE_MEASURES]}
     for name, source in (("operators", observed), ("computer", computer)):
         if source is not None:
             columns[name] = np.concatenate([source.normalisers, np.full(len(MEASURE_NAMES) - len(source.normalisers), np.nan)])

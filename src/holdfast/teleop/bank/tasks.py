@@ -18,7 +18,7 @@ from holdfast.teleop.trials.driving import ComputerOperator, EndRules, Operator,
 from holdfast.teleop.trials.performance import RECORDED_MEASURES, compute_cpm, compute_measures
 from holdfast.teleop.trials.plant import JoystickPlant, check_joystick_task
 from holdfast.teleop.trials.recordings import End, Trials
-from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks, Scenario
+from holdfast.teleop.trials.scenarios import SCENARIO_NAMES, PointTasks, Scenario
 from holdfast.teleop.trials.stick import Joystick
 from holdfast.typing import FloatArray
 
@@ -125,7 +125,7 @@ def run_tasks(
     tasks: PointTasks,
     operator: Operator | None = None,
     *,
-    scenarios: Sequence[Scenario] = SCENARIOS,
+    scenarios: Sequence[Scenario] = SCENARIO_NAMES,
     stick: Joystick | None = None,
     rules: EndRules | None = None,
     task: str | Task | Sequence[str] = "planar",
@@ -210,7 +210,7 @@ class TaskBank:
     normalisers: FloatArray
 
     @classmethod
-    def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIOS) -> TaskBank:
+    def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIO_NAMES) -> TaskBank:
         """Build the bank from the trials of :func:`run`."""
         shape = (len(scenarios), len(tasks))
         values = compute_measures(trials).reshape(*shape, RECORDED_MEASURES)
@@ -262,7 +262,7 @@ def make_task_bank(
     distance: float = TASK_DISTANCE_M,
     task: str | Task | Sequence[str] = "planar",
     seed: int = 0,
-    scenarios: Sequence[Scenario] = SCENARIOS,
+    scenarios: Sequence[Scenario] = SCENARIO_NAMES,
     stick: Joystick | None = None,
     rules: EndRules | None = None,
 ) -> TaskBank:

@@ -18,9 +18,9 @@ from holdfast.teleop.records.digests import RECORDS_FORMAT, DigestChain
 
 RECORDS_FILE = "records.sqlite"
 PROTOCOL_FILE = "protocol.yaml"
-LOCK = "serve.lock"  # held by who writes the records of a whole folder
-_UNFINISHED = RECORDS_FILE + ".new"  # the file while an experiment is being created
-_JOURNAL = _UNFINISHED + "-journal"  # written by SQLite
+LOCK_FILE = "serve.lock"  # held by who writes the records of a whole folder
+_UNFINISHED_FILE = RECORDS_FILE + ".new"  # the file while an experiment is being created
+_JOURNAL_FILE = _UNFINISHED_FILE + "-journal"  # written by SQLite
 _INITIAL_FORMAT = "1"  # format of a file without digests, which get their tables after the rest
 _KNOWN_FORMATS = (_INITIAL_FORMAT, str(RECORDS_FORMAT))
 
@@ -60,12 +60,12 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
     Raises:
         StoreError: The folder is not empty, or cannot be written.
     """
-    unfinished = folder / _UNFINISHED
+    unfinished = folder / _UNFINISHED_FILE
     try:
         if reading.path_exists(folder) and (not folder.is_dir() or _is_occupied(folder, protocol)):
             raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / _JOURNAL).unlink(missing_ok=True)
+        (folder / _JOURNAL_FILE).unlink(missing_ok=True)
         unfinished.write_bytes(b"")
         stored_protocol = protocols.read_protocol(protocol.write(folder / PROTOCOL_FILE))
         with closing(sqlite3.connect(unfinished, isolation_level=None)) as database:
@@ -90,7 +90,9 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
 def _is_occupied(folder: Path, protocol: Protocol) -> bool:
     """Return whether a folder holds anything but the files of an experiment whose creation was interrupted."""
     names = {file.name for file in folder.iterdir()}
-    return bool(names - {_UNFINISHED, _JOURNAL, PROTOCOL_FILE, protocol.arm_spec}) or bool(names) > (_UNFINISHED in names)
+    return bool(names - {_UNFINISHED_FILE, _JOURNAL_FILE, PROTOCOL_FILE, protocol.arm_spec}) or bool(names) > (
+        _UNFINISHED_FILE in names
+    )
 
 
 def list_protocol_files(protocol: Protocol) -> list[str]:
@@ -203,7 +205,7 @@ def lock_records_folder(folder: Path) -> Iterator[None]:
 
     with ExitStack() as locks:
         try:
-            locks.enter_context(lock_folder(folder, LOCK))
+            locks.enter_context(lock_folder(folder, LOCK_FILE))
         except StoreError as error:
             if not isinstance(error.__cause__, BlockingIOError):
                 raise

@@ -20,7 +20,7 @@ from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import select_valid_trials
 from holdfast.teleop.records.verification import refuse_damage
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules
-from holdfast.teleop.trials.performance import MEASURES, RECORDED_MEASURES, compute_measures
+from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES, compute_measures
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.typing import FloatArray
 
@@ -51,9 +51,9 @@ _TRIAL_COLUMNS = {
     "cycles": ("1", "control cycles from start to end"),
     **{
         m.name: (m.unit, m.about + "; empty where the end effector did not reach the target")
-        for m in MEASURES[:RECORDED_MEASURES]
+        for m in PERFORMANCE_MEASURES[:RECORDED_MEASURES]
     },
-    MEASURES[RECORDED_MEASURES].name: ("1", "step of the rating, from 0; empty where there is none"),
+    PERFORMANCE_MEASURES[RECORDED_MEASURES].name: ("1", "step of the rating, from 0; empty where there is none"),
     "began": ("", "UTC, ISO 8601"),
     "ended": ("", "UTC, ISO 8601; empty for a trial that was broken off"),
 }
@@ -73,7 +73,7 @@ def trial_table(records: Records, kinds: Sequence[TrialKind] = (TrialKind.TRIAL,
 
     Returns:
         A table with the columns that :func:`describe_columns` describes; measures in the units of
-        :data:`holdfast.teleop.MEASURES`.
+        :data:`holdfast.teleop.PERFORMANCE_MEASURES`.
 
     Raises:
         StoreError: The records are damaged: something in them does not match its digest.
@@ -157,7 +157,7 @@ def _build_trial_table(protocol: Protocol, trials: Trials, facts: list[dict[str,
     table["joint"] = [joint_names[protocol.tasks.joint[task_index]] if task_index >= 0 else "" for task_index in task]
     table["end"] = [End(end).name.lower() for end in trials.end]
     table["cycles"] = trials.cycles
-    for measure, values in zip(MEASURES[:RECORDED_MEASURES], compute_measures(trials).T, strict=True):
+    for measure, values in zip(PERFORMANCE_MEASURES[:RECORDED_MEASURES], compute_measures(trials).T, strict=True):
         table[measure.name] = values
     if "M12" not in table:
         table["M12"] = np.nan
@@ -189,7 +189,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
     }
     for index, scenario in enumerate(bank.scenarios):
         columns[f"end_{scenario.number}"] = [End(end).name.lower() for end in bank.end[index]]
-        for measure, values in zip(MEASURES[:RECORDED_MEASURES], bank.measures[index].T, strict=True):
+        for measure, values in zip(PERFORMANCE_MEASURES[:RECORDED_MEASURES], bank.measures[index].T, strict=True):
             columns[f"{measure.name}_{scenario.number}"] = values
         columns[f"cpm_{scenario.number}"] = bank.cpm[index]
     if cells is not None:

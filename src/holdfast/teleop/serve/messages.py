@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError,
 
 from holdfast.errors import InputError
 
-FORMAT = 1
+MESSAGE_FORMAT = 1
 MOST_CYCLES = 256  # in one message
 MOST_BYTES = 128 * 1024  # of one message: the most cycles of an arm with 16 joints fit
 

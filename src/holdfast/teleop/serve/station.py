@@ -63,8 +63,8 @@ def admit_page(records: Records, hello: Hello) -> Admission | Refused | Bye:
 
     A code that is taken may be given again as long as nothing is on record of it: the page never saw the answer to its hello.
     """
-    if hello.format != messages.FORMAT:
-        reason = f"the page speaks format {hello.format} and the server {messages.FORMAT}; reload the page"
+    if hello.format != messages.MESSAGE_FORMAT:
+        reason = f"the page speaks format {hello.format} and the server {messages.MESSAGE_FORMAT}; reload the page"
         return Refused(seq=None, reason=reason, last=0)
     key = hello.session
     if key is None and hello.fresh is not None and records.key_holder(hello.fresh) is not None:

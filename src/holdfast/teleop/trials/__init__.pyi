@@ -8,7 +8,7 @@ from holdfast.teleop.trials.operators import SimulatedPeople as SimulatedPeople
 from holdfast.teleop.trials.operators import rate_comfort as rate_comfort
 from holdfast.teleop.trials.operators import sample_people as sample_people
 from holdfast.teleop.trials.performance import CPM as CPM
-from holdfast.teleop.trials.performance import MEASURES as MEASURES
+from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES as PERFORMANCE_MEASURES
 from holdfast.teleop.trials.performance import Measure as Measure
 from holdfast.teleop.trials.performance import compute_cpm as compute_cpm
 from holdfast.teleop.trials.performance import compute_measures as compute_measures
@@ -16,7 +16,7 @@ from holdfast.teleop.trials.plant import JoystickPlant as JoystickPlant
 from holdfast.teleop.trials.recordings import End as End
 from holdfast.teleop.trials.recordings import RecordedCycles as RecordedCycles
 from holdfast.teleop.trials.recordings import Trials as Trials
-from holdfast.teleop.trials.scenarios import SCENARIOS as SCENARIOS
+from holdfast.teleop.trials.scenarios import SCENARIO_NAMES as SCENARIO_NAMES
 from holdfast.teleop.trials.scenarios import PointTasks as PointTasks
 from holdfast.teleop.trials.scenarios import Scenario as Scenario
 from holdfast.teleop.trials.stick import Joystick as Joystick

@@ -33,7 +33,7 @@ class Measure:
     unit: str
 
 
-MEASURES = (
+PERFORMANCE_MEASURES = (
     Measure("M1", "completion time", "cycle"),
     Measure("M2", "path length", "m"),
     Measure("M3", "peak path deviation", "m"),

@@ -46,7 +46,7 @@ class Scenario:
         return by_name(self.law, arm, task=task, **self.options)
 
 
-SCENARIOS = (
+SCENARIO_NAMES = (
     Scenario(1, "pseudoinverse", failed=False),
     Scenario(2, "failure-tolerant", failed=False, options={"pre_failure_error": 0.5}),
     Scenario(3, "pseudoinverse", failed=True),

@@ -86,7 +86,7 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
     curves = build_gain_curves(facts, best)
     axis_values = curves[0].x
     with figures.style():
-        figure = Figure(figsize=(figures.WIDTH, 3.9))
+        figure = Figure(figsize=(figures.WIDTH_IN, 3.9))
         cdf_axes, pose_axes = figure.subplots(1, 2)
         visible_marks = [mark for mark in facts.marks if mark.x <= axis_values[-1]]
         figures.draw_cdf(
