@@ -16,7 +16,7 @@ from holdfast.present.results import print_result, print_results
 
 
 def command(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Numbers, a row of the read_matrix a line (CSV).")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Numbers, a row of the matrix a line (CSV).")],
     task: Annotated[str, "planar, position or pose."] = "pose",
     null_space: Annotated[bool, "The file is a null space, a row for each joint, not a Jacobian."] = False,
     failures: Annotated[int, "Joints that lock at once."] = 1,

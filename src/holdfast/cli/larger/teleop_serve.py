@@ -10,8 +10,9 @@ import typer
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files import reading
 
-_TLS_INSTRUCTIONS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in
-  front: caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
+_TLS_INSTRUCTIONS = """\
+Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
+  caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
 (start this command with --host 127.0.0.1, --behind-proxy, and a token then; the proxy must hand on the Host
 header, as Caddy does)"""
 

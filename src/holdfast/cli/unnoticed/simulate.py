@@ -57,8 +57,8 @@ def command(
     time_limit: TimeLimitOption = None,
     physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
     servo_bandwidth: Annotated[float, "With --physics: bandwidth of the joint servos, Hz."] = 10.0,
-    faults: Annotated[Path | None, "Faults file (YAML): what fails when is write_outputs from it."] = None,
-    episode: Annotated[int, "With --faults: which episode is write_outputs, from 0."] = 0,
+    faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
+    episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
     monitor: Annotated[
         Path | None,
         "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts, clear of --cell.",
