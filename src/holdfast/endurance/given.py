@@ -61,8 +61,8 @@ def evaluate_motion(
         path: Where the tool is to be, and when.
         rates: How often each joint locks, (n,) or by joint: relative weights. Default: all alike.
         per_second: The rates are in 1/s.
-        mode: ``on-path`` or ``detour``; see :func:`endure`.
-        task: Rows of the poses to keep; by default as of :func:`endure`.
+        mode: ``on-path`` or ``detour``; see :func:`plan_motion`.
+        task: Rows of the poses to keep; by default as of :func:`plan_motion`.
         samples: Times at which locks are tried, evenly spaced; between those of the motion it is interpolated.
         spacing: Of the points on the self-motion curves that detours need, rad.
         seed: Of the search for these.
@@ -70,7 +70,7 @@ def evaluate_motion(
         clearance: Of the arm from itself.
         cell: Objects around the arm, or their file, to keep clear of after the lock.
         margin: m; from an object beyond what the cell keeps from it.
-        keep: What the tool keeps beside the path, before the lock and after it; see :func:`endure`.
+        keep: What the tool keeps beside the path, before the lock and after it; see :func:`plan_motion`.
 
     Raises:
         InputError: A motion that is not on the path or breaks what is kept, rates or options that do not fit.

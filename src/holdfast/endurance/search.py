@@ -95,7 +95,7 @@ def plan_motion(
             with ``best``).
 
     Returns:
-        An :class:`Endurance` with the motion, its survival, the bound and the interval of the grid.
+        A :class:`LockSurvival` with the motion, its survival, the bound and the interval of the grid.
 
     Raises:
         InputError: Rates, a start or options that do not fit, a path that breaks what is kept, or a row kept exactly that the
