@@ -266,7 +266,8 @@ def make_task_bank(
     stick: Joystick | None = None,
     rules: EndRules | None = None,
 ) -> TaskBank:
-    """Sample random tasks and run each under computer control in every scenario; see :func:`sample_tasks` and :func:`run_tasks`.
+    """Sample random tasks and run each under computer control in every scenario; see :func:`sample_tasks` and
+    :func:`run_tasks`.
 
     Source: Goel et al. 2003, section 5.
     """
