@@ -257,7 +257,8 @@ class Records:
 
     def set_last_seq(self, code: str, seq: int, size: int = 0) -> None:
         """Set :meth:`last_seq` and add to the bytes :meth:`received_bytes`, in one transaction with the changes of the
-        message."""
+        message.
+        """
         self._db.execute("UPDATE sessions SET seq = ?, bytes = bytes + ? WHERE subject = ?", (seq, size, code))
         self._chain.update_session(code)
 
