@@ -23,7 +23,7 @@ commands, equations, live = (pytest.importorskip(name) for name in ("commands", 
 
 @pytest.fixture(scope="module")
 def pages():
-    return commands.option_text()
+    return commands.written()
 
 
 def test_every_link_has_a_text():

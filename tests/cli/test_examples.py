@@ -86,9 +86,9 @@ QUICK |= {
     "certify path",
     "certificate check",
     "certificate show",
-    "records list",
-    "records show",
-    "records check",
+    "record-designs list",
+    "record-designs show",
+    "record-designs check",
     "study new",
     "study run",
     "teleop allocation",
@@ -157,8 +157,8 @@ def carry_out(name, cli, monkeypatch, folder):
         print_results(results, as_json)
 
     for place in (module, groups):
-        monkeypatch.setattr(place, "printed", both, raising=False)
-    monkeypatch.setattr(module, "printed_each", both_each, raising=False)
+        monkeypatch.setattr(place, "print_result", both, raising=False)
+    monkeypatch.setattr(module, "print_results", both_each, raising=False)
     code, out, err = cli(*words, "--json")
     assert code == 0, err
     ((result, asked),) = found

@@ -152,4 +152,4 @@ def test_a_command_is_found_alone(name):
 
 
 def test_a_mistyped_command_is_still_guessed(refused):
-    assert "Did you mean 'simulate'?" in refused("simulat")
+    assert "Did you mean 'simulate', 'simulate-logs'?" in refused("simulat")

@@ -140,7 +140,7 @@ def bound_singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angu
         angular: Angular rows are among the rows, so that columns are longer by their unit.
 
     Raises:
-        InputError: As :func:`look_up`; a lever that is not positive, or infinite where the task is no pose.
+        InputError: As :func:`upper_bound`; a lever that is not positive, or infinite where the task is no pose.
 
     Source: derived here (``docs/ceilings.md``, S0 to S3).
     """

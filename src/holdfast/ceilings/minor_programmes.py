@@ -30,7 +30,7 @@ class MinorCertificate:
     Attributes:
         n: Lines.
         signs: (C(n, 3),) of the minors.
-        relation: (R,) weights of the relations, not negative; numbers as :func:`relations` has them.
+        relation: (R,) weights of the relations, not negative; numbers as :func:`minor_relations` has them.
         split: (R,) share of the first of the two smaller products.
         weights: (C(n, 3),) of the minors, not negative.
     """

@@ -76,7 +76,7 @@ def search_null_space(
         progress: Called with the best value so far.
 
     Raises:
-        InputError: As :func:`look_up`; seconds that are not positive.
+        InputError: As :func:`upper_bound`; seconds that are not positive.
 
     Source: derived here.
     """

@@ -22,7 +22,7 @@ THEOREM_TEXTS = {
     "R4": "a geometric program for each class of pseudoline arrangements, certificates replayed in ball arithmetic",
 }
 
-# Upper bounds by :mod:`holdfast.ceilings.arrangements`, replayed in balls and rounded up: n -> c(n, 3, 3).
+# Upper bounds by :mod:`holdfast.ceilings.pseudolines`, replayed in balls and rounded up: n -> c(n, 3, 3).
 ARRANGEMENT_BOUNDS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
 
 # What the certificates of :mod:`holdfast.ceilings.pair_kernels` prove: (n, m) -> c(n, n - m, 2).

@@ -55,8 +55,8 @@ class Clearance:
     Args:
         arm: The arm.
         capsules: Its shape; if not given, a cover of the collision shapes of the arm's file
-            (:func:`holdfast.clearance.cover.choose_capsules`), and :meth:`Capsules.along`, whose radius is an assumption, where
-            there are none. What the cell says to be held is added to the last link.
+            (:func:`holdfast.clearance.cover.choose_capsules`), and :meth:`Capsules.along_links`, whose radius is an assumption,
+            where there are none. What the cell says to be held is added to the last link.
         cell: The objects around it; none if not given. Objects are never adjacent to a link and never left out: only
             ``may_touch`` of the cell takes a pair away.
         itself: Look at the arm's own links as well, one against the other.

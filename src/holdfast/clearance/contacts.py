@@ -66,9 +66,9 @@ def find_first_contacts(
 
     The motion is taken to be straight in joint space between instants at most 0.05 rad or m apart. A pair that is d_1 and d_2
     away at two of them comes no closer between them than ``(d_1 + d_2 - L) / 2``, L the most that its distance can change on
-    the way (:meth:`Clearance.changes`). Where that is below 0 the instant in the middle is looked at too, until L is below half
-    a millimetre: a touch that is less than a quarter of a millimetre deep may go unseen, no other. Depths are known to half a
-    millimetre in the same way.
+    the way (:meth:`Clearance.lipschitz_bounds`). Where that is below 0 the instant in the middle is looked at too, until L is
+    below half a millimetre: a touch that is less than a quarter of a millimetre deep may go unseen, no other. Depths are known
+    to half a millimetre in the same way.
 
     Args:
         clearance: What is looked at; margins are not contacts.

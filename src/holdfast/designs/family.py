@@ -245,7 +245,7 @@ class Family:
     @cached_property
     @cached_kernel
     def ascent(self) -> Kernel:
-        """(q, radius, last, p, r, x) to the next (q, radius, last): :func:`holdfast.solvers.optimise.ascent_step`."""
+        """(q, radius, last, p, r, x) to the next (q, radius, last): :func:`holdfast.solvers.optimum.ascent_step`."""
         inputs, step = ascent_step(self.index, self.task)
         return Kernel("ascent of designs", [*inputs, self.x], [step])
 

@@ -53,7 +53,7 @@ class IndexEvaluation:
 
 @dataclass(frozen=True)
 class WorstCase:
-    """Part of an :class:`Evaluation` that concerns the worst failure alone.
+    """Part of an :class:`IndexEvaluation` that concerns the worst failure alone.
 
     Attributes:
         value, worst, status: As there.

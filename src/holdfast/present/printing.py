@@ -41,7 +41,7 @@ def to_json_types(value: Any) -> Any:
 
 
 def print_json(data: Any) -> None:
-    """Print one JSON document on stdout; the data have JSON types only (:func:`plain` converts them)."""
+    """Print one JSON document on stdout; the data have JSON types only (:func:`to_json_types` converts them)."""
     typer.echo(json.dumps(data, indent=2, allow_nan=False))
 
 

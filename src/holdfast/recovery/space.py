@@ -154,7 +154,7 @@ class FreeSpace:
         With ``deviations`` (E, n) also everything whose joints are off it by no more, limits left aside.
 
         Between two configurations at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
-        most that its distance can change on the way (:meth:`Clearance.changes`). Pieces for which that does not do are
+        most that its distance can change on the way (:meth:`Clearance.lipschitz_bounds`). Pieces for which that does not do are
         halved, until it does or L is below half a millimetre: such a piece counts as blocked.
         """
         is_valid: BoolArray = self.are_within_limits(a) & self.are_within_limits(b)

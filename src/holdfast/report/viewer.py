@@ -49,7 +49,7 @@ class ViewerScene:
     object_corners: tuple[FloatArray, ...] = ()
 
     def to_html(self, name: str, about: str) -> Markup:
-        """Return the view as part of a page; :func:`with_library` adds the script that makes it interactive.
+        """Return the view as part of a page; :func:`embed_viewer_library` adds the script that makes it interactive.
 
         Args:
             name: Its id, once in a page.

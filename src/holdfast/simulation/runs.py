@@ -52,7 +52,7 @@ _OUTCOME_PHRASES = {
 
 
 class Reason(IntEnum):
-    """Reason for which a run is undecided, next to its :class:`Outcome`; ``NONE`` where it is decided. It is no status.
+    """Reason for which a run is undecided, next to its :class:`RunOutcome`; ``NONE`` where it is decided. It is no status.
 
     ``CONTACT`` is of runs that were stopped where they touched something.
     """

@@ -54,8 +54,8 @@ class CurveConstraint:
         their ends.
 
         Between two of its points, at which d_1 and d_2 of a room are left, no less than ``(d_1 + d_2 - L) / 2`` is, L the
-        most that it can change on the way (of a distance :meth:`Clearance.changes`). Pieces for which that does not do are
-        halved, by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
+        most that it can change on the way (of a distance :meth:`Clearance.lipschitz_bounds`). Pieces for which that does not do
+        are halved, by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
         """
         q = curve.q
         if curve.closed:

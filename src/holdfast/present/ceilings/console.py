@@ -98,5 +98,5 @@ def next_steps(bounds: Found, name: str) -> list[str]:
         return [f"{name}.null_space  # attains {bounds.value:.6g}"]
     if isinstance(bounds, SingularValueBound):
         return [f"{name}.bound  # no Jacobian has more" if bounds.jacobian is None else f"{name}.jacobian  # attains it"]
-    search = f"hf.ceilings.search(n={bounds.n}, m={bounds.m}, k={bounds.k}, seconds=60)  # is there a better one?"
+    search = f"hf.ceilings.search_null_space(n={bounds.n}, m={bounds.m}, k={bounds.k}, seconds=60)  # is there a better one?"
     return [f"{name}.verify()  # measures the null space anew", *([] if bounds.is_attained else [search])]

@@ -306,7 +306,7 @@ class WaypointOperator(Operator):
         self._cycles_left = np.full(len(x), 60)  # cycles: 3 m at full speed
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
-        """See :meth:`Operator.wanted`."""
+        """See :meth:`Operator.command_velocity`."""
         self._cycles_left[rows] -= 1
         arrived = np.linalg.norm(self._waypoints[rows] - x, axis=1) < 0.05
         self._cycles_left[rows[arrived]] = 0

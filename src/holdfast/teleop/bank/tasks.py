@@ -211,7 +211,7 @@ class TaskBank:
 
     @classmethod
     def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIO_NAMES) -> TaskBank:
-        """Build the bank from the trials of :func:`run`."""
+        """Build the bank from the trials of :func:`run_tasks`."""
         shape = (len(scenarios), len(tasks))
         values = compute_measures(trials).reshape(*shape, RECORDED_MEASURES)
         combined = compute_cpm(values)
@@ -266,7 +266,8 @@ def make_task_bank(
     stick: Joystick | None = None,
     rules: EndRules | None = None,
 ) -> TaskBank:
-    """Sample random tasks and run each under computer control in every scenario; see :func:`random_tasks` and :func:`run`.
+    """Sample random tasks and run each under computer control in every scenario; see :func:`sample_tasks` and
+    :func:`run_tasks`.
 
     Source: Goel et al. 2003, section 5.
     """

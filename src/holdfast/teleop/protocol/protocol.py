@@ -209,7 +209,7 @@ class Protocol:
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120, default_flow_style=None)
 
     def write(self, path: str | Path) -> Path:
-        """Write :meth:`text` to a file, with the arm's own file, if it has one, in the same folder.
+        """Write :meth:`to_yaml` to a file, with the arm's own file, if it has one, in the same folder.
 
         Raises:
             StoreError: It cannot be written.

@@ -256,7 +256,9 @@ class Records:
         return int(self._query_value("SELECT COALESCE((SELECT seq FROM sessions WHERE subject = ?), 0)", code))
 
     def set_last_seq(self, code: str, seq: int, size: int = 0) -> None:
-        """Set :meth:`last_seq` and add to the bytes :meth:`received`, in one transaction with the changes of the message."""
+        """Set :meth:`last_seq` and add to the bytes :meth:`received_bytes`, in one transaction with the changes of the
+        message.
+        """
         self._db.execute("UPDATE sessions SET seq = ?, bytes = bytes + ? WHERE subject = ?", (seq, size, code))
         self._chain.update_session(code)
 

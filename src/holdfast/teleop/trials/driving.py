@@ -89,7 +89,7 @@ class ComputerOperator(Operator):
         """See :meth:`Operator.begin`."""
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
-        """See :meth:`Operator.wanted`."""
+        """See :meth:`Operator.command_velocity`."""
         return self.gain * (target - x)
 
 
@@ -105,7 +105,7 @@ class RecordedOperator(Operator):
             raise InputError(f"{len(self._trials)} recorded trials cannot drive {len(x)} others; give the same trials")
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
-        """See :meth:`Operator.wanted`."""
+        """See :meth:`Operator.command_velocity`."""
         trials = self._trials
         velocity = np.zeros((rows.size, trials.velocity.shape[1]))
         in_progress = cycle < trials.cycles[rows]

@@ -133,7 +133,7 @@ class SimulatedPeople(Operator):
         )  # of the last cycles
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
-        """See :meth:`Operator.wanted`."""
+        """See :meth:`Operator.command_velocity`."""
         self._seen_positions[cycle % len(self._seen_positions), rows] = x
         self._update_wobble()
         seen_cycle = cycle - self._delay[rows]

@@ -82,7 +82,7 @@ class JoystickPlant:
         return result[:n].copy(), actual
 
     def step_batch(self, q: FloatArray, velocity: FloatArray, healthy: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Compute one cycle of N arms: as :meth:`cycle`, with (N, n), (N, m) and (N, n), to (N, n) and (N, m)."""
+        """Compute one cycle of N arms: as :meth:`step_one`, with (N, n), (N, m) and (N, n), to (N, n) and (N, m)."""
         n = self.n
         result = self._kernel.rows(q, velocity, healthy)
         actual = np.ascontiguousarray(result[:, n:])
@@ -111,8 +111,8 @@ def check_joystick_task(task: Task) -> None:
 
 @lru_cache(maxsize=16)
 def make_substep(law: Law, substeps: int = SUBSTEPS_PER_CYCLE) -> ca.Function:
-    """Return one explicit Euler step of a control cycle as a symbolic function, which :class:`Plant` compiles and the page
-    runs.
+    """Return one explicit Euler step of a control cycle as a symbolic function, which :class:`JoystickPlant` compiles and the
+    page runs.
 
     Takes q (n,), the velocity (m,), m/cycle, and healthy (n,), 1 or 0; gives the next q and the tool point's velocity (m,) now.
     """
