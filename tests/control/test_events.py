@@ -142,7 +142,7 @@ def calm(torque):
 
 
 def told(torque, course, **options):
-    settings = {"tracks": True, "wanted": None, "cap": "the cap"} | options
+    settings = {"tracks": True, "requested": None, "cap_phrase": "the cap"} | options
     return {e.kind: e for e in find_events(torque, course, **settings)}
 
 
@@ -174,7 +174,7 @@ def test_events_of_made_up_motions(torque, calm):
     assert "30 rad/s (30 times" in fast["fast motion"].text
     jump = told(torque, replace(calm, value=np.where(calm.time > 4, 5.0, 1.0)))
     assert jump["value jump"].start == pytest.approx(4, abs=0.01)
-    kept = told(torque, replace(calm, value=np.where(middle, 2.0, 1.0)), wanted=1.0)
+    kept = told(torque, replace(calm, value=np.where(middle, 2.0, 1.0)), requested=1.0)
     assert kept["value not kept"].start == pytest.approx(4, abs=0.01)
     empty = told(torque, replace(calm, value=0 * calm.time))
     assert empty == {}

@@ -35,8 +35,8 @@ DESIGNED = {
     "task": "planar",
     "poses": 6,
     "designs": 4,
-    "climbs": 1,
-    "fresh": 8,
+    "local_searches": 1,
+    "check_poses": 8,
 }
 LOCKED, START = {"joint2": 0.7}, [0.35, 0.7, 1.0]
 STUDY = """

@@ -66,7 +66,7 @@ def command(
     with ProgressBar(json_, "designs") as progress:
         common: dict[str, Any] = {
             "designs": designs,
-            "climbs": local_searches,
+            "local_searches": local_searches,
             "seed": seed,
             "store": out,
             "progress": progress,
