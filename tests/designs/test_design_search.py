@@ -110,7 +110,7 @@ def small(region3, space3):
         "poses": 32,
         "designs": 24,
         "local_searches": 2,
-        "fresh": 100,
+        "check_poses": 100,
         "seed": 1,
     }
 
