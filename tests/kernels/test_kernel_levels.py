@@ -297,7 +297,7 @@ import casadi as ca
 from holdfast.kernels import Program, compiled, wait_for_compiler
 
 x = ca.SX.sym("x")
-parent = compiled.Compiled(Program("parent", [x], [x + 1]))
+parent = compiled.CompiledProgram(Program("parent", [x], [x + 1]))
 inside, forking = threading.Event(), threading.Event()
 
 

@@ -77,12 +77,8 @@ class PhaseSimulator:
     ) -> FloatArray:
         """Return the states at the end of runs from q0 (N, n) with joints that lock at (N, n), s or cycles.
 
-        Args:
-            q0: Configurations at the start.
-            parameters: Parameters of :meth:`make_parameters`; the parameters of the last phase of each run are left in them.
-            lock_time: Times at which the joints lock.
-            setting: Time limit and first step.
-            advance: Function of states and parameters that returns the states at the end of the phase, and whether they are.
+        The parameters are those of :meth:`make_parameters`, in which the last phase of each run is left. The function
+        ``advance`` returns the states at the end of a phase, and which of them have got there.
         """
         run_count, layout, time_scale = len(q0), self.stepper.layout, self.time_scale
         states = np.zeros((run_count, layout.size))
@@ -151,9 +147,7 @@ class PhaseSimulator:
         return states
 
     def _call_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
-        """Return the states after one call of the step, with the compiled step of the loop where the loop takes
-        single steps.
-        """
         loop = self.stepper.loop
+        # A loop that takes single steps has a compiled one.
         single = loop.step if loop.times == 1 else self.stepper.single_step
         return single.rows(states, *self.stepper.parameters.split_inputs(parameters).values())[:, : self.stepper.layout.size]

@@ -72,14 +72,8 @@ class ErrorMinimiser:
     def search(
         self, q: FloatArray, poses: FloatArray, healthy_mask: FloatArray, restarts: int, generator: np.random.Generator
     ) -> tuple[FloatArray, FloatArray]:
-        """Find the least norms of the error (N,) from q (N, n) and from random values of the healthy joints.
-
-        Args:
-            q: (N, n) configurations.
-            poses: (N, 4, 4) targets.
-            healthy_mask: (N, n) 1 for healthy joints, 0 for locked ones.
-            restarts: Random starts of each run.
-            generator: Source of the starts.
+        """Find the least norms of the error (N,) at poses (N, 4, 4) from q (N, n) and from random values of the healthy joints,
+        whose mask (N, n) is 1.
 
         Returns:
             The norms, and (N, n) configurations that have them.

@@ -59,18 +59,15 @@ class FailedArmSystem:
         self._uses_orientation = law.task.angular or law.task.frame != "base"
         self.made_of = law
         # What the motion needs to know: no orientation where no row of the task has one.
-        self.inputs = {"target": self.target, "rotation": self.rotation, "mask": self.mask}
-        if not self._uses_orientation:
-            del self.inputs["rotation"]
+        rotation = {"rotation": self.rotation} if self._uses_orientation else {}
+        self.inputs = {"target": self.target, **rotation, "mask": self.mask}
 
     def target_values(self, target: FloatArray) -> dict[str, FloatArray]:
         """Return targets, poses (N, 4, 4) or task components (N, m), as the values of ``inputs``, (N, ...), but the mask."""
         if target.ndim == 2:
             return {"target": np.asarray(target @ self.law.task.rows[:, :3])}
-        values = {"target": target[:, :3, 3]}
-        if self._uses_orientation:
-            values["rotation"] = target[:, :3, :3].reshape(-1, 9)
-        return values
+        rotation = {"rotation": target[:, :3, :3].reshape(-1, 9)} if self._uses_orientation else {}
+        return {"target": target[:, :3, 3], **rotation}
 
     def compute_error(self, q: SX) -> tuple[SX, SX]:
         """Return the error (m,) of the task's components, m and rad, and its Jacobian (m, n)."""
