@@ -162,9 +162,10 @@ class ClosedLoopSimulator:
             reason[rows[self._is_half_turn_away(q[rows], target[rows, :3, 3], target[rows, :3, :3])]] = Reason.HALF_TURN
         if isinstance(self._stepper, RungeKuttaStepper):
             rows = np.flatnonzero((reason == Reason.STEPS) | may_be_endless)
-            given = parameters[rows]
-            self._stepper.parameters.view_parts(given)["mask"][:] = lock_time[rows] * time_scale > parts["time"][rows]
-            endless = rows[detect_periodic(self._stepper, states[rows], given, ~self.law.arm.prismatic, MIN_ENDLESS_SPEED)]
+            self._stepper.parameters.view_parts(parameters)["mask"][rows] = lock_time[rows] * time_scale > parts["time"][rows]
+            endless = rows[
+                detect_periodic(self._stepper, states[rows], parameters[rows], ~self.law.arm.prismatic, MIN_ENDLESS_SPEED)
+            ]
             code[endless], reason[endless] = RunOutcome.MOVING, Reason.NONE
         return {
             "code": code,
@@ -293,9 +294,7 @@ class ClosedLoopSimulator:
         return split_errors(self.law, self._error_search.compute_errors(q, target), self.law.arm.forward_kinematics(q), target)
 
     def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
-        """Simulate run k again up to a time, s or cycles; return the start times (S,) of its steps, and its motion: (T,) -> (T,
-        n).
-        """
+        """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps, and its motion, (T,) -> (T, n)."""
         history: list[tuple[FloatArray, FloatArray]] = []
         time_scale = self._phases.time_scale
 
