@@ -294,7 +294,7 @@ class ClosedLoopSimulator:
         return split_errors(self.law, self._error_search.compute_errors(q, target), self.law.arm.forward_kinematics(q), target)
 
     def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
-        """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps, and its motion, (T,) -> (T, n)."""
+        """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps and its motion, (T,) -> (T, n)."""
         history: list[tuple[FloatArray, FloatArray]] = []
         time_scale = self._phases.time_scale
 
