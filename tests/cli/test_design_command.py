@@ -88,7 +88,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
         (("--vary", "a4=0..1"), "'planar-3r' has no row 4"),
         (("--vary", "lower3=-180..190deg"), "the limits of joint 'joint3' can cross"),
         (("--vary", "a3=0.5..2", "--level", "1"), "level is 1; it must be between 0 and 1"),
-        (("--vary", "a3=0.5..2", "--local-searches", "-1"), "climbs is -1; it must be 0 or more"),
+        (("--vary", "a3=0.5..2", "--local-searches", "-1"), "local_searches is -1; it must be 0 or more"),
         (("--vary", "a3=0.5..2", "--maximise", "condition-number"), "better when smaller"),
         (("--vary", "a3=0.5..2", "--maximise", "dexterity"), "dexterity"),
         (("--vary", "alpha1=-10..10deg"), "a planar task needs designs that move in the plane of 'planar-3r'"),

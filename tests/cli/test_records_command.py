@@ -28,7 +28,7 @@ def test_a_submission_is_held_against_the_current_record(tmp_path, cli):
 
 
 def test_the_book_is_listed_and_checked_at_once(cli):
-    listed = json.loads(cli("record-designs", "list", "--json")[1])["record-designs"]
+    listed = json.loads(cli("record-designs", "list", "--json")[1])["records"]
     code, out, _ = cli("record-designs", "check", "--all", "--json")
     assert code == 0, out
     assert len(listed) >= 50
@@ -81,7 +81,7 @@ def test_a_search_for_a_new_record(tmp_path, cli):
 
 def test_arms_are_judged_on_the_command_line(tmp_path, cli):
     words = (
-        "judge",
+        "compare-arms",
         "planar-3r",
         "--task",
         "planar",

@@ -172,7 +172,7 @@ def test_sampled_search(tmp_path):
 def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
     law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
     vary = {"a2": (0.5, 1.5), "a3": (0.5, 1.5)}
-    options = {"designs": 8, "climbs": 1, "failures": 1, "exact": False, "seed": 4}
+    options = {"designs": 8, "local_searches": 1, "failures": 1, "exact": False, "seed": 4}
     whole = design_for_convergence(law, vary, 3, **options)
     looked = []
     real = FailureTrials.simulate_designs

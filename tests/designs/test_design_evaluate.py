@@ -50,7 +50,7 @@ def test_the_same_bits_for_any_number_of_threads(evaluator3, found3, threads):
 
 def test_many_designs_are_computed_by_better_code_from_the_first_step_on(space3, found3, poses3, tmp_path, monkeypatch):
     monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
-    for worth in ("REPAYING_WORK", "WORTH_SHORT"):
+    for worth in ("REPAYING_WORK", "REPAYING_WORK_OF_SHORT"):
         monkeypatch.setattr(compiled, worth, 10)
     family = Family(space3, task="planar")
     again = Evaluator(family, poses3)(found3.values)

@@ -109,8 +109,8 @@ def small(region3, space3):
         "task": "planar",
         "poses": 32,
         "designs": 24,
-        "climbs": 2,
-        "fresh": 100,
+        "local_searches": 2,
+        "check_poses": 100,
         "seed": 1,
     }
 
@@ -199,7 +199,7 @@ def test_the_slope_that_climbs_is_that_of_the_smooth_quantile(space3, family3, r
         ({"level": 1.0}, "level is 1"),
         ({"poses": 0}, "poses is 0"),
         ({"designs": 0}, "designs is 0"),
-        ({"climbs": -1}, "climbs is -1"),
+        ({"local_searches": -1}, "local_searches is -1"),
     ],
 )
 def test_options_out_of_range_are_refused(planar3, space3, option, words):

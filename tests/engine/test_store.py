@@ -173,9 +173,9 @@ from types import ModuleType
 sys.path.insert(0, sys.argv[2])
 import test_store as t
 s = t.make(Path(sys.argv[1]))
-with s.writing():
-    for k in s.missing:
-        s.write(k, t.rows(*s.chunks[k]))
+with s.lock_for_writing():
+    for k in s.missing_chunks:
+        s.commit_chunk(k, t.rows(*s.chunks[k]))
         print(k, flush=True)
         time.sleep(0.02 if len(sys.argv) < 4 else 60)
 """

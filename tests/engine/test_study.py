@@ -48,7 +48,7 @@ def test_a_notebook_says_how_far_it_is(straight):
 def test_the_rows_are_those_of_the_seeds_of_the_chunks(straight):
     for k in range(2):
         store = straight.cell_store(k)
-        found = np.concatenate([store.read(n, ["x"])["x"] for n in store.committed_chunks])
+        found = np.concatenate([store.read_chunk(n, ["x"])["x"] for n in store.committed_chunks])
         parts = [np.random.default_rng(np.random.SeedSequence(1, spawn_key=(n,))).random((s, 2)) for n, s in
                  enumerate([5, 5, 5, 5, 3])]  # fmt: skip
         np.testing.assert_array_equal(found, (k + 1) * np.concatenate(parts))
@@ -437,7 +437,7 @@ sys.path.insert(0, sys.argv[2])
 from toy import cells
 from holdfast.engine import Study, ThreadRunner
 some = cells(slow=0.05)
-Study.create(sys.argv[1], "toy", 1, cells=some).run(some, Threads(2), lambda done, *_: print(done, flush=True))
+Study.create(sys.argv[1], "toy", 1, cells=some).run(some, ThreadRunner(2), lambda done, *_: print(done, flush=True))
 """
 
 

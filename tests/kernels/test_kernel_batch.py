@@ -250,7 +250,7 @@ def test_a_kernel_inside_a_task_of_the_pool_does_not_wait_for_ever():
     """In another process with a time limit: a deadlock would otherwise hold up this one at its exit."""
     program = """
 import casadi as ca, numpy as np
-from holdfast.kernels import Kernel, Loop, pool, set_threads
+from holdfast.kernels import Kernel, Loop, set_threads, shared_pool
 x = ca.SX.sym("x", 2)
 k = Kernel("k", [x], [x @ x.T])
 values = np.arange(2.0 * 300000).reshape(-1, 2)
@@ -261,9 +261,9 @@ start = np.ones((9000, 1))
 for count in (1, 2):
     set_threads(count)
     outside = k(values)
-    for f in [pool().submit(k, values) for _ in range(4)]:
+    for f in [shared_pool().submit(k, values) for _ in range(4)]:
         assert (f.result() == outside).all()
-    for f in [pool().submit(loop.run, start, 4 * start, 1e-9, 20) for _ in range(4)]:
+    for f in [shared_pool().submit(loop.run, start, 4 * start, 1e-9, 20) for _ in range(4)]:
         assert f.result().done.all()
 print("fine")
 """
@@ -309,7 +309,7 @@ def test_columns_are_prepared_once(backend, rng, monkeypatch):
     """A call of a few microseconds has no time to look at its own scratch arrays again."""
     kernel = build(backend)
     bound, prepared = kernel.bind_arrays, []
-    monkeypatch.setattr(kernel, "bound", lambda *columns: prepared.append(1) or bound(*columns))
+    monkeypatch.setattr(kernel, "bind_arrays", lambda *columns: prepared.append(1) or bound(*columns))
     monkeypatch.setattr(kernel, "evaluate_columns", None)
     rows = [draw(rng, 1) for _ in range(3)]
     found = [kernel.rows(*row) for row in rows]

@@ -294,10 +294,10 @@ def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatc
 FORK_WHILE_IMPROVING = """
 import os, threading
 import casadi as ca
-from holdfast.kernels import Program, compiled, settle
+from holdfast.kernels import Program, compiled, wait_for_compiler
 
 x = ca.SX.sym("x")
-parent = compiled.Compiled(Program("parent", [x], [x + 1]))
+parent = compiled.CompiledProgram(Program("parent", [x], [x + 1]))
 inside, forking = threading.Event(), threading.Event()
 
 
@@ -305,18 +305,18 @@ def improve():
     inside.set()
     forking.wait()
     for _ in range(50):
-        parent._make(1, aside=True)
+        parent._compile_code(1, in_background=True)
 
 
 os.register_at_fork(before=forking.set)  # the last that is registered is called first
-compiled._in_background(improve)
+compiled._submit_job(improve)
 inside.wait()
 child = os.fork()
 if child == 0:
-    parent._make(1)
+    parent._compile_code(1)
     os._exit(0)
 assert os.waitpid(child, 0)[1] == 0
-settle()
+wait_for_compiler()
 """
 
 

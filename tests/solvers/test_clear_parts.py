@@ -17,7 +17,7 @@ class Astray:
     def __init__(self, rng):
         self.rng = rng
 
-    def corrected(self, q, poses):
+    def correct(self, q, poses):
         return np.where(q[:, :1] < 1, q, self.rng.uniform(-20, 20, q.shape)), np.ones(len(q), dtype=bool), None
 
 

@@ -174,7 +174,7 @@ def design_for_convergence(
     """
     if objective not in ("guaranteed", "converged"):
         raise InputError(f"objective '{objective}' is not known; use guaranteed or converged")
-    for option, number, minimum in (("designs", designs, 1), ("climbs", local_searches, 0), ("failures", failures, 1)):
+    for option, number, minimum in (("designs", designs, 1), ("local_searches", local_searches, 0), ("failures", failures, 1)):
         if number < minimum:
             raise InputError(f"{option} is {number}; it must be {minimum} or more")
     space = design_space(law.arm, vary)

@@ -102,8 +102,8 @@ def design(
     for option, count, minimum in (
         ("poses", poses, 1),
         ("designs", designs, 1),
-        ("climbs", local_searches, 0),
-        ("fresh", check_poses, 1),
+        ("local_searches", local_searches, 0),
+        ("check_poses", check_poses, 1),
     ):
         if count < minimum:
             raise InputError(f"{option} is {count}; it must be {minimum} or more")

@@ -24,7 +24,7 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import cached_kernel
 from holdfast.linalg import damped_least_norm
-from holdfast.simulation.system import FailedArmSystem
+from holdfast.simulation.system import ColumnLayout, FailedArmSystem
 from holdfast.typing import BoolArray, FloatArray
 
 EQUATION_TOLERANCE = 1e-11  # norm of the equations
@@ -41,24 +41,27 @@ class RestEquations:
     """The equations of erroneous rest of one law, for one locked joint or for several.
 
     Attributes:
-        size: Unknowns: n joints, the unit vector u (m,), c and s.
+        columns: Layout of the unknowns: joints ``q`` (n,), the unit vector ``u`` (m,), ``c`` and ``s``.
+        size: Number of unknowns.
     """
 
     def __init__(self, law: Law, single: bool) -> None:
         self.law, self.system, self._locks_one = law, FailedArmSystem(law), single
-        self.size = law.arm.n + law.task.m + 2
+        self.columns = ColumnLayout(q=law.arm.n, u=law.task.m, c=1, s=1)
+        self._rows = ColumnLayout(rates=law.arm.n, norms=2, error=law.task.m)
+        self.size = self.columns.size
         self._unknowns = ca.SX.sym("z", self.size)
         self.made_of = law, single
 
     @cached_property
     def _expressions(self) -> tuple[SX, SX, SX]:
         """The equations, the remainder of ``A J' u`` on the locked joints, and the Jacobian of the equations."""
-        law, n, m = self.law, self.law.arm.n, self.law.task.m
-        q, u, c, s = self._unknowns[:n], self._unknowns[n : n + m], self._unknowns[n + m], self._unknowns[n + m + 1]
+        law = self.law
+        q, u, c, s = self.columns.split_symbol(self._unknowns).values()
         mask, quadratic_form = self.system.mask, law.quadratic()
         error, _ = self.system.compute_scaled_error(q)
         length_unit = law.arm.length_unit
-        rates = ca.SX.sym("rates", n)
+        rates = ca.SX.sym("rates", law.arm.n)
         if quadratic_form is None:
             rest_rates, direction = rates / ca.sqrt(ca.sumsqr(rates)), u
         else:
@@ -138,15 +141,16 @@ class RestEquations:
 
     def fit_unknowns(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
         """Return unknowns (N, size) near configurations (N, n) that are nearly at rest, with the u and s that fit best."""
-        n, m = self.law.arm.n, self.law.task.m
-        z = np.column_stack([q, np.eye(m)[np.zeros(len(q), dtype=int)], np.ones(len(q)), np.zeros(len(q))])
+        z = np.column_stack([q, np.eye(self.law.task.m)[np.zeros(len(q), dtype=int)], np.ones(len(q)), np.zeros(len(q))])
+        parts, slices = self.columns.view_parts(z), self.columns.slices
         # The rates are linear in u, or, of a law that is asked for directions, nearly so.
         _, jacobian = self._equation_kernel(z, pose[:3, 3], pose[:3, :3], mask)
-        z[:, n : n + m] = np.linalg.svd(jacobian[:, np.flatnonzero(mask), n : n + m])[2][:, -1]
+        parts["u"][:] = np.linalg.svd(jacobian[:, np.flatnonzero(mask), slices["u"]])[2][:, -1]
         values, jacobian = self._equation_kernel(z, pose[:3, 3], pose[:3, :3], mask)
-        error, direction = values[:, n + 2 :], -jacobian[:, n + 2 :, -1]
+        rows = self._rows.slices["error"]
+        error, direction = values[:, rows], -jacobian[:, rows, slices["s"]][:, :, 0]
         angle = np.arctan2(np.einsum("ij,ij->i", error, direction), np.einsum("ij,ij->i", direction, direction))
-        z[:, -2], z[:, -1] = np.cos(angle), np.sin(angle)
+        parts["c"][:, 0], parts["s"][:, 0] = np.cos(angle), np.sin(angle)
         return z
 
     def search(self, z: FloatArray, pose: FloatArray, mask: FloatArray, free: FloatArray) -> tuple[FloatArray, BoolArray]:

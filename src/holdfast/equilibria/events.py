@@ -123,7 +123,9 @@ def _evaluate_tests(system: RestSystem, joint: int, z: FloatArray, forward: Floa
     eigenvalues = system.eigenvalues(z[:, : system.law.arm.n])
     first, second = np.triu_indices(eigenvalues.shape[1], 1)
     pair_test = np.prod(eigenvalues[:, first] + eigenvalues[:, second], axis=1).real
-    tests = [tangent[:, joint], branch_test, system.sum_locked_rates(z), z[:, -1], np.prod(eigenvalues, axis=1).real, pair_test]
+    target_test = system.equations.columns.view_parts(z)["s"][:, 0]
+    stability_test = np.prod(eigenvalues, axis=1).real
+    tests = [tangent[:, joint], branch_test, system.sum_locked_rates(z), target_test, stability_test, pair_test]
     return np.stack(tests, axis=1), tangent
 
 

@@ -69,7 +69,8 @@ class RestSystem:
         free_unknowns[list(self.locked_joints)] = 0.0
         unknowns, is_solved = self.equations.search(z, self.pose, self.mask, free_unknowns)
         # Where b vanishes the equations hold with c = 0, but J has lost rank and the law no answer.
-        q = unknowns[is_solved & (np.abs(unknowns[:, -2]) > VANISHED_COSINE), : self.law.arm.n]
+        parts = self.equations.columns.view_parts(unknowns[is_solved])
+        q = parts["q"][np.abs(parts["c"][:, 0]) > VANISHED_COSINE]
         _, _, scaled_error = self.linear.rates(q, self.pose)
         return q[self.is_stationary(q) & (scaled_error > REACHED_ERROR)]
 

@@ -20,25 +20,21 @@ from holdfast.kernels.loop import Tell
 from holdfast.kernels.recall import cached_kernel
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.notice import ProgressCount, ignore_count
-from holdfast.simulation.cycles import SUBSTEPS_PER_CYCLE, CycleStepper
+from holdfast.simulation.cycles import SUBSTEPS_PER_CYCLE
 from holdfast.simulation.endless_motion import detect_periodic
+from holdfast.simulation.phases import PhaseSimulator
 from holdfast.simulation.residual import ErrorMinimiser
-from holdfast.simulation.runge_kutta import FIRST_STEP_SIZE, MAX_STEP_TRAVEL_RAD, REST_SPEED, RungeKuttaStepper
+from holdfast.simulation.runge_kutta import RungeKuttaStepper
 from holdfast.simulation.runs import Reason, RunOutcome, RunPath, Runs, RunSettings
 from holdfast.simulation.system import (
-    LARGE_NUMBER,
     STATE_ARRIVED,
     STATE_AT_REST,
     STATE_COLLAPSED,
-    STATE_PHASE_END,
     STATE_RUNNING,
     STATE_TIME_LIMIT,
-    FailedArmSystem,
     scale_errors,
     split_errors,
-    to_state_parts,
 )
-from holdfast.simulation.tableaus import CLASSIC_RK4, DOP853
 from holdfast.solvers.inverse_kinematics import tool_error
 from holdfast.typing import FloatArray
 
@@ -54,32 +50,16 @@ MAX_BLOCK_RUNS = 8192  # runs that one thread makes together
 MIN_BLOCK_RUNS = 256  # no result depends on it
 
 
-Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, NDArray[np.bool_]]]
-
-
 class ClosedLoopSimulator:
     """The compiled closed loop of one law under one integration method."""
 
     def __init__(self, law: Law, method: str) -> None:
-        self.law, self.cycles, self.has_fixed_step = law, method == "cycles", method == "rk4"
-        self._system = FailedArmSystem(law)
-        self._stepper: RungeKuttaStepper | CycleStepper = (
-            CycleStepper(self._system)
-            if self.cycles
-            else RungeKuttaStepper(self._system, CLASSIC_RK4 if self.has_fixed_step else DOP853)
-        )
+        self.law, self._phases = law, PhaseSimulator(law, method)
+        self.cycles, self._system, self._stepper = self._phases.cycles, self._phases.system, self._phases.stepper
         self.made_of = law, method
 
     def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
         return ClosedLoopSimulator, self.made_of
-
-    @cached_property
-    @cached_kernel
-    def _start_kernel(self) -> Kernel:
-        system = self._system
-        return Kernel(
-            "start of a motion", [system.q, *system.inputs], [ca.vertcat(*to_state_parts(system.evaluate(system.q)).values())]
-        )
 
     @cached_property
     def _error_search(self) -> ErrorMinimiser:
@@ -144,10 +124,10 @@ class ClosedLoopSimulator:
         self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings, report: Tell
     ) -> dict[str, NDArray[Any]]:
         """Simulate one block of runs, and return the fields of :class:`Runs`."""
-        target_values = self._system.target_values(target)
+        parameters = self._phases.make_parameters(target, setting)
         is_finite = np.isfinite(q0).all(axis=1) & np.isfinite(target).all(axis=tuple(range(1, target.ndim)))
         finite_rows: slice | NDArray[np.int64] = slice(None) if is_finite.all() else np.flatnonzero(is_finite)
-        has_orientation = target.ndim == 3 and self.law.task.angular
+        has_orientation, time_scale = target.ndim == 3 and self.law.task.angular, self._phases.time_scale
         # A run whose joints lock later ends at each lock, and goes on.
         locks_later = bool(((lock_time > 0) & np.isfinite(lock_time)).any())
         report_ended = ignore_count if locks_later else report
@@ -160,7 +140,7 @@ class ClosedLoopSimulator:
             )
             return result.state, result.done
 
-        states = self._run_phases(q0[finite_rows], target_values[finite_rows], lock_time[finite_rows], setting, advance)
+        states = self._phases.run(q0[finite_rows], parameters[finite_rows], lock_time[finite_rows], setting, advance)
         if locks_later:
             report(len(q0))
         if not is_finite.all():
@@ -182,9 +162,10 @@ class ClosedLoopSimulator:
             reason[rows[self._is_half_turn_away(q[rows], target[rows, :3, 3], target[rows, :3, :3])]] = Reason.HALF_TURN
         if isinstance(self._stepper, RungeKuttaStepper):
             rows = np.flatnonzero((reason == Reason.STEPS) | may_be_endless)
-            given = self._make_parameters(target_values[rows], setting)
-            given[:, -self.law.arm.n - 3 : -3] = lock_time[rows] * self._time_scale > parts["time"][rows]
-            endless = rows[detect_periodic(self._stepper, states[rows], given, ~self.law.arm.prismatic, MIN_ENDLESS_SPEED)]
+            self._stepper.parameters.view_parts(parameters)["mask"][rows] = lock_time[rows] * time_scale > parts["time"][rows]
+            endless = rows[
+                detect_periodic(self._stepper, states[rows], parameters[rows], ~self.law.arm.prismatic, MIN_ENDLESS_SPEED)
+            ]
             code[endless], reason[endless] = RunOutcome.MOVING, Reason.NONE
         return {
             "code": code,
@@ -197,7 +178,7 @@ class ClosedLoopSimulator:
             "q_low": lowest,
             "q_high": highest,
             "limits_passed": (lowest < self.law.arm.lower) | (highest > self.law.arm.upper),
-            "time": parts["time"][:, 0] / self._time_scale,
+            "time": parts["time"][:, 0] / time_scale,
         }
 
     def _is_half_turn_away(self, q: FloatArray, position: FloatArray, rotation: FloatArray) -> NDArray[np.bool_]:
@@ -228,22 +209,16 @@ class ClosedLoopSimulator:
             is_running, active = ~result.done, active[~result.done]
             if not active.size:
                 break
-            active_parameters = parameters[active]
-            time = parts["time"][active, 0]
+            inputs, time = self._stepper.parameters.split_inputs(parameters[active]), parts["time"][active, 0]
             is_too_slow = time + checks_left * (time - earlier_times[is_running]) < np.minimum(
-                active_parameters[:, -3], active_parameters[:, -2]
+                inputs["until"][:, 0], inputs["limit"][:, 0]
             )
-            is_half_turn = self._is_half_turn_away(parts["q"][active], *self._split_parameters(active_parameters)[:2])
+            is_half_turn = self._is_half_turn_away(parts["q"][active], inputs["target"], inputs["rotation"])
             half_turn_counts[active] = np.where(is_half_turn, np.where(is_too_slow, half_turn_counts[active], 0) + 1, 0)
             is_trapped = half_turn_counts[active] > HALF_TURN_CHECKS
             report_ended(int(np.count_nonzero(is_trapped)))
             active = active[~is_trapped]
         return states, done
-
-    @property
-    def _time_scale(self) -> float:
-        """Units of time of a state in one second or cycle."""
-        return 1.0 if self.cycles else self.law.gain
 
     def _classify_endings(
         self, scaled_errors: FloatArray, parts: dict[str, FloatArray]
@@ -269,86 +244,6 @@ class ClosedLoopSimulator:
         )
         return outcome.astype(np.uint8), reason.astype(np.uint8), may_be_endless
 
-    def _run_phases(
-        self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings, advance: Advance
-    ) -> FloatArray:
-        """Return the states at the end of the runs. Nothing changes between two locks, so such a phase is one loop."""
-        run_count, layout, time_scale, n = len(q0), self._stepper.layout, self._time_scale, self.law.arm.n
-        states = np.zeros((run_count, layout.size))
-        parts = layout.view_parts(states)
-        parts["q"][:] = parts["low"][:] = parts["high"][:] = q0
-        parts["slowest"][:] = parts["closest"][:] = LARGE_NUMBER
-        if not self.cycles:
-            parts["h"][:] = setting.step_size * time_scale if self.has_fixed_step else FIRST_STEP_SIZE
-        parameters = self._make_parameters(target, setting)
-        healthy_mask, phase_ends, clock_limit = parameters[:, -n - 3 : -3], parameters[:, -3], setting.time_limit * time_scale
-        # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
-        final_time = LARGE_NUMBER if self.law.speed_limit is not None and not self.cycles else clock_limit
-        scaled_lock_times = lock_time * time_scale
-        current_times, active = np.zeros(run_count), np.arange(run_count)
-        while active.size:
-            selection: slice | NDArray[np.int64] = slice(None) if active.size == run_count else active
-            healthy = scaled_lock_times[selection] > current_times[selection, None]
-            healthy_mask[selection] = healthy
-            phase_ends[selection] = np.minimum(np.where(healthy, scaled_lock_times[selection], np.inf).min(axis=1), final_time)
-            self._start_phase(states, selection, parameters[selection])
-            states[selection], is_done = advance(states[selection], parameters[selection])
-            codes, is_final = parts["code"][selection, 0], phase_ends[selection] >= clock_limit
-            parts["code"][selection, 0] = np.where((codes == STATE_PHASE_END) & is_final, STATE_TIME_LIMIT, codes)
-            active = active[is_done & (codes == STATE_PHASE_END) & ~is_final]
-            current_times[active] = parts["time"][active, 0] = phase_ends[active]
-        return states
-
-    def _make_parameters(self, target: FloatArray, setting: RunSettings) -> FloatArray:
-        """Return parameters of rows, in which the healthy joints and the end of the phase are still to be set."""
-        parameters, n = np.empty((len(target), target.shape[1] + self.law.arm.n + 3)), self.law.arm.n
-        parameters[:, : -n - 3], parameters[:, -2], parameters[:, -1] = (
-            target,
-            setting.time_limit * self._time_scale,
-            setting.accuracy,
-        )
-        return parameters
-
-    def _start_phase(self, states: FloatArray, rows: slice | NDArray[np.int64], parameters: FloatArray) -> None:
-        """Set the parts of the states that are known where a phase begins."""
-        parts, n = self._stepper.layout.view_parts(states), self.law.arm.n
-        values = self._evaluate_states(states[rows], parameters)
-        is_finite = np.isfinite(values).all(axis=1)
-        code = np.where(is_finite, STATE_RUNNING, STATE_COLLAPSED)
-        values[~is_finite] = np.where(np.isfinite(values[~is_finite]), values[~is_finite], 0.0)
-        parts["error"][rows, 0] = values[:, n + 2]
-        parts["closest"][rows, 0] = np.minimum(parts["closest"][rows, 0], values[:, n + 2])
-        if not self.cycles:
-            joint_speed = np.linalg.norm(values[:, :n], axis=1)
-            code[(joint_speed < REST_SPEED * values[:, n + 1]) & is_finite] = STATE_AT_REST
-            for name, column in (("hand", n), ("share", n + 1), ("slope", n + 3)):
-                parts[name][rows, 0] = values[:, column]
-            parts["rates"][rows] = values[:, :n]
-            if not self.has_fixed_step:
-                parts["h"][rows, 0] = np.minimum(
-                    parts["h"][rows, 0], MAX_STEP_TRAVEL_RAD / np.maximum(joint_speed, MAX_STEP_TRAVEL_RAD)
-                )
-        parts["code"][rows, 0] = code
-
-    def _evaluate_states(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
-        """Return joint rates, tool speed, speed fraction, squared error, and its time derivative at the states, (N, n + 4)."""
-        layout = self._stepper.layout
-        if not self._stepper.is_staged:
-            return self._start_kernel.rows(layout.view_parts(states)["q"], *self._split_parameters(parameters)[:-3])
-        # A stage before the first: the law is not compiled a second time.
-        entry_states = states.copy()
-        parts = layout.view_parts(entry_states)
-        parts["stage"][:], parts["code"][:], parts["rates"][:] = -1, STATE_RUNNING, 0.0
-        entered_parts = layout.view_parts(self._call_step(entry_states, parameters))
-        return np.concatenate([entered_parts[name] for name in ("rates", "hand", "share", "error", "slope")], axis=1)
-
-    def _split_parameters(self, parameters: FloatArray) -> list[FloatArray]:
-        """Split rows of parameters into the inputs of a kernel."""
-        shapes = [parameter.shape for parameter in self._stepper.parameters]
-        ends = np.cumsum([rows * columns for rows, columns in shapes])[:-1]
-        blocks = np.split(parameters, ends, axis=1)
-        return [block.reshape(-1, *shape) if shape[1] > 1 else block for block, shape in zip(blocks, shapes, strict=True)]
-
     # ---- on demand -----------------------------------------------------------------------------------------------
 
     def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
@@ -357,9 +252,8 @@ class ClosedLoopSimulator:
         healthy_mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
         is_finite = np.isfinite(q).all(axis=1)
         least_errors, nearest = np.full(len(q), np.nan), np.full(q.shape, np.nan)
-        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), healthy_mask], axis=1)
         least_errors[is_finite], nearest[is_finite] = self._error_search.search(
-            q[is_finite], parameters[is_finite], restarts, generator
+            q[is_finite], poses[is_finite], healthy_mask[is_finite], restarts, generator
         )
         return least_errors, nearest
 
@@ -400,24 +294,23 @@ class ClosedLoopSimulator:
         return split_errors(self.law, self._error_search.compute_errors(q, target), self.law.arm.forward_kinematics(q), target)
 
     def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
-        """Simulate run k again up to a time, s or cycles; return the start times (S,) of its steps, and its motion: (T,) -> (T,
-        n).
-        """
+        """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps and its motion, (T,) -> (T, n)."""
         history: list[tuple[FloatArray, FloatArray]] = []
+        time_scale = self._phases.time_scale
 
         def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
             parts = self._stepper.layout.view_parts(states)
             for _ in range(MAX_STEPS):
                 history.append((states[0].copy(), parameters[0].copy()))  # the next phase writes into both
-                if parts["code"][0, 0] != STATE_RUNNING or parts["time"][0, 0] > end * self._time_scale:
+                if parts["code"][0, 0] != STATE_RUNNING or parts["time"][0, 0] > end * time_scale:
                     break
-                states = self._advance_step(states, parameters)
+                states = self._phases.advance_step(states, parameters)
                 parts = self._stepper.layout.view_parts(states)
             return states, np.array([parts["code"][0, 0] != STATE_RUNNING])
 
-        target_values = self._system.target_values(self._target_poses(runs)[run][None])
-        self._run_phases(
-            np.atleast_2d(runs.q0)[run : run + 1], target_values, runs.held_from[run : run + 1], runs._settings, advance
+        run_parameters = self._phases.make_parameters(self._target_poses(runs)[run][None], runs._settings)
+        self._phases.run(
+            np.atleast_2d(runs.q0)[run : run + 1], run_parameters, runs.held_from[run : run + 1], runs._settings, advance
         )
         states, parameters = (np.array(values) for values in zip(*history, strict=True))
         parts = self._stepper.layout.view_parts(states)
@@ -429,26 +322,13 @@ class ClosedLoopSimulator:
 
         def interpolate(time: FloatArray) -> FloatArray:
             # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
-            step_index = np.searchsorted(parts["time"][:, 0], time * self._time_scale, side="right") - 1
+            step_index = np.searchsorted(parts["time"][:, 0], time * time_scale, side="right") - 1
             step_parameters = parameters[step_index]
-            step_parameters[:, -3], step_parameters[:, -1] = time * self._time_scale, 1.0
-            return self._stepper.layout.view_parts(self._advance_step(states[step_index], step_parameters))["q"]
+            parameter_parts = self._stepper.parameters.view_parts(step_parameters)
+            parameter_parts["until"][:, 0], parameter_parts["accuracy"][:] = time * time_scale, 1.0
+            return self._stepper.layout.view_parts(self._phases.advance_step(states[step_index], step_parameters))["q"]
 
-        return parts["time"][:, 0] / self._time_scale, interpolate
-
-    def _advance_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
-        """Return the states after one step."""
-        for _ in range(self._stepper.calls_per_step):
-            states = self._call_step(states, parameters)
-        return states
-
-    def _call_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
-        """Return the states after one call of the step, with the compiled step of the loop where the loop takes
-        single steps.
-        """
-        loop = self._stepper.loop
-        single = loop.step if loop.times == 1 else self._stepper.single_step
-        return single.rows(states, *self._split_parameters(parameters))[:, : self._stepper.layout.size]
+        return parts["time"][:, 0] / time_scale, interpolate
 
 
 @lru_cache(maxsize=16)

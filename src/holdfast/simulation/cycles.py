@@ -20,8 +20,9 @@ from holdfast.simulation.system import (
     STATE_PHASE_END,
     STATE_RUNNING,
     STATE_TIME_LIMIT,
+    ColumnLayout,
     FailedArmSystem,
-    StateLayout,
+    ParameterLayout,
     choose_parts,
     elementwise_max,
     elementwise_min,
@@ -42,7 +43,8 @@ class CycleStepper:
     (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the end effector was ``still``; and, as for
     :class:`holdfast.simulation.runge_kutta.RungeKuttaStepper`, path, closest approach, joint excursions, speeds and code.
 
-    Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``radius`` of the target.
+    Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``accuracy``, which is the radius of
+    the target.
     """
 
     calls_per_step = 1  # of single in a step
@@ -56,17 +58,17 @@ class CycleStepper:
             REST_TRAVEL_LENGTHS * law.arm.length_unit if law.speed_limit is None else REST_TRAVEL_FRACTION * law.speed_limit
         )
         self._until, self._limit, self._radius = (ca.SX.sym(name) for name in ("until", "limit", "radius"))
-        self.parameters = [*system.inputs, self._until, self._limit, self._radius]
+        self.parameters = ParameterLayout(**system.inputs, until=self._until, limit=self._limit, accuracy=self._radius)
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)
         end_parts = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
-        self.layout = StateLayout(q=n, substep=1, command=m, place=3, **scalars, **end_parts)
+        self.layout = ColumnLayout(q=n, substep=1, command=m, place=3, **scalars, **end_parts)
         self.made_of = system
 
     @cached_property
     @cached_kernel
     def loop(self) -> Loop:
         """Loop that repeats the sub-steps."""
-        return make_state_loop("control cycles", self._build_substep, self.layout, self.parameters, SUBSTEPS_PER_CYCLE)
+        return make_state_loop("control cycles", self._build_substep, self.layout, self.parameters.symbols, SUBSTEPS_PER_CYCLE)
 
     @cached_property
     @cached_kernel
@@ -75,7 +77,7 @@ class CycleStepper:
         symbol = ca.SX.sym("state", self.layout.size)
         return Kernel(
             "one step",
-            [symbol, *self.parameters],
+            [symbol, *self.parameters.symbols],
             [self.layout.join_parts(self._build_substep(self.layout.split_symbol(symbol)))],
         )
 

@@ -50,12 +50,11 @@ def detect_periodic(
 def _detect_periodic_group(
     stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
 ) -> NDArray[np.bool_]:
-    layout = stepper.layout
     states, unlimited_parameters = states.copy(), parameters.copy()
-    state_parts = layout.view_parts(states)
+    state_parts, limits = stepper.layout.view_parts(states), stepper.parameters.view_parts(unlimited_parameters)
     state_parts["code"][:] = STATE_RUNNING
-    horizon = np.maximum(parameters[:, -2] - state_parts["clock"][:, 0], DRIFT_HORIZON)
-    unlimited_parameters[:, -3:-1] = LARGE_NUMBER
+    horizon = np.maximum(limits["limit"] - state_parts["clock"], DRIFT_HORIZON)[:, 0]
+    limits["until"][:] = limits["limit"][:] = LARGE_NUMBER
     is_periodic, active = np.zeros(len(states), dtype=bool), np.arange(len(states))
     for _ in range(_MAX_STRETCHES):
         trajectory = np.stack(_record_steps(stepper, states[active], unlimited_parameters[active]))
@@ -129,7 +128,7 @@ def _find_return(
         if not speed_along > 0:
             return np.inf, np.inf
         time = max(time - float(displacement @ direction) / speed_along, earliest)
-        parameters[0, -3] = time
+        stepper.parameters.view_parts(parameters)["until"][:] = time
         current = layout.view_parts(stepper.loop.run(earlier, parameters, 0.0, _MAX_CALLS).state)
     displacement = _wrap_angles(current["q"][0] - start_parts["q"][0], is_revolute)
     return float(current["clock"][0, 0] - start_parts["clock"][0, 0]), float(np.linalg.norm(displacement))

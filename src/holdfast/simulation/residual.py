@@ -70,16 +70,17 @@ class ErrorMinimiser:
         return self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
     def search(
-        self, q: FloatArray, parameters: FloatArray, restarts: int, generator: np.random.Generator
+        self, q: FloatArray, poses: FloatArray, healthy_mask: FloatArray, restarts: int, generator: np.random.Generator
     ) -> tuple[FloatArray, FloatArray]:
-        """Find the least norms of the error (N,) from q (N, n) and from random values of the healthy joints.
+        """Find the least norms of the error (N,) at poses (N, 4, 4) from q (N, n) and from random values of the healthy joints,
+        whose mask (N, n) is 1.
 
         Returns:
             The norms, and (N, n) configurations that have them.
         """
         run_count, n = q.shape
-        position, rotation, healthy_mask = parameters[:, :3], parameters[:, 3:12].reshape(run_count, 3, 3), parameters[:, 12:]
-        least_errors, nearest = self._error_kernel.rows(q, position, rotation)[:, 0], q.copy()
+        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), healthy_mask], axis=1)
+        least_errors, nearest = self.compute_errors(q, poses), q.copy()
         lower, upper = finite_limits(self._arm)
         for restart in track("starts of each run", range(restarts + 1)):
             start = q if restart == 0 else np.where(healthy_mask > 0, generator.uniform(lower, upper, (run_count, n)), q)
@@ -89,7 +90,7 @@ class ErrorMinimiser:
                 _GRADIENT_TOLERANCE,
                 _MAX_DESCENT_STEPS,
             )
-            errors = self._error_kernel.rows(solutions.state[:, :n], position, rotation)[:, 0]
+            errors = self.compute_errors(solutions.state[:, :n], poses)
             is_better = errors < least_errors
             least_errors[is_better], nearest[is_better] = errors[is_better], solutions.state[is_better, :n]
         return least_errors, nearest

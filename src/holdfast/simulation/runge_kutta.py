@@ -26,8 +26,9 @@ from holdfast.simulation.system import (
     STATE_PHASE_END,
     STATE_RUNNING,
     STATE_TIME_LIMIT,
+    ColumnLayout,
     FailedArmSystem,
-    StateLayout,
+    ParameterLayout,
     StateRates,
     choose_parts,
     elementwise_max,
@@ -60,21 +61,21 @@ class RungeKuttaStepper:
     joint values ``low`` and ``high``; the speeds ``slowest``, ``early`` and ``late`` of the end; and its ``code``.
 
     Parameters of a row, after those of the system: ``until``, the time at which the phase ends; the ``limit`` of the clock;
-    the ``tolerance`` of a step, rad (and m).
+    the ``accuracy`` of a step, rad (and m).
     """
 
     def __init__(self, system: FailedArmSystem, tableau: Tableau) -> None:
         self.system, self.tableau = system, tableau
         n, stages = system.law.arm.n, len(tableau.rows)
         self._until, self._limit, self._tolerance = (ca.SX.sym(name) for name in ("until", "limit", "tolerance"))
-        self.parameters = [*system.inputs, self._until, self._limit, self._tolerance]
+        self.parameters = ParameterLayout(**system.inputs, until=self._until, limit=self._limit, accuracy=self._tolerance)
         self.made_of = system, tableau
         stage_parts = {"stage": 1, "k": n * (stages - 1), "hands": stages - 1, "shares": stages - 1}
         scalars = dict.fromkeys(("hand", "share", "error", "slope", "h", "time", "clock", "path", "closest"), 1)
         end_parts = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
         self._layouts = (
-            StateLayout(q=n, rates=n, **scalars, **end_parts),
-            StateLayout(q=n, rates=n, **scalars, **end_parts, **stage_parts),
+            ColumnLayout(q=n, rates=n, **scalars, **end_parts),
+            ColumnLayout(q=n, rates=n, **scalars, **end_parts, **stage_parts),
         )
 
     @cached_property
@@ -88,7 +89,7 @@ class RungeKuttaStepper:
             is_staged = (
                 int(
                     ca.Function(
-                        "rates", [system.q, *system.inputs], [system.evaluate(system.q).rates], {"cse": True}
+                        "rates", [system.q, *system.inputs.values()], [system.evaluate(system.q).rates], {"cse": True}
                     ).n_instructions()
                 )
                 > _STAGED_OPERATIONS
@@ -98,7 +99,7 @@ class RungeKuttaStepper:
             max_steps = 1
         next_state = self._build_stage if is_staged else self._build_step
         return make_state_loop(
-            f"closed loop, {self.tableau.name}", next_state, self._layouts[is_staged], self.parameters, max_steps
+            f"closed loop, {self.tableau.name}", next_state, self._layouts[is_staged], self.parameters.symbols, max_steps
         )
 
     @property
@@ -107,7 +108,7 @@ class RungeKuttaStepper:
         return self.loop.size == self._layouts[1].size
 
     @property
-    def layout(self) -> StateLayout:
+    def layout(self) -> ColumnLayout:
         """Layout of a state."""
         return self._layouts[self.is_staged]
 
@@ -122,7 +123,7 @@ class RungeKuttaStepper:
         """Kernel of one step of a state, or of one stage of it, for callers that need every one."""
         symbol = ca.SX.sym("state", self.layout.size)
         next_parts = (self._build_stage if self.is_staged else self._build_step)(self.layout.split_symbol(symbol))
-        return Kernel("one step", [symbol, *self.parameters], [self.layout.join_parts(next_parts)])
+        return Kernel("one step", [symbol, *self.parameters.symbols], [self.layout.join_parts(next_parts)])
 
     def _build_step(self, parts: dict[str, SX]) -> dict[str, SX]:
         h = elementwise_min(parts["h"], self._until - parts["time"])

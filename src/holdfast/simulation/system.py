@@ -59,14 +59,15 @@ class FailedArmSystem:
         self._uses_orientation = law.task.angular or law.task.frame != "base"
         self.made_of = law
         # What the motion needs to know: no orientation where no row of the task has one.
-        self.inputs = self.parameters if self._uses_orientation else [self.target, self.mask]
+        rotation = {"rotation": self.rotation} if self._uses_orientation else {}
+        self.inputs = {"target": self.target, **rotation, "mask": self.mask}
 
-    def target_values(self, target: FloatArray) -> FloatArray:
-        """Return targets, poses (N, 4, 4) or task components (N, m), as the values of ``inputs`` before the mask, (N, ...)."""
+    def target_values(self, target: FloatArray) -> dict[str, FloatArray]:
+        """Return targets, poses (N, 4, 4) or task components (N, m), as the values of ``inputs``, (N, ...), but the mask."""
         if target.ndim == 2:
-            return np.asarray(target @ self.law.task.rows[:, :3])
-        positions = target[:, :3, 3]
-        return np.concatenate([positions, target[:, :3, :3].reshape(-1, 9)], axis=1) if self._uses_orientation else positions
+            return {"target": np.asarray(target @ self.law.task.rows[:, :3])}
+        rotation = {"rotation": target[:, :3, :3].reshape(-1, 9)} if self._uses_orientation else {}
+        return {"target": target[:, :3, 3], **rotation}
 
     def compute_error(self, q: SX) -> tuple[SX, SX]:
         """Return the error (m,) of the task's components, m and rad, and its Jacobian (m, n)."""
@@ -111,11 +112,11 @@ class FailedArmSystem:
             ca.sumsqr(error),
             -2 * ca.dot(error, jacobian @ rates),
         ]
-        return ca.Function("at", [q, *self.inputs], outputs, {"cse": True})
+        return ca.Function("at", [q, *self.inputs.values()], outputs, {"cse": True})
 
     def evaluate(self, q: SX) -> StateRates:
         """Evaluate the rates at a configuration q (n,)."""
-        return StateRates(*self.rates_function(q, *self.inputs))
+        return StateRates(*self.rates_function(q, *self.inputs.values()))
 
 
 def prescribed_offset(law: Law, tool: FloatArray, target: FloatArray) -> FloatArray:
@@ -169,8 +170,8 @@ def to_state_parts(state_rates: StateRates) -> dict[str, SX]:
     }
 
 
-class StateLayout:
-    """Layout of named scalars and vectors, one after the other, in the state of a loop."""
+class ColumnLayout:
+    """Layout of named scalars and vectors, one after the other, in rows such as the states of a loop."""
 
     def __init__(self, **sizes: int) -> None:
         self.slices: dict[str, slice] = {}
@@ -191,6 +192,34 @@ class StateLayout:
     def join_parts(self, parts: dict[str, SX]) -> SX:
         """Return a state from its parts."""
         return ca.vertcat(*[parts[name] for name in self.slices])
+
+
+class ParameterLayout(ColumnLayout):
+    """Layout of the parameters of a loop in rows; a matrix lies there row by row.
+
+    Attributes:
+        symbols: Symbols of the parameters, in the order of their columns.
+    """
+
+    def __init__(self, **symbols: SX) -> None:
+        super().__init__(**{name: symbol.numel() for name, symbol in symbols.items()})
+        self.symbols = list(symbols.values())
+
+    def make_rows(self, count: int, **values: FloatArray | float) -> FloatArray:
+        """Return rows (count, p) with these values; the columns of all other parameters are still to be set."""
+        rows = np.empty((count, self.size))
+        parts = self.view_parts(rows)
+        for name, value in values.items():
+            parts[name][:] = value
+        return rows
+
+    def split_inputs(self, rows: FloatArray) -> dict[str, FloatArray]:
+        """Return the parameters of rows (N, p) by name as inputs of a kernel: vectors (N, size) and matrices (N, r, c)."""
+        shapes = [symbol.shape for symbol in self.symbols]
+        return {
+            name: part.reshape(-1, *shape) if shape[1] > 1 else part
+            for (name, part), shape in zip(self.view_parts(rows).items(), shapes, strict=True)
+        }
 
 
 def elementwise_min(a: SX, b: SX) -> SX:
@@ -245,7 +274,7 @@ def update_end_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> 
 
 
 def make_state_loop(
-    name: str, step: Callable[[dict[str, SX]], dict[str, SX]], state: StateLayout, parameters: Sequence[SX], max_steps: int
+    name: str, step: Callable[[dict[str, SX]], dict[str, SX]], state: ColumnLayout, parameters: Sequence[SX], max_steps: int
 ) -> Loop:
     """Return a loop that repeats a step until the state has a code; cheap steps are taken several at a time.
 
