@@ -251,13 +251,13 @@ class _SimulatedRobot:
         return {
             "time": np.arange(len(q)) * self.dt,
             "q": q,
-            "told": q_measured,
+            "q_measured": q_measured,
             "reference": reference,
             "torque": torque,
             "x": poses[:, :3, 3],
             "quat": quat,
-            "miss": errors[:, 0],
-            "turn": errors[:, 1],
+            "position_error": errors[:, 0],
+            "orientation_error": errors[:, 1],
         }
 
 
