@@ -41,7 +41,7 @@ def test_the_next_joint_is_judged_by_least_squares(panda, decision, rng):
         if second - first > 28:
             break
     assert k > 1
-    found = decision.verdict(last=True)
+    found = decision.current_verdict(last=True)
     assert found.joint == panda.joint_names[3] == panda.joint_names[left.argmin()]
     assert f"worse by {second - first:.3g} squared deviations" in found.evidence[1]
 
@@ -50,7 +50,7 @@ def test_a_record_that_ends_with_its_alarm_names_the_joint_with_the_largest_resi
     still, tracking = np.zeros(7), np.array([0.1, 0.2, 0.3, 0.2, 1.4, 0.3, 0.2])
     decision._sensor_suspected = False
     for _ in range(3):
-        decision.add(still, still, (still, still, still, still), still, tracking)
+        decision.add_cycle(still, still, (still, still, still, still), still, tracking)
     assert decision.current_verdict(last=True).joint == panda.joint_names[4]
     assert decision.current_verdict().joint is None
 

@@ -22,9 +22,9 @@ class Robot:
 
     def __init__(self, react="chain", rates=0.1, plan=False):
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
-        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
-        law.ahead, law.arm = lambda q, most: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
-        law.whole, law.clearance, law.clear = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
+        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), position_error=1.0, orientation_error=0.0, pose=None)
+        law.predict_time_to_target, law.arm = lambda q, max_speeds: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
+        law.whole, law.clearance, law.is_collision_free = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
         self.controller = Controller(law, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 
     def brake(self, joint):
@@ -152,8 +152,8 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
 
 
 def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
-    route = SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, most: "no route" if args[3].locked else route)
+    route = SimpleNamespace(waypoints=2, duration=1.0, is_finished=False, rates=lambda q, pace, dt: np.zeros(7))
+    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, max_speeds: "no route" if args[3].locked else route)
     robot = Robot(rates=0.0, plan=True)
     robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
     for time in (3.0, 3.1):
@@ -176,7 +176,7 @@ def test_what_is_left_of_the_law_is_left_before_something_is_near():
     robot = Robot(rates=0.3)
     law, asked = robot.controller.law, []
     law.clearance = SimpleNamespace(others="the cell")
-    law.predict_time_to_target = lambda q, most: np.full(
+    law.predict_time_to_target = lambda q, max_speeds: np.full(
         len(q), 0.0 if len(q) == 1 else np.inf
     )  # it would end well; no posture does
     law.is_collision_free = lambda q: asked.append(q) or bool(q.max() < 0.105)
@@ -198,11 +198,11 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
     """At a stop, or slow, a joint looks as one that drives nothing."""
     asked, q, arm = [], np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), hf.arms.load("panda")
 
-    def some(law, q, target, left, most):
+    def some(law, q, target, left, max_speeds):
         asked.append(left)
         if left.locked or (left.ranges[JOINTS[1]][1] < arm.upper[1] and not at_a_stop):
             return "no route"
-        return SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
+        return SimpleNamespace(waypoints=2, duration=1.0, is_finished=False, rates=lambda q, pace, dt: np.zeros(7))
 
     monkeypatch.setattr("holdfast.reaction.controller.plan_route", some)
     robot = Robot(rates=0.0, plan=True)

@@ -87,7 +87,7 @@ class Driven:
         if pose is not None:
             self.ours.on_tool_pose(self.time, told, pose)
         verdict = self.monitor.step(q, self.reference, effort, pose=pose)
-        signals = {"v": self.monitor._filtered_rates, "wanted": before, "gravity": self.monitor._gravity_torque}
+        signals = {"v": self.monitor._filtered_rates, "commanded_rates": before, "gravity": self.monitor._gravity_torque}
         self.ours.on_verdict(self.time, verdict, tracking_error=self.reference - q, **signals)
         return self.rates
 

@@ -88,7 +88,7 @@ def next_steps(result: Observability | ProbingMotion | Identification, name: str
     if isinstance(result, Identification):
         return [f"{name}.remaining"]
     if isinstance(result, ProbingMotion):
-        return [f"{name}.plot()", f"{name}.to_csv('probe.csv')", f"{name}.at(1000.0)"]
+        return [f"{name}.plot()", f"{name}.to_csv('probe.csv')", f"{name}.resample(1000.0)"]
     return [f"{name}.plot()", f"{name}.unseen"]
 
 
