@@ -22,8 +22,13 @@ class Robot:
 
     def __init__(self, react="chain", rates=0.1, plan=False):
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
-        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), position_error=1.0, orientation_error=0.0, pose=None)
-        law.predict_time_to_target, law.arm = lambda q, max_speeds: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
+        law = SimpleNamespace(
+            mask=np.ones(7), rates=lambda q: np.full(7, rates), position_error=1.0, orientation_error=0.0, pose=None
+        )
+        law.predict_time_to_target, law.arm = (
+            lambda q, max_speeds: np.full(len(q), np.inf),
+            arm,
+        )  # it ends elsewhere, wherever it begins
         law.whole, law.clearance, law.is_collision_free = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
         self.controller = Controller(law, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 
@@ -153,7 +158,9 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
 
 def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
     route = SimpleNamespace(waypoints=2, duration=1.0, is_finished=False, rates=lambda q, pace, dt: np.zeros(7))
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, max_speeds: "no route" if args[3].locked else route)
+    monkeypatch.setattr(
+        "holdfast.reaction.replanning.plan_route", lambda *args, max_speeds: "no route" if args[3].locked else route
+    )
     robot = Robot(rates=0.0, plan=True)
     robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
     for time in (3.0, 3.1):
@@ -204,7 +211,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
             return "no route"
         return SimpleNamespace(waypoints=2, duration=1.0, is_finished=False, rates=lambda q, pace, dt: np.zeros(7))
 
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", some)
+    monkeypatch.setattr("holdfast.reaction.replanning.plan_route", some)
     robot = Robot(rates=0.0, plan=True)
     for time in (1.0, 1.2):
         robot.hear(time, kind="limp", v=0.05, wanted=0.1)
@@ -228,7 +235,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
 
 
 def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, **options: "no route")
+    monkeypatch.setattr("holdfast.reaction.replanning.plan_route", lambda *args, **options: "no route")
     robot = Robot(react="known", rates=0.0, plan=True)
     robot.controller.on_known_fault(1.0, "sensor_freeze", JOINTS[1], 0.3)
     robot.controller.rates(3.0, np.zeros(7))

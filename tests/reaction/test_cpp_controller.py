@@ -94,7 +94,7 @@ class Driven:
     @property
     def expected(self):
         """Mode and joint by Python."""
-        out = self.ours._braked
+        out = -1 if self.ours.condition.last_braked is None else self.ours.condition.last_braked
         mode = "stopped" if self.ours.over else "degraded" if out >= 0 else "slowed" if self.ours.pace < 1 else "running"
         return mode, out
 

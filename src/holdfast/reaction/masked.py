@@ -30,10 +30,11 @@ PREDICTION_STEP_S = 0.05
 
 @cached_kernel
 def make_masked_kernel(law: Law) -> Kernel:
-    """Compile ``(q, p, R, mask, pull) -> rates, miss, turn``: joint rates (n,) of the law without the columns of masked joints.
+    """Compile ``(q, p, R, mask, pull) -> rates, position_error, orientation_error`` of the law without the masked joints.
 
-    ``pull`` (n,) are rates that an objective would like; what of them moves no row of the task is added. ``miss`` and
-    ``turn`` are the norms of the error's linear part, m, and of its angular part, rad.
+    ``rates`` (n,) are the joint rates of the law without the Jacobian columns of masked joints. ``pull`` (n,) are the rates
+    that a secondary objective requests; their part in the null space of the task is added. The errors are the norms of the
+    linear part in m and of the angular part in rad.
     """
     arm, task = law.arm, law.task
     q, mask, pull = kinematics.joint_symbols(arm), ca.SX.sym("mask", arm.n), ca.SX.sym("pull", arm.n)
@@ -45,6 +46,24 @@ def make_masked_kernel(law: Law) -> Kernel:
     )
     parts = [ca.norm_2(ca.SX(ca.DM(task.rows[:, rows].T)) @ error) for rows in (slice(0, 3), slice(3, 6))]
     return Kernel("law with a mask", [q, position, rotation, mask, pull], [ca.vertcat(rates, *parts)])
+
+
+class _InputColumns:
+    """Columns of an input row of the masked kernel, for n joints."""
+
+    def __init__(self, n: int) -> None:
+        widths = {"q": n, "position": 3, "rotation": 9, "mask": n, "pull": n}
+        ends = np.cumsum(list(widths.values()))
+        starts = ends - list(widths.values())
+        self.q, self.position, self.rotation, self.mask, self.pull = map(slice, starts, ends)
+        self.width = int(ends[-1])
+
+
+class _OutputColumns:
+    """Columns of an output row of the masked kernel, for n joints."""
+
+    def __init__(self, n: int) -> None:
+        self.rates, self.position_error, self.orientation_error = slice(n), n, n + 1
 
 
 class MaskedLaw:
@@ -78,25 +97,30 @@ class MaskedLaw:
         self.mask, self.position_error, self.orientation_error = np.ones(n), np.inf, np.inf
         bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
         self._middle = np.mean(finite_limits(arm), axis=0)
-        self._pull, self._n, self._rows = np.where(bounded, centring, 0.0), n, law.task.m
+        self._pull, self._rows = np.where(bounded, centring, 0.0), law.task.m
         self._lower, self._upper = arm.lower + LIMIT_TOLERANCE, arm.upper - LIMIT_TOLERANCE
         self._kernel, self._gain = make_masked_kernel(law), law.gain
         self._run = self._kernel.single_row()
-        self._row = np.concatenate([np.zeros(n), self.pose[:3, 3], self.pose[:3, :3].ravel(), np.ones(n), np.zeros(n)])
+        self._inputs, self._outputs = _InputColumns(n), _OutputColumns(n)
+        self._row = np.zeros(self._inputs.width)
+        self._row[self._inputs.position] = self.pose[:3, 3]
+        self._row[self._inputs.rotation] = self.pose[:3, :3].ravel()
+        self._row[self._inputs.mask] = 1.0
 
     def rates(self, q: FloatArray, *, mask: FloatArray | None = None) -> FloatArray:
         """Return commanded rates (n,) at a configuration (n,), rad/s and m/s; a joint at its limit is not commanded
         beyond it.
         """
-        n, row = self._n, self._row
+        row, inputs, outputs = self._row, self._inputs, self._outputs
         free = self.mask if mask is None else mask
         # Where no redundancy is left nothing is open: damped, the pull would only hold the tool off its target.
         pull = self._pull * (self._middle - q) if free.sum() > self._rows else 0.0
-        row[:n], row[n + 12 : 2 * n + 12], row[2 * n + 12 :] = q, free, pull
-        outputs = self._run(row)
-        rates = outputs[:n].copy()
+        row[inputs.q], row[inputs.mask], row[inputs.pull] = q, free, pull
+        values = self._run(row)
+        rates = values[outputs.rates].copy()
         if mask is None:
-            self.position_error, self.orientation_error = float(outputs[n]), float(outputs[n + 1])
+            self.position_error = float(values[outputs.position_error])
+            self.orientation_error = float(values[outputs.orientation_error])
         passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
         if passing.any():
             rates = self.rates(q, mask=np.where(passing, 0.0, free))
@@ -104,9 +128,9 @@ class MaskedLaw:
 
     def target_errors(self, q: FloatArray) -> tuple[float, float]:
         """Return the position error in m and the orientation error in rad at a configuration (n,)."""
-        self._row[: self._n] = q
-        outputs = self._run(self._row)
-        return float(outputs[self._n]), float(outputs[self._n + 1])
+        self._row[self._inputs.q] = q
+        values = self._run(self._row)
+        return float(values[self._outputs.position_error]), float(values[self._outputs.orientation_error])
 
     def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return whether the arm keeps its clearance, (N,) for configurations (N, n), or a scalar for one configuration."""
@@ -140,10 +164,12 @@ class MaskedLaw:
     def _evaluate_batch(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return rates (N, n) as :meth:`rates` does, and the sum of position and orientation error (N,), m and rad."""
         free, position, rotation = np.tile(self.mask, (len(q), 1)), self.pose[:3, 3], self.pose[:3, :3]
+        outputs = self._outputs
         while True:
             pull = np.where(free.sum(axis=1, keepdims=True) > self._rows, self._pull * (self._middle - q), 0.0)
-            outputs = self._kernel.rows(q, position, rotation, free, pull)
-            rates, errors = outputs[:, : self._n], outputs[:, self._n] + outputs[:, self._n + 1]
+            values = self._kernel.rows(q, position, rotation, free, pull)
+            rates = values[:, outputs.rates]
+            errors = values[:, outputs.position_error] + values[:, outputs.orientation_error]
             passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
             if not passing.any():
                 return rates, errors
