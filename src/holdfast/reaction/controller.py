@@ -347,7 +347,7 @@ class Controller:
     # ---- replanning --------------------------------------------------------------------------------------------------
 
     def _replan(self, law: FollowingLaw, time: float, q: FloatArray) -> FloatArray:
-        """Plan the next motion and return rates of zero; without a plan the arm stops, or follows the law if it must not plan."""
+        """Plan the next motion and return rates of zero; without a plan the arm stops, or else follows the law to its end."""
         failures, clearance = self.degraded, self.law.clearance
         assert failures is not None
         reason = obstacle = "the law would not get there" + ("" if clearance is None else f" clear of {clearance.others}")
@@ -371,10 +371,7 @@ class Controller:
         return np.zeros(self.arm.n)
 
     def _plan_route(self, time: float, q: FloatArray, failures: Degraded) -> RouteFollower | str:
-        """Plan a route without the braked joints, else one for which the brake of the only braked joint is released.
-
-        A joint at a stop, or a slow joint, looks like a joint without torque, so a trial can succeed.
-        """
+        """Plan a route without the braked joints, else one with the braked joint: at a stop it seemed to be without torque."""
         route = plan_target_route(self.law, q, failures, max_speeds=self.condition.max_speeds)
         braked = [int(joint) for joint in np.flatnonzero(self.law.mask == 0)]
         has_trusted_joint = len(braked) == 1 and braked[0] not in self.condition.true_positions
