@@ -138,7 +138,7 @@ def test_a_joint_that_stays_unknown_stops_the_arm_and_so_does_any_alarm_without_
     robot = Robot()
     robot.hear(1.0, kind="sensor", joint=None)
     robot.hear(3.1, kind="sensor", joint=None)
-    assert (robot.did(), robot.controller.over) == (["alarm", "stop"], True)
+    assert (robot.did(), robot.controller.is_stopped) == (["alarm", "stop"], True)
     stopped = Robot(react="stop")
     stopped.hear(1.0)
     assert (stopped.did(), stopped.braked) == (["alarm", "stop"], [])
@@ -230,7 +230,7 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
             robot.hear(3.5 + 1e-3 * k, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
     else:
         robot.hear(3.6, alarm=False, behind=-8.1e-3)
-    assert (robot.did()[-2:], robot.controller.over, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)
+    assert (robot.did()[-2:], robot.controller.is_stopped, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)
     assert robot.braked == [JOINTS[1]] * 2
 
 

@@ -95,7 +95,7 @@ class Driven:
     def expected(self):
         """Mode and joint by Python."""
         out = -1 if self.ours.condition.last_braked is None else self.ours.condition.last_braked
-        mode = "stopped" if self.ours.over else "degraded" if out >= 0 else "slowed" if self.ours.pace < 1 else "running"
+        mode = "stopped" if self.ours.is_stopped else "degraded" if out >= 0 else "slowed" if self.ours.pace < 1 else "running"
         return mode, out
 
     def close(self):

@@ -32,15 +32,15 @@ def read_table(title):
 def test_the_documentation_shows_the_transitions_of_the_code():
     _, _, *rows = read_table("Transitions")
     transitions = [tuple(row) for row in rows if len(row) == 4]
-    assert transitions == [tuple(transition) for transition in states.TRANSITIONS]
+    assert transitions == [tuple(transition) for transition in states.TRANSITION_TABLE]
     documented_events = {row[0] for row in rows if len(row) == 3} - {"event"}
-    assert documented_events >= {transition.event for transition in states.TRANSITIONS}
+    assert documented_events >= {transition.event for transition in states.TRANSITION_TABLE}
 
 
 def test_the_documentation_shows_the_states_of_the_code():
     _, _, *rows = read_table("States")
     documented = {(machine, state) for machine, state, *_ in rows}
-    assert documented == {(t.machine, name) for t in states.TRANSITIONS for name in (t.source, t.target)}
+    assert documented == {(t.machine, name) for t in states.TRANSITION_TABLE for name in (t.source, t.target)}
     classes = states.MotionState.__args__ + states.SupervisionState.__args__ + states.TrialState.__args__
     assert sorted(name for _, name in documented) == sorted(state.__name__ for state in classes)
 
@@ -122,7 +122,7 @@ def run_random_events(seed):
     controller = Controller(law, bounds=BOUNDS, brakes=ignore, watch=ignore, react=react, plan=bool(rng.random() < 0.8))
     q, verdict = np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), FaultVerdict(False, 0.0)
     for cycle in range(1200):
-        if controller.over and react != "known":
+        if controller.is_stopped and react != "known":
             break
         time = CONTROL_PERIOD_S * cycle
         if react == "known" and rng.random() < 0.01:
@@ -144,4 +144,4 @@ def run_random_events(seed):
 def test_random_events_take_every_transition_of_the_table_and_no_other(taken):
     for seed in range(60):
         run_random_events(seed)
-    assert set(taken) == {tuple(transition) for transition in states.TRANSITIONS}
+    assert set(taken) == {tuple(transition) for transition in states.TRANSITION_TABLE}

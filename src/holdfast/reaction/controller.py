@@ -82,7 +82,7 @@ class Controller:
         return self._pace.target
 
     @property
-    def over(self) -> bool:
+    def is_stopped(self) -> bool:
         """True once the controller has given up."""
         return isinstance(self.supervision.state, Stopped)
 
@@ -141,7 +141,7 @@ class Controller:
 
     def _misses_target(self, motion: FollowingLaw, time: float, q: FloatArray, rates: FloatArray) -> bool:
         """Return whether the remaining control law fails to reach its target, by forward simulation or at its end."""
-        if self.over or self.law.mask.min() > 0:
+        if self.is_stopped or self.law.mask.min() > 0:
             return False
         commanded = self._cycle.rates
         stopping_distance = commanded * np.abs(commanded) / (2 * ACCELERATION_LIMIT)
@@ -180,7 +180,7 @@ class Controller:
             gravity: (n,) gravity torques, N m and N.
         """
         self._end_wait(time)
-        if self.over or isinstance(self.motion.state, Waiting):
+        if self.is_stopped or isinstance(self.motion.state, Waiting):
             return
 
         def motion_of(joint: int) -> JointMotion:

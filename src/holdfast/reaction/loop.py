@@ -294,7 +294,7 @@ def _run_cycles(
         q = controller.trusted_positions(q_measured)
         torque = robot.move(q, rates, law.mask)
         robot.record_cycle(true, q_measured, torque, pose, errors)
-        if monitor is not None and not controller.over:
+        if monitor is not None and not controller.is_stopped:
             verdict = monitor.step(q, robot.reference, torque, pose=pose)
             tracking_error = robot.reference - q
             controller.on_verdict(
@@ -307,5 +307,5 @@ def _run_cycles(
             return "reached"
         ends.idle = ends.idle + 1 if controller.is_idle(rates) and speed < 0.05 and time > last_onset else 0
         if ends.idle * dt > IDLE_END_S:
-            return "stopped" if controller.over else "missed"
-    return "stopped" if controller.over else "missed"
+            return "stopped" if controller.is_stopped else "missed"
+    return "stopped" if controller.is_stopped else "missed"

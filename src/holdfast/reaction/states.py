@@ -50,7 +50,7 @@ class FollowingLaw:
 
 @dataclass
 class Waiting:
-    """A joint was braked; the arm stands still until it has settled and enough tool poses are measured.
+    """A joint was braked; the arm is at rest until it has settled and enough tool poses are measured.
 
     Attributes:
         joint: Index of the braked joint.
@@ -179,7 +179,7 @@ class Transition(NamedTuple):
     target: str
 
 
-TRANSITIONS = (
+TRANSITION_TABLE = (
     Transition("motion", "FollowingLaw", "joint braked", "Waiting"),
     Transition("motion", "OnRoute", "joint braked", "Waiting"),
     Transition("motion", "Waiting", "arm settled", "FollowingLaw"),
@@ -203,7 +203,7 @@ State = TypeVar("State")
 
 
 class StateMachine(Generic[State]):
-    """State machine that takes only the transitions of :data:`TRANSITIONS`.
+    """State machine that takes only the transitions of :data:`TRANSITION_TABLE`.
 
     Args:
         machine: Name of the machine in the table.
@@ -223,6 +223,6 @@ class StateMachine(Generic[State]):
             HoldfastError: The table has no such transition.
         """
         transition = Transition(self.machine, type(self.state).__name__, event, type(state).__name__)
-        if transition not in TRANSITIONS:
-            raise HoldfastError(f"the controller has no transition {transition}; see holdfast.reaction.states.TRANSITIONS")
+        if transition not in TRANSITION_TABLE:
+            raise HoldfastError(f"the controller has no transition {transition}; see holdfast.reaction.states.TRANSITION_TABLE")
         self.state = state

@@ -6,7 +6,7 @@ EARLY_BRAKE_DELAY_S = 0.020  # after the alarm, a joint that does not move or ru
 NAMING_DEADLINE_S = 2.0  # after the alarm, the arm stops if the monitor has not named a joint
 VERDICT_DEADLINE_S = 0.6  # after the alarm, a verdict is final; before, further tool poses may change it
 
-STILL_SPEED = 0.02  # rad/s or m/s; a slower joint counts as standing still
+STILL_SPEED = 0.02  # rad/s or m/s; a slower joint counts as at rest
 MOVING_SPEED = 0.2  # rad/s or m/s; only a faster joint can count as running away
 RUNAWAY_SPEED_ERROR = 0.3  # rad/s or m/s between the measured and the commanded rate
 LAGGING_TRACKING_RATIO = 1.5  # tracking error divided by the monitor's bound
