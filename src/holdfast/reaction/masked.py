@@ -17,15 +17,12 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import task_error
 from holdfast.typing import FloatArray
 
-LIMIT_TOLERANCE = 2e-3  # rad or m: a joint so near to its limit is at it, whatever the noise
-# MIN_PROGRESS and PROGRESS_TIMEOUT_S: m and rad, s: a law that does not bring the tool so much nearer in this time is at its
-# end
-MIN_PROGRESS = 1e-3
-PROGRESS_TIMEOUT_S = 1.5
-TARGET_TOLERANCE = 2e-3  # m and rad: a law that would come so near to its target reaches it
-# PREDICTION_HORIZON_S and PREDICTION_STEP_S: s: how far ahead a law is followed, and in which steps
-PREDICTION_HORIZON_S = 12.0
-PREDICTION_STEP_S = 0.05
+LIMIT_TOLERANCE = 2e-3  # rad or m; a joint nearer to its limit is at the limit, because sensors have noise
+MIN_PROGRESS = 1e-3  # m and rad; a smaller decrease of the error is no progress
+PROGRESS_TIMEOUT_S = 1.5  # a law without progress for this time has come to its end
+TARGET_TOLERANCE = 2e-3  # m and rad; a law whose predicted error is smaller reaches its target
+PREDICTION_HORIZON_S = 12.0  # forward simulation of a law
+PREDICTION_STEP_S = 0.05  # time step of the forward simulation
 
 
 @cached_kernel
@@ -70,25 +67,26 @@ class MaskedLaw:
     """Control law that computes one step after the other towards a target without the masked joints.
 
     Args:
-        law: The law.
+        law: Control law of all joints.
         target: (4, 4) pose, or the task's rows (m,), m.
-        centring: 1/s, at which joints with two limits are drawn to their middle as far as the task leaves it open.
-        clearance: What the arm keeps clear of where the law is followed ahead; None: of nothing.
+        centring: Rate in 1/s at which joints with two limits are drawn to their middle, in the null space of the task.
+        clearance: Clearance that the arm must keep in the forward simulation of the law; None without one.
 
     Attributes:
-        whole: The law, of all joints.
-        arm: The law's.
-        clearance: As given.
-        pose: (4, 4) of the target.
+        whole: Control law of all joints.
+        arm: Arm of the law.
+        clearance: The clearance.
+        pose: (4, 4) target pose.
         mask: (n,) 1 for joints that follow, 0 for the others.
-        position_error, orientation_error: Of the last step: how far the tool was from its target, m and rad.
+        position_error: Distance of the tool from its target in the last step, m.
+        orientation_error: Angle between the tool and its target in the last step, rad.
     """
 
     def __init__(self, law: Law, target: ArrayLike, *, centring: float, clearance: Clearance | None = None) -> None:
         poses, rows = target_poses(law.task, target)
         self.arm, arm, n = law.arm, law.arm, law.arm.n
         self.whole, self.clearance = law, clearance
-        self._apart = with_exact_distances(clearance) or clearance  # routes are proved by it where the bound finds none
+        self._apart = with_exact_distances(clearance) or clearance  # routes are proved with exact distances too
         self.pose = np.eye(4)
         if rows is None:
             self.pose = np.asarray(poses[0])
@@ -113,7 +111,7 @@ class MaskedLaw:
         """
         row, inputs, outputs = self._row, self._inputs, self._outputs
         free = self.mask if mask is None else mask
-        # Where no redundancy is left nothing is open: damped, the pull would only hold the tool off its target.
+        # Without redundancy there is no null space, and a damped law with the pull would miss its target.
         pull = self._pull * (self._middle - q) if free.sum() > self._rows else 0.0
         row[inputs.q], row[inputs.mask], row[inputs.pull] = q, free, pull
         values = self._run(row)
@@ -140,8 +138,8 @@ class MaskedLaw:
         """Return the times (N,) in s at which the law would reach its target from configurations (N, n); infinite where it
         would not.
 
-        Joints are taken to follow at once, at rates (n,) of at most ``max_speeds``, rad/s and m/s. Infinite also where the arm
-        comes too close to something at one of the instants, at most 50 ms apart, that are looked at.
+        Joints are assumed to follow at once, at rates (n,) of at most ``max_speeds``, rad/s and m/s. A time is also infinite if
+        the arm violates its clearance in one of the steps, which are at most 50 ms long.
         """
         step = min(PREDICTION_STEP_S, 0.2 / self._gain)
         q, active, durations = q.copy(), np.arange(len(q)), np.full(len(q), np.inf)
