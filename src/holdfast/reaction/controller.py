@@ -371,7 +371,7 @@ class Controller:
         return np.zeros(self.arm.n)
 
     def _plan_route(self, time: float, q: FloatArray, failures: Degraded) -> RouteFollower | str:
-        """Plan a route without the braked joints, else one with the braked joint: at a stop it seemed to be without torque."""
+        """Plan a route without the braked joints, else one with the braked joint, which may only have met a stop."""
         route = plan_target_route(self.law, q, failures, max_speeds=self.condition.max_speeds)
         braked = [int(joint) for joint in np.flatnonzero(self.law.mask == 0)]
         has_trusted_joint = len(braked) == 1 and braked[0] not in self.condition.true_positions
