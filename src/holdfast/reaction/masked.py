@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import accumulate, pairwise
+
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -49,11 +51,9 @@ class _InputColumns:
     """Columns of an input row of the masked kernel, for n joints."""
 
     def __init__(self, n: int) -> None:
-        widths = {"q": n, "position": 3, "rotation": 9, "mask": n, "pull": n}
-        ends = np.cumsum(list(widths.values()))
-        starts = ends - list(widths.values())
-        self.q, self.position, self.rotation, self.mask, self.pull = map(slice, starts, ends)
-        self.width = int(ends[-1])
+        edges = [0, *accumulate((n, 3, 9, n, n))]
+        self.q, self.position, self.rotation, self.mask, self.pull = (slice(*ends) for ends in pairwise(edges))
+        self.width = edges[-1]
 
 
 class _OutputColumns:
