@@ -61,7 +61,7 @@ def test_a_masked_law_is_that_of_the_columns_left(law, rng):
 def test_a_locked_joint_is_named_braked_and_left_out(law, monitor):
     fault = FaultEvent("locked", "panda_joint4", 0.5)
     blind, chain = run(law, fault), run(law, fault, monitor=monitor)
-    assert (blind.actions, blind.noticed) == ((), np.inf)
+    assert (blind.actions, blind.detection_time) == ((), np.inf)
     assert [v.joint for v in chain.require_ok().verdicts] == ["panda_joint4"]
     assert 0 < chain.delay < 0.1
     brake = next(a for a in chain.actions if a.what == "brake")
@@ -71,7 +71,7 @@ def test_a_locked_joint_is_named_braked_and_left_out(law, monitor):
     true = np.linalg.norm(chain.poses[-200:, :3, 3] - GOAL, axis=1)
     assert (true < 5.1e-3).all()
     again = run(law, fault, monitor=monitor)
-    assert chain.told.tobytes() == again.told.tobytes()
+    assert chain.q_measured.tobytes() == again.q_measured.tobytes()
 
 
 def test_a_weak_joint_goes_on_slowly_and_a_frozen_sensor_is_measured_by_the_tool(law, monitor):
@@ -100,7 +100,7 @@ def test_where_the_law_would_end_off_its_target_it_goes_by_another_posture_or_al
     options = {"faults": [FaultEvent("locked", "panda_joint3", 0.3)], "body": BODY, "react": "known"}
     detour = hf.simulate_faults(law, start, goal, plan=False, **options).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
-    monkeypatch.setattr("holdfast.reaction.controller.better_posture", lambda *args, **given: None)
+    monkeypatch.setattr("holdfast.reaction.replanning.choose_posture", lambda *args, **given: None)
     alone = hf.simulate_faults(law, start, goal, plan=False, **options)
     assert (alone.outcome, [a.what for a in alone.actions]) == ("missed", ["alarm", "brake"])
     assert alone.position_error[-1] > 0.02
@@ -124,7 +124,7 @@ def test_after_a_brake_the_arm_keeps_clear_of_a_cell(law, ball, monkeypatch):
     detour = run(law, LOCKED, react="known", cell=ball, plan=False).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
     assert "the law would not get there clear of the cell" in detour.actions[-1].why
-    monkeypatch.setattr("holdfast.reaction.controller.better_posture", lambda *args, **given: None)
+    monkeypatch.setattr("holdfast.reaction.replanning.choose_posture", lambda *args, **given: None)
     route, stopped = (run(law, LOCKED, react="known", cell=ball, plan=plan) for plan in (True, False))
     assert [a.what for a in route.require_ok().actions] == ["alarm", "brake", "plan"]
     assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no other posture helps")
@@ -193,7 +193,7 @@ def test_a_healthy_run_as_a_record_is_its_own_measurement(law):
     log, seen = healthy.log(), np.isfinite(healthy.x[:, 0])
     assert (healthy.delay, seen[:21].nonzero()[0].tolist()) == (np.inf, [0, 10, 20])
     assert np.abs(log.x[seen] - healthy.poses[seen, :3, 3]).max() < 6 * BODY.position
-    assert np.std(healthy.told - healthy.q) == pytest.approx(BODY.joint, rel=0.05)
+    assert np.std(healthy.q_measured - healthy.q) == pytest.approx(BODY.joint, rel=0.05)
 
 
 @pytest.mark.parametrize(

@@ -22,9 +22,14 @@ class Robot:
 
     def __init__(self, react="chain", rates=0.1, plan=False):
         self.braked, self.released, self.left, self.rearmed, arm = [], [], [], 0, hf.arms.load("panda")
-        law = SimpleNamespace(mask=np.ones(7), rates=lambda q: np.full(7, rates), miss=1.0, turn=0.0, pose=None)
-        law.ahead, law.arm = lambda q, most: np.full(len(q), np.inf), arm  # it ends elsewhere, wherever it begins
-        law.whole, law.clearance, law.clear = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
+        law = SimpleNamespace(
+            mask=np.ones(7), rates=lambda q: np.full(7, rates), position_error=1.0, orientation_error=0.0, pose=None
+        )
+        law.predict_time_to_target, law.arm = (
+            lambda q, max_speeds: np.full(len(q), np.inf),
+            arm,
+        )  # it ends elsewhere, wherever it begins
+        law.whole, law.clearance, law.is_collision_free = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
         self.controller = Controller(law, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
 
     def brake(self, joint):
@@ -133,7 +138,7 @@ def test_a_joint_that_stays_unknown_stops_the_arm_and_so_does_any_alarm_without_
     robot = Robot()
     robot.hear(1.0, kind="sensor", joint=None)
     robot.hear(3.1, kind="sensor", joint=None)
-    assert (robot.did(), robot.controller.over) == (["alarm", "stop"], True)
+    assert (robot.did(), robot.controller.is_stopped) == (["alarm", "stop"], True)
     stopped = Robot(react="stop")
     stopped.hear(1.0)
     assert (stopped.did(), stopped.braked) == (["alarm", "stop"], [])
@@ -152,8 +157,10 @@ def test_rates_are_smooth_within_limits_and_slow_towards_the_ends_of_the_range()
 
 
 def test_a_joint_on_trial_that_is_as_fast_as_it_can_is_given_time(monkeypatch):
-    route = SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, most: "no route" if args[3].locked else route)
+    route = SimpleNamespace(waypoints=2, duration=1.0, is_finished=False, rates=lambda q, pace, dt: np.zeros(7))
+    monkeypatch.setattr(
+        "holdfast.reaction.replanning.plan_route", lambda *args, max_speeds: "no route" if args[3].locked else route
+    )
     robot = Robot(rates=0.0, plan=True)
     robot.hear(1.0, kind="limp", v=0.05, wanted=0.1)
     for time in (3.0, 3.1):
@@ -176,7 +183,7 @@ def test_what_is_left_of_the_law_is_left_before_something_is_near():
     robot = Robot(rates=0.3)
     law, asked = robot.controller.law, []
     law.clearance = SimpleNamespace(others="the cell")
-    law.predict_time_to_target = lambda q, most: np.full(
+    law.predict_time_to_target = lambda q, max_speeds: np.full(
         len(q), 0.0 if len(q) == 1 else np.inf
     )  # it would end well; no posture does
     law.is_collision_free = lambda q: asked.append(q) or bool(q.max() < 0.105)
@@ -198,13 +205,13 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
     """At a stop, or slow, a joint looks as one that drives nothing."""
     asked, q, arm = [], np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), hf.arms.load("panda")
 
-    def some(law, q, target, left, most):
+    def some(law, q, target, left, max_speeds):
         asked.append(left)
         if left.locked or (left.ranges[JOINTS[1]][1] < arm.upper[1] and not at_a_stop):
             return "no route"
-        return SimpleNamespace(waypoints=2, duration=1.0, over=False, rates=lambda q, pace, dt: np.zeros(7))
+        return SimpleNamespace(waypoints=2, duration=1.0, is_finished=False, rates=lambda q, pace, dt: np.zeros(7))
 
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", some)
+    monkeypatch.setattr("holdfast.reaction.replanning.plan_route", some)
     robot = Robot(rates=0.0, plan=True)
     for time in (1.0, 1.2):
         robot.hear(time, kind="limp", v=0.05, wanted=0.1)
@@ -223,12 +230,12 @@ def test_a_braked_joint_without_which_there_is_no_route_is_tried_once_slowly(mon
             robot.hear(3.5 + 1e-3 * k, alarm=False, behind=3e-3, v=0.1, wanted=-0.1)
     else:
         robot.hear(3.6, alarm=False, behind=-8.1e-3)
-    assert (robot.did()[-2:], robot.controller.over, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)
+    assert (robot.did()[-2:], robot.controller.is_stopped, robot.controller.law.mask[1]) == (["brake", "stop"], True, 0)
     assert robot.braked == [JOINTS[1]] * 2
 
 
 def test_a_joint_whose_sensor_is_wrong_is_not_tried(monkeypatch):
-    monkeypatch.setattr("holdfast.reaction.controller.plan_route", lambda *args, **options: "no route")
+    monkeypatch.setattr("holdfast.reaction.replanning.plan_route", lambda *args, **options: "no route")
     robot = Robot(react="known", rates=0.0, plan=True)
     robot.controller.on_known_fault(1.0, "sensor_freeze", JOINTS[1], 0.3)
     robot.controller.rates(3.0, np.zeros(7))

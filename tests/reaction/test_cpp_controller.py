@@ -87,15 +87,15 @@ class Driven:
         if pose is not None:
             self.ours.on_tool_pose(self.time, told, pose)
         verdict = self.monitor.step(q, self.reference, effort, pose=pose)
-        signals = {"v": self.monitor._filtered_rates, "wanted": before, "gravity": self.monitor._gravity_torque}
+        signals = {"v": self.monitor._filtered_rates, "commanded_rates": before, "gravity": self.monitor._gravity_torque}
         self.ours.on_verdict(self.time, verdict, tracking_error=self.reference - q, **signals)
         return self.rates
 
     @property
     def expected(self):
         """Mode and joint by Python."""
-        out = self.ours._braked
-        mode = "stopped" if self.ours.over else "degraded" if out >= 0 else "slowed" if self.ours.pace < 1 else "running"
+        out = -1 if self.ours.condition.last_braked is None else self.ours.condition.last_braked
+        mode = "stopped" if self.ours.is_stopped else "degraded" if out >= 0 else "slowed" if self.ours.pace < 1 else "running"
         return mode, out
 
     def close(self):

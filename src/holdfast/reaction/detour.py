@@ -9,9 +9,9 @@ from holdfast.arm.model import Arm
 from holdfast.reaction.masked import MaskedLaw
 from holdfast.typing import FloatArray
 
-CENTRING_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the way of all joints to the middle of their ranges
-UNLIMITED_STEP_RAD = np.pi / 2  # rad, of a joint without limits, either way
-_PATH_SEGMENTS = 16  # of the way to a posture, for the length of the tool's
+CENTRING_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the motion of all joints to the middle of their ranges
+UNLIMITED_STEP_RAD = np.pi / 2  # motion of a joint without limits, in both directions
+_PATH_SEGMENTS = 16  # number of configurations that approximate the length of the tool path
 
 
 def candidate_postures(arm: Arm, q: FloatArray, mask: FloatArray) -> FloatArray:
@@ -35,10 +35,10 @@ def choose_posture(law: MaskedLaw, q: FloatArray, *, max_speeds: FloatArray, max
     """Choose the intermediate configuration (n,) through which the target is reached soonest; None if none reaches it.
 
     Args:
-        law: What is left of the law.
-        q: (n,) where the arm is, rad and m.
-        max_speeds: (n,) joint rates, rad/s and m/s.
-        max_tool_speed: m/s, of the tool; None: as fast as the joints.
+        law: The law without the braked joints.
+        q: (n,) present configuration, rad and m.
+        max_speeds: (n,) largest joint rates, rad/s and m/s.
+        max_tool_speed: Speed limit of the tool in m/s; None without one.
     """
     arm = law.arm
     candidates = candidate_postures(arm, np.clip(q, arm.lower, arm.upper), law.mask)

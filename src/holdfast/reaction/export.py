@@ -27,7 +27,8 @@ from holdfast.diagnosis.sensors import Sensors
 from holdfast.files.output import write_files
 from holdfast.kernels.c_backend import c_number
 from holdfast.notice import reports_progress
-from holdfast.reaction import controller, masked
+from holdfast.reaction import masked, thresholds
+from holdfast.reaction.condition import calibrated_speeds
 from holdfast.result import Result
 
 REFERENCE_LEAK_PER_S = 1.0  # 1/s: servos of rates do not hold a place, so the reference forgets where it began
@@ -134,26 +135,26 @@ def _template_values(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "upper": arm.upper,
         "largest_rate": [joint.velocity for joint in arm.joints],
         "largest_effort": [joint.effort for joint in arm.joints],
-        "calibrated_rate": controller.calibrated_speeds(arm, bounds),
+        "calibrated_rate": calibrated_speeds(arm, bounds),
         "tracking_bound": bounds.tracking,
     }
     values = {
-        "AT_ONCE": controller.EARLY_BRAKE_DELAY_S,
-        "NAMED": controller.NAMING_DEADLINE_S,
-        "FINAL": controller.VERDICT_DEADLINE_S,
-        "STILL": controller.STILL_SPEED,
-        "RUNS": controller.MOVING_SPEED,
-        "FASTER": controller.RUNAWAY_SPEED_ERROR,
-        "BEHIND": controller.LAGGING_TRACKING_RATIO,
-        "FAR": controller.RUNAWAY_TRACKING_RATIO,
-        "SLOW": controller.SLOW_PACE,
-        "HALF": controller.REDUCED_PACE,
-        "RAMP": controller.PACE_RATE_PER_S,
-        "QUIET": controller.CONTACT_END_S,
-        "SETTLED": controller.SETTLING_TIME_S,
-        "LATER": controller.LATE_SAMPLES_WAIT_S,
-        "SPARE": controller.GRAVITY_SAFETY_FACTOR,
-        "SLACK": controller.SENSOR_TOLERANCE,
+        "AT_ONCE": thresholds.EARLY_BRAKE_DELAY_S,
+        "NAMED": thresholds.NAMING_DEADLINE_S,
+        "FINAL": thresholds.VERDICT_DEADLINE_S,
+        "STILL": thresholds.STILL_SPEED,
+        "RUNS": thresholds.MOVING_SPEED,
+        "FASTER": thresholds.RUNAWAY_SPEED_ERROR,
+        "BEHIND": thresholds.LAGGING_TRACKING_RATIO,
+        "FAR": thresholds.RUNAWAY_TRACKING_RATIO,
+        "SLOW": thresholds.SLOW_PACE,
+        "HALF": thresholds.REDUCED_PACE,
+        "RAMP": thresholds.PACE_RATE_PER_S,
+        "QUIET": thresholds.CONTACT_END_S,
+        "SETTLED": thresholds.SETTLING_TIME_S,
+        "LATER": thresholds.LATE_SAMPLES_WAIT_S,
+        "SPARE": thresholds.GRAVITY_SAFETY_FACTOR,
+        "SLACK": thresholds.SENSOR_TOLERANCE,
         "NEAR": masked.LIMIT_TOLERANCE,
         "LEAK": REFERENCE_LEAK_PER_S,
     }
@@ -167,7 +168,7 @@ def _template_values(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "TASK_FRAME": law.task.frame,
         "TASK_TEXT": "{" + ", ".join(f"{{{_cpp_list(row)}}}" for row in law.task.rows) + "}",
         "CONST_ARRAYS": "".join(f"constexpr double {entry}[{arm.n}] = {{{_cpp_list(x)}}};\n" for entry, x in arrays.items()),
-        "CONST_SAMPLES": str(controller.MIN_POSE_SAMPLES),
+        "CONST_SAMPLES": str(thresholds.MIN_POSE_SAMPLES),
         "CONST_KNOWN": str(count_cycles(decision.ISOLATION_TIME_S + decision.CLASSIFICATION_TIME_S, 1 / bounds.rate)),
         **{f"CONST_{entry}": c_number(value) for entry, value in values.items()},
     }

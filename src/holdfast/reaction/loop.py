@@ -30,14 +30,13 @@ from holdfast.reaction.masked import MaskedLaw
 from holdfast.reaction.run import Ended, FaultRun, React
 from holdfast.typing import FloatArray
 
-CONTROL_RATE_HZ = 1000.0  # Hz, of the control cycle without a monitor
-DEFAULT_TIME_LIMIT_S = 12.0  # s
-# POSITION_TOLERANCE_M, ORIENTATION_TOLERANCE_RAD and DWELL_S: m, rad, s: a target that is reached
-POSITION_TOLERANCE_M = 5e-3
-ORIENTATION_TOLERANCE_RAD = np.deg2rad(1.0)
-DWELL_S = 0.2
-POSE_RATE_HZ = 100.0  # Hz, of the measured tool
-IDLE_END_S = 0.5  # s after which nothing more is expected
+CONTROL_RATE_HZ = 1000.0  # control cycles without a monitor
+DEFAULT_TIME_LIMIT_S = 12.0
+POSITION_TOLERANCE_M = 5e-3  # distance to a reached target
+ORIENTATION_TOLERANCE_RAD = np.deg2rad(1.0)  # angle to a reached target
+DWELL_S = 0.2  # time at the target after which it counts as reached
+POSE_RATE_HZ = 100.0  # measured tool poses
+IDLE_END_S = 0.5  # time at rest after which no further motion is expected
 
 
 @check_arguments
@@ -65,51 +64,51 @@ def simulate_faults(
     """Simulate one closed-loop run in MuJoCo in which joints fail and are detected, and the task continues (needs
     ``holdfast-arms[physics]``).
 
-    At every control cycle the law is given what the joint sensors tell, and its rates, kept within the joints' limits and
-    speeds and 10 rad/s^2, go to the servos, whose torques move a body that is not quite the arm's model. Faults begin and end
-    by the model's fields. A monitor sees what a robot would: joint sensors, references, commanded torques, and 100 times a
-    second the tool's measured pose. What follows from what it says (``react="chain"``):
+    In every control cycle the law reads the joint sensors. Its rates, kept within the joint limits, the velocity limits and
+    10 rad/s^2, go to the servos, whose torques move a body that differs from the arm's model. Faults begin and end as the
+    fault model says. A monitor reads what a robot would measure: joint sensors, references, commanded torques, and the tool
+    pose 100 times a second. With ``react="chain"`` the controller responds to the monitor:
 
-    * a joint that does not move while its reference goes on, or runs away, is braked 20 ms after the alarm and left out of
-      the law; so is one that is found to be locked, free-swinging, with a faulty sensor, or to have a fault of an unknown
-      kind. The arm then waits for 0.05 s, and where the tool is measured for 0.1 s more: that tells whether the joint is where
-      its sensor says;
-    * with a weak motor or more friction the arm goes on at half the speed; a joint whose motor can no longer carry
-      1.2 times the arm's weight is braked;
-    * where something pushes the arm it goes on at 0.3 of the speed, and after 1 s as before;
-    * after each brake what is left of the law is followed ahead. Where it would end off the target, or in fact ends there, the
-      arm first goes to another posture from which it does not, if one of a few does: all joints nearer to the middle of their
-      ranges, or one of them turned over. Where there is none :func:`holdfast.recover` plans a route. Neither takes simulated
-      time. If it finds no route, but would find one with the braked joint, the brake is released, once, and the arm follows
-      that route slowly, as fast as the joint can: a joint at a stop, or with a slow motor, looks like one that drives nothing.
-      If the joint does not follow it is braked again. Else the arm stops;
-    * with a cell, or a clearance, the law must keep clear as well where it is followed ahead, and is left where the arm could
-      hardly stop any more; postures and routes are proved to be clear (:func:`holdfast.recover`), and where there is none the
-      arm stops, without ``plan`` too. Until a joint is braked nobody looks out. ``contacts`` says what was touched.
+    * A joint that does not move while its reference does, or that runs away, is braked 20 ms after the alarm and excluded from
+      the law. So is a joint that is locked, free-swinging, has a faulty sensor, or has a fault of an unknown kind. The arm then
+      waits for 0.05 s, and for 0.1 s more if the tool pose is measured, which shows whether the joint is where its sensor says.
+    * With a weak motor or more friction the arm continues at half the speed. A joint whose motor cannot carry 1.2 times the
+      weight of the arm is braked.
+    * During a contact the arm continues at 0.3 of the speed, and after 1 s as before.
+    * After each brake the remaining law is simulated forward. If it would miss the target, or has stopped short of it, the arm
+      first moves to another configuration from which the law converges: all joints nearer to the middle of their ranges, or
+      one of them turned over. If there is none, :func:`holdfast.recover` plans a route. Neither takes simulated time. If there
+      is no route, but one with the braked joint, the brake is released, once, and the arm follows that route as slowly as the
+      joint needs, because a joint at a stop, or with a slow motor, looks like one without torque. If the joint does not follow
+      it is braked again, and the arm stops.
+    * With a cell, or a clearance, the forward simulation of the law must also be collision-free, and the arm leaves the law
+      before it could no longer stop. Other configurations and routes are proved to be collision-free
+      (:func:`holdfast.recover`), and if there is none the arm stops, even without ``plan``. The controller does not check for
+      collisions before the first brake. ``contacts`` has the collisions of the run.
 
-    A brake stops its joint at once. From then on that joint is left out of what the monitor looks at, and the others are
-    watched on: when a second one fails all of this follows once more, with what both have left. Between the brake and the end
-    of the wait nothing is watched.
+    A brake stops its joint at once. From then on the monitor excludes that joint and watches the others, and the controller
+    responds to a second fault in the same way, with the joints that remain. Nothing is monitored from a brake to the end of the
+    wait.
 
     Args:
-        law: The control law, with its arm, task, gain and speed limit. The arm needs inertial data.
+        law: Control law, with its arm, task, gain and speed limit. The arm needs inertial data.
         q0: (n,) configuration at the start, rad and m, at rest.
         target: (m,) or (4, 4), as for :func:`holdfast.simulate`.
         faults: A fault model, or the events of the run.
-        episode: Of the fault model.
-        monitor: Watches the arm, by the bounds that it was made with; it is reset.
-        react: ``chain`` with a monitor and ``none`` without one if not given; ``stop``: everything stops at the first alarm;
-            ``known``: each fault is known when it begins, without a monitor.
-        plan: Whether a route is planned where no other posture helps, see above; else the arm goes on as far as the law leads.
-        body: What of the robot differs from the arm's model; :class:`holdfast.Body` as it comes if not given.
-        servos: Of the joints; as they come, at the monitor's rate, if not given.
-        centring: 1/s, at which the law draws joints to the middle of their range as far as the task leaves that open.
-        clearance: The shape of the arm and what it keeps clear of, maybe with a cell; True: also itself, by capsules of an
-            assumed radius. If not given it does not look out for itself.
+        episode: Episode of the fault model.
+        monitor: Monitor of the arm, with the bounds that it was made with; it is reset.
+        react: Response to faults: ``chain``, the default with a monitor; ``none``, the default without one; ``stop``, where
+            everything stops at the first alarm; ``known``, where each fault is known when it begins, without a monitor.
+        plan: True if a route may be planned where no other configuration helps; else the arm follows the law to its end.
+        body: Differences of the robot from the arm's model; default: :class:`holdfast.Body`.
+        servos: Servos of the joints; default: :class:`holdfast.Servos` at the rate of the monitor.
+        centring: Rate in 1/s at which the law draws joints to the middle of their range, in the null space of the task.
+        clearance: Shape of the arm and the objects that it must not touch, maybe with a cell; True: also the arm itself, by
+            capsules of an assumed radius. By default the arm does not avoid itself.
         cell: Objects around the arm, or their file.
-        pose: Whether the tool's pose is measured.
-        time_limit: s; the run ends earlier where the target is reached, or nothing more moves.
-        seed: Of the noise.
+        pose: True if the tool pose is measured.
+        time_limit: Time limit in s; the run ends earlier if the target is reached, or if nothing moves any more.
+        seed: Seed of the sensor noise.
 
     Raises:
         InputError: Wrong shapes or options, faults that the arm cannot have, or a monitor of another arm or rate.
@@ -294,7 +293,7 @@ def _run_cycles(
         q = controller.trusted_positions(q_measured)
         torque = robot.move(q, rates, law.mask)
         robot.record_cycle(true, q_measured, torque, pose, errors)
-        if monitor is not None and not controller.over:
+        if monitor is not None and not controller.is_stopped:
             verdict = monitor.step(q, robot.reference, torque, pose=pose)
             tracking_error = robot.reference - q
             controller.on_verdict(
@@ -307,5 +306,5 @@ def _run_cycles(
             return "reached"
         ends.idle = ends.idle + 1 if controller.is_idle(rates) and speed < 0.05 and time > last_onset else 0
         if ends.idle * dt > IDLE_END_S:
-            return "stopped" if controller.over else "missed"
-    return "stopped" if controller.over else "missed"
+            return "stopped" if controller.is_stopped else "missed"
+    return "stopped" if controller.is_stopped else "missed"

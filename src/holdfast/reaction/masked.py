@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import accumulate, pairwise
+
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,23 +19,21 @@ from holdfast.kernels.recall import cached_kernel
 from holdfast.solvers.inverse_kinematics import task_error
 from holdfast.typing import FloatArray
 
-LIMIT_TOLERANCE = 2e-3  # rad or m: a joint so near to its limit is at it, whatever the noise
-# MIN_PROGRESS and PROGRESS_TIMEOUT_S: m and rad, s: a law that does not bring the tool so much nearer in this time is at its
-# end
-MIN_PROGRESS = 1e-3
-PROGRESS_TIMEOUT_S = 1.5
-TARGET_TOLERANCE = 2e-3  # m and rad: a law that would come so near to its target reaches it
-# PREDICTION_HORIZON_S and PREDICTION_STEP_S: s: how far ahead a law is followed, and in which steps
-PREDICTION_HORIZON_S = 12.0
-PREDICTION_STEP_S = 0.05
+LIMIT_TOLERANCE = 2e-3  # rad or m; a joint nearer to its limit is at the limit, because sensors have noise
+MIN_PROGRESS = 1e-3  # m and rad; a smaller decrease of the error is no progress
+PROGRESS_TIMEOUT_S = 1.5  # a law without progress for this time has come to its end
+TARGET_TOLERANCE = 2e-3  # m and rad; a law whose predicted error is smaller reaches its target
+PREDICTION_HORIZON_S = 12.0  # forward simulation of a law
+PREDICTION_STEP_S = 0.05  # time step of the forward simulation
 
 
 @cached_kernel
 def make_masked_kernel(law: Law) -> Kernel:
-    """Compile ``(q, p, R, mask, pull) -> rates, miss, turn``: joint rates (n,) of the law without the columns of masked joints.
+    """Compile ``(q, p, R, mask, pull) -> rates, position_error, orientation_error`` of the law without the masked joints.
 
-    ``pull`` (n,) are rates that an objective would like; what of them moves no row of the task is added. ``miss`` and
-    ``turn`` are the norms of the error's linear part, m, and of its angular part, rad.
+    ``rates`` (n,) are the joint rates of the law without the Jacobian columns of masked joints. ``pull`` (n,) are the rates
+    that a secondary objective requests; their part in the null space of the task is added. The errors are the norms of the
+    linear part in m and of the angular part in rad.
     """
     arm, task = law.arm, law.task
     q, mask, pull = kinematics.joint_symbols(arm), ca.SX.sym("mask", arm.n), ca.SX.sym("pull", arm.n)
@@ -47,29 +47,46 @@ def make_masked_kernel(law: Law) -> Kernel:
     return Kernel("law with a mask", [q, position, rotation, mask, pull], [ca.vertcat(rates, *parts)])
 
 
+class _InputColumns:
+    """Columns of an input row of the masked kernel, for n joints."""
+
+    def __init__(self, n: int) -> None:
+        edges = [0, *accumulate((n, 3, 9, n, n))]
+        self.q, self.position, self.rotation, self.mask, self.pull = (slice(*ends) for ends in pairwise(edges))
+        self.width = edges[-1]
+
+
+class _OutputColumns:
+    """Columns of an output row of the masked kernel, for n joints."""
+
+    def __init__(self, n: int) -> None:
+        self.rates, self.position_error, self.orientation_error = slice(n), n, n + 1
+
+
 class MaskedLaw:
     """Control law that computes one step after the other towards a target without the masked joints.
 
     Args:
-        law: The law.
+        law: Control law of all joints.
         target: (4, 4) pose, or the task's rows (m,), m.
-        centring: 1/s, at which joints with two limits are drawn to their middle as far as the task leaves it open.
-        clearance: What the arm keeps clear of where the law is followed ahead; None: of nothing.
+        centring: Rate in 1/s at which joints with two limits are drawn to their middle, in the null space of the task.
+        clearance: Clearance that the arm must keep in the forward simulation of the law; None without one.
 
     Attributes:
-        whole: The law, of all joints.
-        arm: The law's.
-        clearance: As given.
-        pose: (4, 4) of the target.
+        whole: Control law of all joints.
+        arm: Arm of the law.
+        clearance: The clearance.
+        pose: (4, 4) target pose.
         mask: (n,) 1 for joints that follow, 0 for the others.
-        position_error, orientation_error: Of the last step: how far the tool was from its target, m and rad.
+        position_error: Distance of the tool from its target in the last step, m.
+        orientation_error: Angle between the tool and its target in the last step, rad.
     """
 
     def __init__(self, law: Law, target: ArrayLike, *, centring: float, clearance: Clearance | None = None) -> None:
         poses, rows = target_poses(law.task, target)
         self.arm, arm, n = law.arm, law.arm, law.arm.n
         self.whole, self.clearance = law, clearance
-        self._apart = with_exact_distances(clearance) or clearance  # routes are proved by it where the bound finds none
+        self._apart = with_exact_distances(clearance) or clearance  # routes are proved with exact distances too
         self.pose = np.eye(4)
         if rows is None:
             self.pose = np.asarray(poses[0])
@@ -78,25 +95,30 @@ class MaskedLaw:
         self.mask, self.position_error, self.orientation_error = np.ones(n), np.inf, np.inf
         bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
         self._middle = np.mean(finite_limits(arm), axis=0)
-        self._pull, self._n, self._rows = np.where(bounded, centring, 0.0), n, law.task.m
+        self._pull, self._rows = np.where(bounded, centring, 0.0), law.task.m
         self._lower, self._upper = arm.lower + LIMIT_TOLERANCE, arm.upper - LIMIT_TOLERANCE
         self._kernel, self._gain = make_masked_kernel(law), law.gain
         self._run = self._kernel.single_row()
-        self._row = np.concatenate([np.zeros(n), self.pose[:3, 3], self.pose[:3, :3].ravel(), np.ones(n), np.zeros(n)])
+        self._inputs, self._outputs = _InputColumns(n), _OutputColumns(n)
+        self._row = np.zeros(self._inputs.width)
+        self._row[self._inputs.position] = self.pose[:3, 3]
+        self._row[self._inputs.rotation] = self.pose[:3, :3].ravel()
+        self._row[self._inputs.mask] = 1.0
 
     def rates(self, q: FloatArray, *, mask: FloatArray | None = None) -> FloatArray:
         """Return commanded rates (n,) at a configuration (n,), rad/s and m/s; a joint at its limit is not commanded
         beyond it.
         """
-        n, row = self._n, self._row
+        row, inputs, outputs = self._row, self._inputs, self._outputs
         free = self.mask if mask is None else mask
-        # Where no redundancy is left nothing is open: damped, the pull would only hold the tool off its target.
+        # Without redundancy there is no null space, and a damped law with the pull would miss its target.
         pull = self._pull * (self._middle - q) if free.sum() > self._rows else 0.0
-        row[:n], row[n + 12 : 2 * n + 12], row[2 * n + 12 :] = q, free, pull
-        outputs = self._run(row)
-        rates = outputs[:n].copy()
+        row[inputs.q], row[inputs.mask], row[inputs.pull] = q, free, pull
+        values = self._run(row)
+        rates = values[outputs.rates].copy()
         if mask is None:
-            self.position_error, self.orientation_error = float(outputs[n]), float(outputs[n + 1])
+            self.position_error = float(values[outputs.position_error])
+            self.orientation_error = float(values[outputs.orientation_error])
         passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
         if passing.any():
             rates = self.rates(q, mask=np.where(passing, 0.0, free))
@@ -104,9 +126,9 @@ class MaskedLaw:
 
     def target_errors(self, q: FloatArray) -> tuple[float, float]:
         """Return the position error in m and the orientation error in rad at a configuration (n,)."""
-        self._row[: self._n] = q
-        outputs = self._run(self._row)
-        return float(outputs[self._n]), float(outputs[self._n + 1])
+        self._row[self._inputs.q] = q
+        values = self._run(self._row)
+        return float(values[self._outputs.position_error]), float(values[self._outputs.orientation_error])
 
     def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return whether the arm keeps its clearance, (N,) for configurations (N, n), or a scalar for one configuration."""
@@ -116,8 +138,8 @@ class MaskedLaw:
         """Return the times (N,) in s at which the law would reach its target from configurations (N, n); infinite where it
         would not.
 
-        Joints are taken to follow at once, at rates (n,) of at most ``max_speeds``, rad/s and m/s. Infinite also where the arm
-        comes too close to something at one of the instants, at most 50 ms apart, that are looked at.
+        Joints are assumed to follow at once, at rates (n,) of at most ``max_speeds``, rad/s and m/s. A time is also infinite if
+        the arm violates its clearance in one of the steps, which are at most 50 ms long.
         """
         step = min(PREDICTION_STEP_S, 0.2 / self._gain)
         q, active, durations = q.copy(), np.arange(len(q)), np.full(len(q), np.inf)
@@ -140,10 +162,12 @@ class MaskedLaw:
     def _evaluate_batch(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return rates (N, n) as :meth:`rates` does, and the sum of position and orientation error (N,), m and rad."""
         free, position, rotation = np.tile(self.mask, (len(q), 1)), self.pose[:3, 3], self.pose[:3, :3]
+        outputs = self._outputs
         while True:
             pull = np.where(free.sum(axis=1, keepdims=True) > self._rows, self._pull * (self._middle - q), 0.0)
-            outputs = self._kernel.rows(q, position, rotation, free, pull)
-            rates, errors = outputs[:, : self._n], outputs[:, self._n] + outputs[:, self._n + 1]
+            values = self._kernel.rows(q, position, rotation, free, pull)
+            rates = values[:, outputs.rates]
+            errors = values[:, outputs.position_error] + values[:, outputs.orientation_error]
             passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
             if not passing.any():
                 return rates, errors

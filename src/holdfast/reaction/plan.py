@@ -9,22 +9,22 @@ from holdfast.reaction.masked import MaskedLaw
 from holdfast.recovery import TimedMotion, recover
 from holdfast.typing import FloatArray
 
-ACCELERATION_LIMIT = 10.0  # rad/s^2 or m/s^2, of commanded rates
-ROUTE_PACE = 0.5  # of the motion at its fastest
-ROUTE_GAIN_PER_S = 5.0  # 1/s, at which a reference returns to the route
+ACCELERATION_LIMIT = 10.0  # rad/s^2 or m/s^2, of the commanded rates
+ROUTE_PACE = 0.5  # fraction of the highest speed of the motion
+ROUTE_GAIN_PER_S = 5.0  # gain with which the arm returns to the route
 
 
 class RouteFollower:
     """Timed motion and the present position along it.
 
     Args:
-        motion: As it is at its fastest.
-        max_tool_speed: m/s, of the tool; None: as fast as that.
-        max_speeds: (n,) of the joints, rad/s and m/s. What the arm is told beyond that it would not do, and leave the route.
+        motion: Timed motion at its highest speed.
+        max_tool_speed: Speed limit of the tool in m/s; None without one.
+        max_speeds: (n,) largest joint rates, rad/s and m/s; an arm that is commanded faster would leave the route.
 
     Attributes:
-        waypoints: Of the route, how many.
-        duration: From its start to its end at the full pace, s.
+        waypoints: Number of waypoints of the route.
+        duration: Time in s from the start to the end at the full pace.
     """
 
     def __init__(self, motion: TimedMotion, *, waypoints: int, max_tool_speed: float | None, max_speeds: FloatArray) -> None:
@@ -62,11 +62,11 @@ def plan_route(
     """Plan a route to a goal, or return a phrase with the obstacle; planning takes no simulated time because the arm waits.
 
     Args:
-        law: Whose task it is; its speed limit holds for the tool, and what it keeps clear of for the arm.
-        q: (n,) where the arm is, rad and m.
+        law: Control law with the task, the speed limit of the tool, and the clearance of the arm.
+        q: (n,) present configuration, rad and m.
         goal: (4, 4) pose of the tool, m, world; or (n,) a configuration.
-        failures: What is left of the arm.
-        max_speeds: (n,) joint rates, rad/s and m/s.
+        failures: Failures of the arm.
+        max_speeds: (n,) largest joint rates, rad/s and m/s.
     """
     start = np.clip(q, law.arm.lower, law.arm.upper)
     task = law.whole.task if goal.ndim == 2 else None

@@ -70,30 +70,30 @@ class Action:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FaultRun(Result):
-    """One run of :func:`holdfast.simulate_faults`, T control cycles of n joints. Everything in it is simulated.
+    """Run of :func:`holdfast.simulate_faults` with T control cycles of n joints. All of its values are simulated.
 
     Attributes:
-        law: Of the controller.
-        servos: Of the joints.
-        body: What of the robot differs from the arm's model.
-        target: (4, 4) where the tool should be, m, world; its rows are those of the law's task.
-        react: Who notices: ``none``, ``stop``, ``chain`` or ``known``.
-        events: The faults of the episode.
-        places: (n,) where each joint was when its first fault began, rad and m; NaN where none did.
-        actions: What the controller did, in order of time.
-        verdicts: What each alarm came to.
-        degraded: What is left of the arm: joints that were braked, with where they are; None if none was.
+        law: Control law.
+        servos: Servos of the joints.
+        body: Differences of the robot from the arm's model.
+        target: (4, 4) target pose of the tool, m, world; the task of the law decides which of its rows count.
+        react: Response to faults: ``none``, ``stop``, ``chain`` or ``known``.
+        events: Faults of the episode.
+        places: (n,) position of each joint when its first fault began, rad and m; NaN without a fault.
+        actions: Actions of the controller, in order of time.
+        verdicts: Last verdict of each alarm.
+        degraded: Failures that the controller knows: braked joints with their positions; None if no joint was braked.
         outcome: ``reached``: within 5 mm and 1 deg of its target for 0.2 s; ``stopped``, ``missed`` or ``unstable``.
-        clearance: What the arm was to keep clear of; None: nothing.
-        time: (T,) s.
-        q: (T, n) where the joints were, rad and m.
-        q_measured: (T, n) what their sensors told.
-        reference: (T, n) what the servos followed.
-        torque: (T, n) commanded, N m and N, with the noise of a record.
-        x: (T, 3) measured tool point, m, and
-        quat: (T, 4) orientation x, y, z, w; NaN where there is no sample.
-        position_error: (T,) distance of the tool from its target, m, and
-        orientation_error: (T,) angle, rad, of what the task asks for; of the last sample at 100 Hz.
+        clearance: Clearance that the arm had to keep; None without one.
+        time: (T,) times in s.
+        q: (T, n) true joint positions, rad and m.
+        q_measured: (T, n) measured joint positions, rad and m.
+        reference: (T, n) references of the servos, rad and m.
+        torque: (T, n) commanded torques, N m and N, with measurement noise.
+        x: (T, 3) measured tool position, m; NaN in cycles without a sample.
+        quat: (T, 4) measured tool orientation x, y, z, w; NaN in cycles without a sample.
+        position_error: (T,) distance of the tool from its target, m, of the last sample at 100 Hz.
+        orientation_error: (T,) angle between the tool and its target in the task, rad, of the last sample at 100 Hz.
     """
 
     law: Law
