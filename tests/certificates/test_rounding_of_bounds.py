@@ -87,15 +87,15 @@ def test_derivatives_of_points(rng, slides, order):
     far, out = rng.uniform(0, 1, (COUNT, 2)), rng.normal(size=(COUNT, 2))
     slid = exact(far) * np.array(slides)
     angle = np.cumsum(exact(far) * ~np.array(slides), axis=1)
-    reach = exact(chain.extent) + abs(exact(out)) * np.array(slides) + slid
+    reach = exact(chain.link_lengths) + abs(exact(out)) * np.array(slides) + slid
     truth = (angle**order * reach + order * angle ** (order - 1) * slid).sum(axis=1)
-    assert (exact(chain.bound_derivative(order, far, chain.extent, out)) >= truth).all()
+    assert (exact(chain.bound_derivative(order, far, chain.link_lengths, out)) >= truth).all()
 
 
 def test_lengths_of_links(rng):
     """Along x, where the next axis is across."""
     for lengths in rng.uniform(0.1, 1, (COUNT, 2)):
-        whole = make_chain(*lengths, slides=(False, False)).whole
+        whole = make_chain(*lengths, slides=(False, False)).link_lengths
         assert (exact(whole) >= exact(lengths)).all()
         assert (whole < lengths * (1 + 1e-11)).all()
 
