@@ -44,21 +44,17 @@ if TYPE_CHECKING or __package__:
 else:  # run as a file: the folder lies beside it
     from verified import balls, bounds, distances, files, forms, motions, paths, targets, tree, words, zeros
 
-CertificateRejected, require, parse_hex, compute_digest, decompress_payload = (
-    forms.CertificateRejected,
-    forms.require,
-    forms.parse_hex,
-    forms.compute_digest,
-    forms.decompress_payload,
-)
+CertificateRejected = forms.CertificateRejected
+require = forms.require
+parse_hex = forms.parse_hex
+compute_digest = forms.compute_digest
+decompress_payload = forms.decompress_payload
 load_certificate, bound_snap_errors, exact_rotation = files.load_certificate, zeros.bound_snap_errors, zeros.exact_rotation
 format_percent, claim_sentence, qualify_claim = words.format_percent, words.claim_sentence, words.qualify_claim
-iterate_cells, compute_covered_volume, compute_volume, MAX_LEAVES = (
-    tree.iterate_cells,
-    tree.compute_covered_volume,
-    tree.compute_volume,
-    tree.MAX_LEAVES,
-)
+iterate_cells = tree.iterate_cells
+compute_covered_volume = tree.compute_covered_volume
+compute_volume = tree.compute_volume
+MAX_LEAVES = tree.MAX_LEAVES
 MAX_COVER_STEPS = tree.MAX_COVER_STEPS
 FIRST_LOCK_TOKEN = bounds.FIRST_LOCK_TOKEN
 FOR_PEOPLE = forms.FOR_PEOPLE
@@ -183,7 +179,7 @@ def _verify_boxes(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), refuted=refuted,
         seconds=time.perf_counter() - started, undecided=tree.compute_volume(undecided),
         attained_bound=lower if kind == "ceiling" else upper,
-        unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets),
+        unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets)
     )  # fmt: skip
 
 
@@ -234,17 +230,15 @@ def _verify_path(
         leaf_count, checked_count = (
             sum(len(entry[3]) for _, entry in group if entry[0] == lock_index) for group in (entries, chosen)
         )
-        rejected_count, gaps = (
-            sum(bad_leaves for _, entry, bad_leaves in rejected if entry[0] == lock_index),
-            paths.find_gaps(proved + refuted, document),
-        )
+        rejected_count = sum(bad_leaves for _, entry, bad_leaves in rejected if entry[0] == lock_index)
+        gaps = paths.find_gaps(proved + refuted, document)
         lock_fields = {"locked": lock["joint"], "claim": f"Lock of {document['arm']['joints'][lock['joint']]['name']}."}
         part = CertificateVerdict(
             document=document | lock_fields | {"left": paths.find_gaps(proved, document)}, leaves=leaf_count,
             accepted=checked_count - rejected_count,
             rejected=rejected_count, undecided=paths.measure_coverage(gaps, document),
             false=paths.measure_coverage(refuted, document),
-            whichever=paths.measure_coverage(proved, document),
+            whichever=paths.measure_coverage(proved, document)
         )  # fmt: skip
         parts.append(part)
     volumes = paths.compute_volumes([(Fraction(lock["proved"]), Fraction(lock["refuted"])) for lock in document["locks"]])
@@ -280,10 +274,8 @@ def _combine_verdicts(
     document: dict[str, Any], parts: list[CertificateVerdict], seconds: float, **more: Any
 ) -> CertificateVerdict:
     sums = {key: sum(getattr(part, key) for part in parts) for key in ("leaves", "accepted", "rejected")}
-    unproved_targets, worst = (
-        frozenset[tree.Cell]().union(*(part.unproved_targets for part in parts)),
-        max(part.undecided for part in parts),
-    )
+    unproved_targets = frozenset[tree.Cell]().union(*(part.unproved_targets for part in parts))
+    worst = max(part.undecided for part in parts)
     return CertificateVerdict(
         document=document,
         parts=tuple(parts),

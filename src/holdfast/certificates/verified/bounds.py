@@ -69,10 +69,8 @@ class ScrewEnclosure:
         offsets = stack_second(axis_points) + -axis_points[0][:, None]
         moments = einsum("nlij,nlj->nli", cross_matrix(offsets), z)
         spin, shift, zeros = cross_matrix(z), cross_matrix(moments), BallArray(np.zeros((*z.center.shape, 3)))
-        self.screws, self.operators = (
-            concatenate(2, z, moments),
-            concatenate(2, concatenate(3, spin, zeros), concatenate(3, shift, spin)),
-        )
+        self.screws = concatenate(2, z, moments)
+        self.operators = concatenate(2, concatenate(3, spin, zeros), concatenate(3, shift, spin))
         # (N, j, l, 6), of which the second derivative by i and j is the bracket with i.
         self.brackets = einsum("njab,nlb->njla", self.operators, self.screws).multiply_signs(self.moves.T[:, :, None])
         # A link of the path to an axis goes with the joints between the middle and it.
@@ -96,11 +94,9 @@ class CeilingVerifier(LeafVerifier):
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document, document["joint_box"])
         self.arm = BallChain(document["arm"], document["task"] == "planar-pose")
-        self.threshold, self.screw_rows, self.locks = (
-            parse_hex(document["threshold"]),
-            SCREW_ROWS[document["task"]],
-            document["locks"],
-        )
+        self.threshold = parse_hex(document["threshold"])
+        self.screw_rows = SCREW_ROWS[document["task"]]
+        self.locks = document["locks"]
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
         """Return the number of leaves, the undecided cells, and an iterator of the leaves, each with a joint, or 0 for a lower
@@ -126,11 +122,9 @@ class CeilingVerifier(LeafVerifier):
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
         """Return a mask of the leaves in which a lock of joint ``kind`` reduces relative manipulability enough."""
         screws, threshold = ScrewEnclosure(self.arm, self.enclose_centers(cell for cell, _ in leaves)), self.threshold
-        position, half, moves = (
-            screws.order.index(kind),
-            screws.half,
-            screws.brackets.multiply_signs(screws.side[:, None, None]),
-        )
+        position = screws.order.index(kind)
+        half = screws.half
+        moves = screws.brackets.multiply_signs(screws.side[:, None, None])
         y, wrench_rate = self.choose_wrench(screws, position)
         gradients = einsum("njla,na->nlj", moves, y) + einsum("nla,naj->nlj", screws.screws, wrench_rate)
         cross_terms = einsum("nai,njla->nlij", wrench_rate, moves)
@@ -149,10 +143,8 @@ class CeilingVerifier(LeafVerifier):
             np.nextafter(form.value.lower - (form.bound_change(half)[0] + remainder) * ROUND_UP, -np.inf)[:, position], 0
         )
         moments[:, position] = 0
-        upper, lower = (
-            (moments**2).sum(axis=1) * ((1 - threshold) * (1 + threshold)) * ROUND_UP,
-            threshold**2 * own_moment**2 * (1 - 1e-12),
-        )
+        upper = (moments**2).sum(axis=1) * ((1 - threshold) * (1 + threshold)) * ROUND_UP
+        lower = threshold**2 * own_moment**2 * (1 - 1e-12)
         return np.asarray((upper < lower) & (own_moment > 1e-100))
 
     def choose_wrench(self, screws: ScrewEnclosure, k: int) -> tuple[Array, Array]:
@@ -228,10 +220,8 @@ class FloorVerifier(CeilingVerifier):
         second_brackets = (
             einsum("niab,njb->naij", screws.operators, motion_brackets)[:, rows].multiply_signs(screws.same_side).symmetrize()
         )
-        gradients, second = (
-            gradients + einsum("nlb,nlj->nbj", screw, response),
-            second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2),
-        )
+        gradients = gradients + einsum("nlb,nlj->nbj", screw, response)
+        second = second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2)
         joint_travel = np.einsum("nlj,nj->nl", abs(response), half) * ROUND_UP
         remainder = np.einsum("nl,nlb->nb", abs(nu), screws.third_remainder[..., rows]) + np.einsum(
             "nl,nlb->nb", joint_travel, screws.second_remainder[..., rows]

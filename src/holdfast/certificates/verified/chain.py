@@ -103,10 +103,8 @@ class BallChain:
         tip, orientation = BallArray(np.zeros((count, 3))), BallArray(np.broadcast_to(np.eye(3), (count, 3, 3)))
         empty, axes, points = BallArray(np.zeros((count, 0, 3))), [], []
         for index, joint in enumerate(joints, first):
-            tip, orientation = (
-                tip + einsum("nij,j->ni", orientation, self.origins[index]),
-                einsum("nij,jk->nik", orientation, self.turns[index]),
-            )
+            tip = tip + einsum("nij,j->ni", orientation, self.origins[index])
+            orientation = einsum("nij,jk->nik", orientation, self.turns[index])
             axes.append(orientation[:, :, 2])
             points.append(tip)
             if self.slides[index]:

@@ -81,10 +81,8 @@ def bound_distance(
     for index, is_prismatic in enumerate(chain.slides[first : first + len(joints)]):
         cost = bound_length(levers[:, index]) * np.minimum(half[:, index], 2) * ROUND_UP
         is_ignored &= (cost < 1e-6) & (not is_prismatic)
-        half[:, index], displacement = (
-            np.where(is_ignored, 0.0, half[:, index]),
-            (displacement + np.where(is_ignored, cost, 0.0)) * ROUND_UP,
-        )
+        half[:, index] = np.where(is_ignored, 0.0, half[:, index])
+        displacement = (displacement + np.where(is_ignored, cost, 0.0)) * ROUND_UP
     lengths = chain.bound_link_lengths(first, first + len(joints), end)
     form = DerivativeEnclosure(kinematics.tip + -start, *compute_derivatives(kinematics.spin_axes, kinematics.columns))
     lower, upper = bound_norm(
@@ -107,11 +105,9 @@ class RefutationVerifier(TargetLeafVerifier):
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
         """Return the number of leaves, the undecided cells of the main tree, and an iterator of the leaves."""
-        main_tree, axis_count, last_token = (
-            decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"),
-            len(self.width),
-            2 + len(self.links),
-        )
+        main_tree = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree")
+        axis_count = len(self.width)
+        last_token = 2 + len(self.links)
         trees = [decompress_payload(lemma["tree"], 2 * MAX_LEAVES - 1, "tree of a lemma") for lemma in document["lemmas"]]
         require(last_token < SPLIT_TOKEN, f"there are more than {SPLIT_TOKEN - FIRST_LEMMA_TOKEN} lemmas")
         require(not any(tree.count(token) for tree in trees for token in (1, 2)), "a lemma is not proved everywhere")
@@ -136,10 +132,8 @@ class RefutationVerifier(TargetLeafVerifier):
 
     def find_unproved_cells(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
         """Return the cells of the main tree that are rejected, or that need a lemma with a rejected leaf."""
-        broken_lemmas, rejected_cells = (
-            {tree for _, (tree, _) in rejected if tree >= 0},
-            {cell for cell, (tree, _) in rejected if tree == -1},
-        )
+        broken_lemmas = {tree for _, (tree, _) in rejected if tree >= 0}
+        rejected_cells = {cell for cell, (tree, _) in rejected if tree == -1}
         return [cell for cell, (tree, lemma) in leaves() if tree == -1 and (lemma in broken_lemmas or cell in rejected_cells)]
 
     def verify_leaves(self, kind: tuple[int, int], leaves: list[Leaf]) -> Any:
@@ -166,14 +160,10 @@ class RefutationVerifier(TargetLeafVerifier):
         of an error.
         """
         joint_count, point, joint_half = len(joints), self.points[lemma], half[:, : len(joints)]
-        arm_point, target_point = (
-            self.arm.enclose_point(joints, 0, point, len(half)),
-            self.goal.enclose_point([target[axis] for axis in self.chain_axes]),
-        )
-        slide_extent, lengths = (
-            np.reshape([values[:, 0] for values in joints], joint_half.T.shape).T,
-            self.arm.bound_link_lengths(0, joint_count, point),
-        )
+        arm_point = self.arm.enclose_point(joints, 0, point, len(half))
+        target_point = self.goal.enclose_point([target[axis] for axis in self.chain_axes])
+        slide_extent = np.reshape([values[:, 0] for values in joints], joint_half.T.shape).T
+        lengths = self.arm.bound_link_lengths(0, joint_count, point)
         derivatives = [self.arm.bound_derivative(order, joint_half, lengths, slide_extent) for order in (1, 2, 3)]
         derivatives[0] += bound_length(half[:, joint_count + self.turning :])
         return bound_norm(
@@ -188,10 +178,8 @@ class RefutationVerifier(TargetLeafVerifier):
         """Return True if a witness satisfies the claim's limits and has its tool in the box of targets."""
         q, document = [parse_hex(number) for number in witness], self._document
         ranges = [document["angle"] if joint == document["locked"] else pair for joint, pair in enumerate(document["limits"])]
-        tip, sides = (
-            self.arm.enclose_point(enclose_configuration(witness)).tip,
-            [[parse_hex(number) for number in pair] for pair in document["target"]["box"]],
-        )
+        tip = self.arm.enclose_point(enclose_configuration(witness)).tip
+        sides = [[parse_hex(number) for number in pair] for pair in document["target"]["box"]]
         ends = zip(sides, tip.lower[0], -(-tip).lower[0], strict=False)
         in_limits = all(parse_hex(pair[0]) <= number <= parse_hex(pair[1]) for number, pair in zip(q, ranges, strict=True))
         in_box = all(a <= number and y <= b for (a, b), number, y in ends) and document["task"] in ("planar", "position")
@@ -222,12 +210,10 @@ class LoopClosureVerifier(LeafVerifier):
         self, arm: dict[str, Any], ranges: list[Any], *, tool_q: list[Fraction], uses_rotation: bool, planar: bool
     ) -> None:
         super().__init__({}, limit_to_revolution(ranges, arm["joints"]))
-        self.chain, self.n, self.uses_rotation, self._plane_mask = (
-            BallChain(arm, planar),
-            len(ranges),
-            uses_rotation,
-            np.array([1, 1, not planar]),
-        )
+        self.chain = BallChain(arm, planar)
+        self.n = len(ranges)
+        self.uses_rotation = uses_rotation
+        self._plane_mask = np.array([1, 1, not planar])
         chain, self.tip = self.chain, self.chain.origins[-1]
         kinematics = chain.enclose_point([np.array([enclose_angle(x)]) for x in tool_q])
         # From the tool back to the base: where that is seen from the last link, and how turned.
@@ -274,27 +260,17 @@ class PathRefutationVerifier(HealthyMotion):
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for refutation in chunk:
                 lock_index, ends, path_instant, leaves = refutation
-                lock, ranges = (
-                    document["locks"][lock_index]["joint"],
-                    [[parse_hex(number) for number in pair] for pair in document["limits"]],
-                )
+                lock = document["locks"][lock_index]["joint"]
+                ranges = [[parse_hex(number) for number in pair] for pair in document["limits"]]
                 ranges[lock] = sorted(
                     self.interpolate_joints(2 * number, max(number - 1, 0) // SEGMENT_INSTANTS)[lock] for number in ends
                 )
-                tool_q, uses_rotation = (
-                    self.interpolate_joints(2 * path_instant, (path_instant - 1) // SEGMENT_INSTANTS),
-                    "pose" in self.task,
+                tool_q = self.interpolate_joints(2 * path_instant, (path_instant - 1) // SEGMENT_INSTANTS)
+                uses_rotation = "pose" in self.task
+                loop = LoopClosureVerifier(
+                    document["arm"], ranges, tool_q=tool_q, uses_rotation=uses_rotation, planar=self.task.startswith("planar")
                 )
-                loop, excluded = (
-                    LoopClosureVerifier(
-                        document["arm"],
-                        ranges,
-                        tool_q=tool_q,
-                        uses_rotation=uses_rotation,
-                        planar=self.task.startswith("planar"),
-                    ),
-                    0,
-                )
+                excluded = 0
                 for token in sorted({token for token, _ in leaves}):
                     pair = [self._points[index] for index in document["pairs"][token]]
                     excluded += int(

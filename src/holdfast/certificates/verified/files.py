@@ -156,10 +156,8 @@ def _document_form(document: dict[str, Any], n: int) -> dict[str, Any]:
         )
         is_valid = n <= MAX_PATH_JOINTS and 2 <= count <= MAX_SEGMENTS + 1
         require(is_valid, f"a path has from 1 to {MAX_SEGMENTS} segments, and {MAX_PATH_JOINTS} joints at most")
-        instant, follower = (
-            range((count - 1) * SEGMENT_INSTANTS + 1),
-            [range(n), n - 1 - TASK_FORMS[task][0] - TASK_FORMS[task][1]],
-        )
+        instant = range((count - 1) * SEGMENT_INSTANTS + 1)
+        follower = [range(n), n - 1 - TASK_FORMS[task][0] - TASK_FORMS[task][1]]
         refuted = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT_PATTERN}, ...]
         lock = {"joint": range(n), "followers": follower, "refutations": refuted}
         lock |= {"cells": TEXT_PATTERN, "centres": TEXT_PATTERN, "proved": FRACTION_PATTERN, "refuted": FRACTION_PATTERN}
@@ -201,11 +199,9 @@ def _document_form(document: dict[str, Any], n: int) -> dict[str, Any]:
 
 
 def _check_values(document: dict[str, Any]) -> None:
-    kind, arm_limits, locks = (
-        document["kind"],
-        [joint["limits"] for joint in document["arm"]["joints"]],
-        document.get("locks", [0]),
-    )
+    kind = document["kind"]
+    arm_limits = [joint["limits"] for joint in document["arm"]["joints"]]
+    locks = document.get("locks", [0])
     limits = document.get("limits", arm_limits)
     for key, outer in (("limits", arm_limits), ("joint_box", arm_limits), ("working_ranges", limits)):
         require_within(document.get(key, []), outer[: len(document.get(key, []))], key)

@@ -42,10 +42,8 @@ class HealthyMotion:
     def __init__(self, document: dict[str, Any]) -> None:
         payloads = {"cells": "", "centres": "", "refutations": []}
         self._document = document | {"locks": [lock | payloads for lock in document["locks"]]}
-        self.task, self.knots = (
-            document["task"],
-            np.array([[parse_hex(number) for number in knot] for knot in document["knots"]]),
-        )
+        self.task = document["task"]
+        self.knots = np.array([[parse_hex(number) for number in knot] for knot in document["knots"]])
         self._exact_knots = [[Fraction(number) for number in knot] for knot in self.knots.tolist()]
 
     def __reduce__(self) -> tuple[Any, ...]:  # to another process
@@ -93,26 +91,20 @@ class PathVerifier(HealthyMotion):
         on it is one more of what the section moves.
         """
         tube, free, (locked, path) = len(self.tube), [joint for joint in range(self.n) if joint not in driven], rates
-        gradients, lock_mask, is_follower = (
-            np.nan_to_num(gradients),
-            np.arange(self.n) == driven[0],
-            np.isin(np.arange(2 * self.n), driven[1:]),
-        )
+        gradients = np.nan_to_num(gradients)
+        lock_mask = np.arange(self.n) == driven[0]
+        is_follower = np.isin(np.arange(2 * self.n), driven[1:])
         driven_rates = concatenate(1, path, path[:, ::-1]).multiply_signs(is_follower | (np.arange(2 * self.n) >= self.n))
         jacobian, drift = gradients[:, :, free], np.einsum("nmk,nk->nm", gradients[:, :, : self.n], locked.center * lock_mask)
         path_gradient = np.einsum("nmk,nk->nm", gradients, driven_rates.center)
-        extended, is_regular = (
-            np.concatenate([jacobian, path_gradient[:, :, None]], axis=2),
-            abs(np.linalg.det(jacobian)) > 1e-12,
-        )
+        extended = np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)
+        is_regular = abs(np.linalg.det(jacobian)) > 1e-12
         pseudo_inverse = np.linalg.inv(np.where(is_regular[:, None, None], jacobian, np.eye(self.m)))
         tangent = np.pad(-np.einsum("nfm,nm->nf", pseudo_inverse, path_gradient), ((0, 0), (0, 1)), constant_values=1.0)
         pseudo_inverse = np.pad(pseudo_inverse, ((0, 0), (0, 1), (0, 0)))
         if is_tangent.any():
-            pseudo_inverse[is_tangent], null_vectors = (
-                np.linalg.pinv(extended[is_tangent]),
-                np.linalg.svd(extended[is_tangent])[2][:, -1],
-            )
+            pseudo_inverse[is_tangent] = np.linalg.pinv(extended[is_tangent])
+            null_vectors = np.linalg.svd(extended[is_tangent])[2][:, -1]
             tangent[is_tangent] = null_vectors * np.where(null_vectors[:, -1:] < 0, -1.0, 1.0)
         lock_speed = is_tangent * ((tangent[:, :-1] * locked.center[:, free]).sum(axis=1) + tangent[:, -1])
         lock_response = tangent * lock_speed[:, None] - np.einsum("nfm,nm->nf", pseudo_inverse, drift)
@@ -137,10 +129,8 @@ class PathVerifier(HealthyMotion):
         chain_terms = zip(error.split_by_chain(joint_travel), error.split_by_chain(cells.response), strict=True)
         for (chain, slide_extent, travel), (_, _, responses) in chain_terms:
             response = responses[:, :, columns]
-            c, cumulative = (
-                np.cumsum(travel * ~chain.slides, axis=1) * ROUND_UP,
-                np.cumsum(response * ~chain.slides[:, None], axis=1) * ROUND_UP,
-            )
+            c = np.cumsum(travel * ~chain.slides, axis=1) * ROUND_UP
+            cumulative = np.cumsum(response * ~chain.slides[:, None], axis=1) * ROUND_UP
             slide_range = travel * chain.slides
             # What a slide goes out by, d, counts first order already: its slope by a turn changes by d c, whatever c is.
             weights = (chain.link_lengths + abs(slide_extent) * chain.slides) * c**2 + 2 * c * slide_range
@@ -228,11 +218,9 @@ class PathVerifier(HealthyMotion):
         What is entered is a place of the free joints and on the path, as coordinates of the path and of the section.
         """
         m, columns = self.m, [0, *range(2, half.shape[1] - self.m)]
-        previous_centers, previous_response, previous_half = (
-            _previous_rows(centers),
-            _previous_rows(response),
-            np.roll(half, 1, axis=0),
-        )
+        previous_centers = _previous_rows(centers)
+        previous_response = _previous_rows(response)
+        previous_half = np.roll(half, 1, axis=0)
         offset = (
             select_rows(
                 is_first,
@@ -243,10 +231,8 @@ class PathVerifier(HealthyMotion):
         )
         departure_spread = BallArray(np.zeros((*response.center.shape[:2], len(columns))))
         departure = lock_start[1] + -response[:, :, 0]
-        departure_spread.center[:, :, 0], departure_spread.radius = (
-            departure.center,
-            np.repeat(departure.radius[:, :, None], len(columns), axis=2),
-        )
+        departure_spread.center[:, :, 0] = departure.center
+        departure_spread.radius = np.repeat(departure.radius[:, :, None], len(columns), axis=2)
         spread = select_rows(is_first, departure_spread, previous_response[:, :, columns] + -response[:, :, columns])
         section_spread = select_rows(
             is_first, BallArray(np.zeros((*response.center.shape[:2], m))), previous_response[:, :, -m:]

@@ -26,11 +26,9 @@ class TargetLeafVerifier(LeafVerifier):
     def __init__(self, document: dict[str, Any], leading_axes: list[Any], trailing_axes: list[Any], planar: bool) -> None:
         super().__init__(document, [*leading_axes, *document["target"]["box"], *trailing_axes])
         self.task, self.locked, self.arm = document["task"], document["locked"], BallChain(document["arm"], planar)
-        self.goal, self.n, self.target_size = (
-            BallChain(build_target_chain(document["target"])),
-            self.arm.n,
-            len(document["target"]["axes"]),
-        )
+        self.goal = BallChain(build_target_chain(document["target"]))
+        self.n = self.arm.n
+        self.target_size = len(document["target"]["axes"])
         self.limits = np.array([[parse_hex(number) for number in pair] for pair in document["limits"]])
         linear = TASK_FORMS[self.task][0]
         self.targets, self.turning = slice(len(leading_axes), len(leading_axes) + self.target_size), self.target_size - linear

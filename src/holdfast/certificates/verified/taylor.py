@@ -86,10 +86,8 @@ class DerivativeEnclosure:
     def bound_magnitude(self, half: Array, remainder: Array) -> Array:
         """Bound the absolute values of the numbers, with the remainder after second order."""
         (decrease, increase), value = ((change + remainder) * ROUND_UP for change in self.bound_change(half)), self.value
-        upper, lower = (
-            np.nextafter(value.center + value.radius, np.inf) + increase,
-            np.nextafter(value.radius - value.center, np.inf) + decrease,
-        )
+        upper = np.nextafter(value.center + value.radius, np.inf) + increase
+        lower = np.nextafter(value.radius - value.center, np.inf) + decrease
         return np.nextafter(np.maximum(upper, lower), np.inf) + MIN_ROUNDING
 
 
@@ -114,14 +112,10 @@ class TaskErrorEnclosure(DerivativeEnclosure):
                 einsum("nkij,nj->nki", cross_matrix(tool.spin_axes), axis)
                 for tool, axis in ((arm_point, arm_axis), (goal_point, goal_axis))
             )
-            axis, transverse = (
-                enclose_difference(arm_point, next(columns), arm_axis, goal_point, next(columns), goal_axis),
-                goal_point.rotation.center,
-            )
-            gradients, second = (
-                einsum("nir,nij->nrj", transverse, axis.slopes),
-                einsum("nir,nijk->nrjk", transverse, axis.second),
-            )
+            axis = enclose_difference(arm_point, next(columns), arm_axis, goal_point, next(columns), goal_axis)
+            transverse = goal_point.rotation.center
+            gradients = einsum("nir,nij->nrj", transverse, axis.slopes)
+            second = einsum("nir,nijk->nrjk", transverse, axis.second)
             parts.append(DerivativeEnclosure(einsum("nir,ni->nr", transverse, axis.value), gradients, second))
         elif turning:
             rotation = einsum("nij,nkj->nik", arm_point.rotation, goal_point.rotation)
