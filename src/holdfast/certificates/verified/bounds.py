@@ -59,12 +59,8 @@ class ScrewEnclosure:
         links = np.zeros(self.half.shape)
         for index, joint in enumerate(self.order):  # any point of an axis will do: one that is near the one before
             previous, points = axis_points[0] if index == n - middle else previous, kinematics.points[:, joint]
-            axis_points.append(
-                points
-                + einsum(
-                    "n,na->na", np.nan_to_num(((previous.center - points.center) * z.center[:, index]).sum(axis=1)), z[:, index]
-                )
-            )
+            axis_offset = np.nan_to_num(((previous.center - points.center) * z.center[:, index]).sum(axis=1))
+            axis_points.append(points + einsum("n,na->na", axis_offset, z[:, index]))
             links[:, index], previous = bound_length((axis_points[index] + -previous).magnitude), axis_points[index]
         offsets = stack_second(axis_points) + -axis_points[0][:, None]
         moments = einsum("nlij,nlj->nli", cross_matrix(offsets), z)
@@ -104,18 +100,13 @@ class CeilingVerifier(LeafVerifier):
         """
         tree, n = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"), self.arm.n
         valid_tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
-        require(
-            set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)},
-            "a token of the tree is unknown, or not among the locks",
-        )
+        is_valid = set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)}
+        require(is_valid, "a token of the tree is unknown, or not among the locks")
         undecided = [cell for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN) if token == 2]
 
         def iterate_leaves() -> Iterator[Leaf]:
-            return (
-                (cell, max(token - FIRST_LOCK_TOKEN, 0))
-                for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN)
-                if token != 2
-            )
+            cells = iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN)
+            return ((cell, max(token - FIRST_LOCK_TOKEN, 0)) for token, cell in cells if token != 2)
 
         return sum(tree.count(token) for token in valid_tokens), undecided, iterate_leaves
 
@@ -172,9 +163,7 @@ class CeilingVerifier(LeafVerifier):
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             kinematics = self.arm.enclose_point(enclose_configuration(q))
             columns = concatenate(2, kinematics.axes, kinematics.columns)[0][:, self.screw_rows].transpose(1, 0)
-            entries = [
-                flint.arb(float(x), float(radius)) for x, radius in zip(columns.center.flat, columns.radius.flat, strict=True)
-            ]
+            entries = [flint.arb(float(x), float(r)) for x, r in zip(columns.center.flat, columns.radius.flat, strict=True)]
             jacobian = flint.arb_mat(*columns.center.shape, entries)
             try:
                 solution = (jacobian * jacobian.transpose()).solve(jacobian)
@@ -197,15 +186,8 @@ class FloorVerifier(CeilingVerifier):
         if n - len(self.screw_rows) == 1:
             return self.verify_null_motion(screws, np.linalg.svd(jacobian)[2][:, -1], inverse, positions)
         null_projector = np.eye(n) - inverse @ jacobian
-        return np.asarray(
-            np.all(
-                [
-                    self.verify_null_motion(screws, null_projector[:, :, position], inverse, [position])
-                    for position in positions
-                ],
-                axis=0,
-            )
-        )
+        masks = [self.verify_null_motion(screws, null_projector[:, :, x], inverse, [x]) for x in positions]
+        return np.asarray(np.all(masks, axis=0))
 
     def verify_null_motion(self, screws: ScrewEnclosure, nu: Array, inverse: Array, positions: list[int]) -> Flags:
         """Return a mask of leaves all over which some nu + N (q - q_c) + P s keeps the tool still and has large enough
@@ -223,9 +205,8 @@ class FloorVerifier(CeilingVerifier):
         gradients = gradients + einsum("nlb,nlj->nbj", screw, response)
         second = second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2)
         joint_travel = np.einsum("nlj,nj->nl", abs(response), half) * ROUND_UP
-        remainder = np.einsum("nl,nlb->nb", abs(nu), screws.third_remainder[..., rows]) + np.einsum(
-            "nl,nlb->nb", joint_travel, screws.second_remainder[..., rows]
-        )
+        remainder = np.einsum("nl,nlb->nb", abs(nu), screws.third_remainder[..., rows])
+        remainder = remainder + np.einsum("nl,nlb->nb", joint_travel, screws.second_remainder[..., rows])
         residual = DerivativeEnclosure(einsum("nlb,nl->nb", screw, nu), gradients, second).bound_magnitude(
             half, remainder * ROUND_UP
         )
@@ -242,11 +223,8 @@ class FloorVerifier(CeilingVerifier):
         # s -> s - J x sends its box into itself; and as miss s < s, J P has an inverse everywhere: nothing is singular.
         is_closed = ((residual + np.einsum("nbc,nc->nb", contraction, s)) * ROUND_UP < s).all(axis=1) & (s < 1e3).all(axis=1)
         shift = np.einsum("nlb,nb->nl", abs(inverse), s) * ROUND_UP
-        norm_bound = (
-            (nu**2).sum(axis=1)
-            + 2 * (einsum("nl,nlj->nj", nu, response).magnitude * half).sum(axis=1)
-            + (joint_travel**2).sum(axis=1)
-        )
+        norm_bound = (nu**2).sum(axis=1) + 2 * (einsum("nl,nlj->nj", nu, response).magnitude * half).sum(axis=1)
+        norm_bound += (joint_travel**2).sum(axis=1)
         norm_bound = (np.sqrt(norm_bound * ROUND_UP) + bound_length(shift)) * ROUND_UP
         min_component = np.nextafter(abs(nu) - (joint_travel + shift) * ROUND_UP, -np.inf)[:, positions].min(axis=1)
         return np.asarray(is_closed & (min_component > 1e-100) & (min_component > self.threshold * norm_bound * ROUND_UP))

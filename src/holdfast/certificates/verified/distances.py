@@ -42,11 +42,8 @@ def bound_norm_below(form: DerivativeEnclosure, linear: int, remainders: tuple[A
         unit = direction / np.sqrt((direction**2).sum(axis=1))[:, None] * (1 - 1e-12)
         unit = np.where(((unit**2).sum(axis=1) < 1 - 1e-13)[:, None], unit, 0.0)
         projection = form.combine_rows(BallArray(unit))
-        loss = (
-            projection.bound_change(half)[0][:, 0]
-            + bound_length(unit * is_position) * remainders[0]
-            + bound_length(unit * ~is_position) * remainders[1]
-        )
+        loss = projection.bound_change(half)[0][:, 0] + bound_length(unit * is_position) * remainders[0]
+        loss = loss + bound_length(unit * ~is_position) * remainders[1]
         best = np.maximum(best, np.nextafter(projection.value.lower[:, 0] - loss * ROUND_UP, -np.inf))
     return best
 
@@ -60,10 +57,8 @@ def bound_norm(form: DerivativeEnclosure, derivatives: list[Array], half: Array)
     (first_derivative, second_derivative, third_derivative), norm = derivatives, bound_length(form.value.magnitude)
     second = einsum("naj,nak->njk", form.slopes, form.slopes) + einsum("na,najk->njk", form.value, form.second)
     square = DerivativeEnclosure(form.value, einsum("na,nak->nk", form.value, form.slopes)[:, None], second[:, None])
-    squared = norm**2 + 2 * (
-        square.bound_change(half)[1][:, 0]
-        + (3 * first_derivative * second_derivative + (norm + first_derivative) * third_derivative) / 6
-    )
+    cubic = (3 * first_derivative * second_derivative + (norm + first_derivative) * third_derivative) / 6
+    squared = norm**2 + 2 * (square.bound_change(half)[1][:, 0] + cubic)
     upper = np.nextafter(np.sqrt(squared * ROUND_UP), np.inf)
     return bound_norm_below(form, 3, (third_derivative / 6, 0), half), np.asarray(upper)
 
@@ -115,18 +110,14 @@ class RefutationVerifier(TargetLeafVerifier):
         if document["witness"]:
             require(main_tree == b"\2" and not trees, "beside a witness nothing is proved")
             return 1, undecided, lambda: iter([(undecided[0], WITNESS_LEAF)])
-        count = sum(tree.count(0) for tree in trees) + sum(
-            main_tree.count(valid_token) for valid_token in (PROVED_TOKEN, *range(FIRST_LEMMA_TOKEN, last_token + 1))
-        )
+        count = sum(tree.count(0) for tree in trees)
+        count += sum(main_tree.count(token) for token in (PROVED_TOKEN, *range(FIRST_LEMMA_TOKEN, last_token + 1)))
 
         def iterate_leaves() -> Iterator[Leaf]:
             for index, tree in enumerate(trees):
                 yield from ((cell, (index, index)) for _, cell in iterate_cells(tree, self.n - self.links[index]))
-            yield from (
-                (cell, (-1, max(token, 2) - FIRST_LEMMA_TOKEN))
-                for token, cell in iterate_cells(main_tree, axis_count, last_token)
-                if token not in (1, 2)
-            )
+            cells = iterate_cells(main_tree, axis_count, last_token)
+            yield from ((cell, (-1, max(token, 2) - FIRST_LEMMA_TOKEN)) for token, cell in cells if token not in (1, 2))
 
         return count, undecided, iterate_leaves
 
@@ -166,13 +157,8 @@ class RefutationVerifier(TargetLeafVerifier):
         lengths = self.arm.bound_link_lengths(0, joint_count, point)
         derivatives = [self.arm.bound_derivative(order, joint_half, lengths, slide_extent) for order in (1, 2, 3)]
         derivatives[0] += bound_length(half[:, joint_count + self.turning :])
-        return bound_norm(
-            enclose_difference(
-                arm_point, arm_point.columns, arm_point.tip, target_point, target_point.columns, target_point.tip
-            ),
-            derivatives,
-            half,
-        )
+        arm_vectors, target_vectors = ((x, x.columns, x.tip) for x in (arm_point, target_point))
+        return bound_norm(enclose_difference(*arm_vectors, *target_vectors), derivatives, half)
 
     def verify_witness(self, witness: list[str]) -> bool:
         """Return True if a witness satisfies the claim's limits and has its tool in the box of targets."""
@@ -248,9 +234,7 @@ class PathRefutationVerifier(HealthyMotion):
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document)
-        self._points = [
-            (point["link"], np.array([parse_hex(number) for number in point["place"]])) for point in document["points"]
-        ]
+        self._points = [(point["link"], np.array([parse_hex(x) for x in point["place"]])) for point in document["points"]]
 
     def check_leaves(self, chunk: list[StoredRefutation]) -> tuple[int, list[tuple[StoredRefutation, int]]]:
         """Check refutations; return the number of leaves, and the refutations that fail, each with its number of rejected
@@ -262,20 +246,15 @@ class PathRefutationVerifier(HealthyMotion):
                 lock_index, ends, path_instant, leaves = refutation
                 lock = document["locks"][lock_index]["joint"]
                 ranges = [[parse_hex(number) for number in pair] for pair in document["limits"]]
-                ranges[lock] = sorted(
-                    self.interpolate_joints(2 * number, max(number - 1, 0) // SEGMENT_INSTANTS)[lock] for number in ends
-                )
+                ranges[lock] = sorted(self.interpolate_joints(2 * k, max(k - 1, 0) // SEGMENT_INSTANTS)[lock] for k in ends)
                 tool_q = self.interpolate_joints(2 * path_instant, (path_instant - 1) // SEGMENT_INSTANTS)
                 uses_rotation = "pose" in self.task
-                loop = LoopClosureVerifier(
-                    document["arm"], ranges, tool_q=tool_q, uses_rotation=uses_rotation, planar=self.task.startswith("planar")
-                )
+                planar = self.task.startswith("planar")
+                loop = LoopClosureVerifier(document["arm"], ranges, tool_q=tool_q, uses_rotation=uses_rotation, planar=planar)
                 excluded = 0
                 for token in sorted({token for token, _ in leaves}):
                     pair = [self._points[index] for index in document["pairs"][token]]
-                    excluded += int(
-                        loop.exclude_cells(pair, [cell for leaf_token, cell in leaves if leaf_token == token]).sum()
-                    )
+                    excluded += int(loop.exclude_cells(pair, [cell for kind, cell in leaves if kind == token]).sum())
                 rejected += [(refutation, len(leaves) - excluded)] * (excluded < len(leaves))
         return sum(len(leaves) for *_, leaves in chunk), rejected
 

@@ -25,22 +25,13 @@ RATIONAL_PATTERN = r"-?\d{1,60}/[1-9]\d{0,60}"
 FRACTION_PATTERN = r"\d{1,60}/[1-9]\d{0,60}"
 LIMITS_FORM = [f"{NUMBER_PATTERN}|-?inf", 2]
 FRAME_FORM = {"rotation": [NUMBER_PATTERN, 9], "origin": [NUMBER_PATTERN, 3]}
-ARM_FORM = {
-    "joints": [{"name": TEXT_PATTERN, "type": "revolute|prismatic", "limits": LIMITS_FORM, **FRAME_FORM}, ...],
-    "tool": FRAME_FORM,
-}
+JOINT_FORM = {"name": TEXT_PATTERN, "type": "revolute|prismatic", "limits": LIMITS_FORM, **FRAME_FORM}
+ARM_FORM = {"joints": [JOINT_FORM, ...], "tool": FRAME_FORM}
 VOLUMES_FORM = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
 KIND_PATTERN = "reach|bundle|refutation|ceiling|floor|structural-zero|path"
 COMMON_FORM: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KIND_PATTERN, "arm": ARM_FORM}
-COMMON_FORM |= {
-    "arm_digest": HASH_PATTERN,
-    "source": ...,
-    "claim": TEXT_PATTERN,
-    "task": TEXT_PATTERN,
-    "volumes": VOLUMES_FORM,
-    "digest": HASH_PATTERN,
-    **FOR_PEOPLE,
-}
+COMMON_FORM |= {"arm_digest": HASH_PATTERN, "source": ..., "claim": TEXT_PATTERN, "task": TEXT_PATTERN}
+COMMON_FORM |= {"volumes": VOLUMES_FORM, "digest": HASH_PATTERN, **FOR_PEOPLE}
 MAX_BYTES = 256 << 20
 MAX_JOINTS = 64
 MAX_PATH_JOINTS = 32
@@ -121,10 +112,8 @@ def _check_document(document: dict[str, Any]) -> None:
     names = [joint["name"] for joint in document["arm"]["joints"]]
     is_valid = 0 < len(names) <= MAX_JOINTS and len(set(names)) == len(names)
     require(is_valid, f"there must be 1 to {MAX_JOINTS} joints of different names")
-    require(
-        all(name.isprintable() and name and len(name) <= 200 for name in names),
-        "joints must have names of 1 to 200 letters to print",
-    )
+    is_valid = all(name.isprintable() and name and len(name) <= 200 for name in names)
+    require(is_valid, "joints must have names of 1 to 200 letters to print")
     require_form(document, COMMON_FORM | _document_form(document, len(names)), "the certificate")
     _check_values(document)
     for key, value in (
@@ -151,9 +140,7 @@ def _document_form(document: dict[str, Any], n: int) -> dict[str, Any]:
         return {"locked": range(1, n - 1), "snapped": [frame, n], "points": [RATIONAL_PATTERN, n]}
     require(task in TASK_FORMS, f"the task must be one of: {', '.join(TASK_FORMS)}")
     if kind == "path":
-        count, points = (
-            len(items) if isinstance(items, list) else 0 for items in (document.get("knots"), document.get("points"))
-        )
+        count, points = (len(x) if isinstance(x, list) else 0 for x in (document.get("knots"), document.get("points")))
         is_valid = n <= MAX_PATH_JOINTS and 2 <= count <= MAX_SEGMENTS + 1
         require(is_valid, f"a path has from 1 to {MAX_SEGMENTS} segments, and {MAX_PATH_JOINTS} joints at most")
         instant = range((count - 1) * SEGMENT_INSTANTS + 1)
@@ -161,18 +148,11 @@ def _document_form(document: dict[str, Any], n: int) -> dict[str, Any]:
         refuted = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT_PATTERN}, ...]
         lock = {"joint": range(n), "followers": follower, "refutations": refuted}
         lock |= {"cells": TEXT_PATTERN, "centres": TEXT_PATTERN, "proved": FRACTION_PATTERN, "refuted": FRACTION_PATTERN}
-        form = {
-            "knots": [[NUMBER_PATTERN, n], ...],
-            "tube": [NUMBER_PATTERN, 2],
-            "limits": [LIMITS_FORM, n],
-            "during": [instant, 2],
-        }
+        form = {"knots": [[NUMBER_PATTERN, n], ...], "tube": [NUMBER_PATTERN, 2], "limits": [LIMITS_FORM, n]}
+        form["during"] = [instant, 2]
         form |= {"pairs": [[range(points), 2], ...], "points": [{"link": range(n + 1), "place": [NUMBER_PATTERN, 3]}, ...]}
-        return form | {
-            "unit": re.escape(PATH_UNIT.hex()),
-            "locks": [lock, ...],
-            "volumes": dict.fromkeys(VOLUMES_FORM, FRACTION_PATTERN),
-        }
+        volumes = dict.fromkeys(VOLUMES_FORM, FRACTION_PATTERN)
+        return form | {"unit": re.escape(PATH_UNIT.hex()), "locks": [lock, ...], "volumes": volumes}
     axes = str(target.get("axes")) if isinstance(target, dict) else ""
     orientation: Any = [NUMBER_PATTERN, 9] if axes == "xyz" and task in ("pose", "pointing") else None
     box = {"axes": TASK_FORMS[task][2], "box": [[NUMBER_PATTERN, 2], len(axes)], "orientation": orientation}
@@ -181,20 +161,12 @@ def _document_form(document: dict[str, Any], n: int) -> dict[str, Any]:
         part = {"file": r"\w[\w.-]*", "digest": HASH_PATTERN, "locked": range(-1, n)}
         parts = [part, len(locks) + 1 if isinstance(locks, list) else 0]
         return form | {"working_ranges": [LIMITS_FORM, n], "locks": [range(n), ...], "parts": parts}
-    form |= {
-        "locked": range(-1, n),
-        "angle": None if document.get("locked") == -1 else [NUMBER_PATTERN, 2],
-        "tree": TEXT_PATTERN,
-    }
+    angle = None if document.get("locked") == -1 else [NUMBER_PATTERN, 2]
+    form |= {"locked": range(-1, n), "angle": angle, "tree": TEXT_PATTERN}
     if kind == "reach":
         return form | {"centres": TEXT_PATTERN, "unit": re.escape(CENTER_UNIT.hex()), "refutations": [..., 0]}
-    lemma = {
-        "link": range(n),
-        "point": [NUMBER_PATTERN, 3],
-        "least": NUMBER_PATTERN,
-        "most": NUMBER_PATTERN,
-        "tree": TEXT_PATTERN,
-    }
+    lemma: dict[str, Any] = {"link": range(n), "point": [NUMBER_PATTERN, 3], "least": NUMBER_PATTERN}
+    lemma |= {"most": NUMBER_PATTERN, "tree": TEXT_PATTERN}
     return form | {"lemmas": [lemma, ...], "witness": [NUMBER_PATTERN, n] if document.get("witness") else None}
 
 

@@ -40,9 +40,7 @@ def compute_digest(document: dict[str, Any]) -> str:
 
 def format_intervals(names: Iterable[str], pairs: Iterable[list[str]]) -> str:
     """Format intervals as text; decimals are the shortest that represent the same doubles."""
-    return ", ".join(
-        f"{name} {' to '.join(repr(parse_hex(number)) for number in pair)}" for name, pair in zip(names, pairs, strict=True)
-    )
+    return ", ".join(f"{name} {' to '.join(repr(parse_hex(x)) for x in pair)}" for name, pair in zip(names, pairs, strict=True))
 
 
 def decompress_payload(text: str, max_bytes: int, label: str) -> bytes:

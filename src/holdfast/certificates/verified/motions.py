@@ -111,11 +111,8 @@ class PathVerifier(HealthyMotion):
         response = np.concatenate([np.stack([lock_response, tangent], 2), pseudo_inverse[:, :, :tube], pseudo_inverse], axis=2)
         response, free_motion = np.nan_to_num(response), np.zeros((len(gradients), 2 * self.n, response.shape[2]))
         free_motion[:, free] = response[:, :-1]
-        lock_motion = einsum(
-            "nk,c->nkc",
-            concatenate(1, locked.multiply_signs(lock_mask), path.multiply_signs(0)),
-            1.0 * (np.arange(response.shape[2]) == 0),
-        )
+        motion = concatenate(1, locked.multiply_signs(lock_mask), path.multiply_signs(0))
+        lock_motion = einsum("nk,c->nkc", motion, 1.0 * (np.arange(response.shape[2]) == 0))
         return einsum("nk,nc->nkc", driven_rates, response[:, -1]) + lock_motion + free_motion, BallArray(response)
 
     def bound_gradients(self, cells: Inclusion, half: Array) -> Array:
@@ -197,10 +194,8 @@ class PathVerifier(HealthyMotion):
         if is_tangent.any():
             is_valid &= ~is_tangent | self.moves_forward(inclusion, response, middle - (ends - 1) // SEGMENT_INSTANTS - 1)
         centers = concatenate(1, q[:, free], BallArray(middle[:, None]))
-        lock_start = (
-            concatenate(1, _joint_values(locked)[:, free], BallArray((begin + stop)[:, None] / (2 * SEGMENT_INSTANTS))),
-            concatenate(1, lock_rate[:, free], ones),
-        )
+        instants = BallArray((begin + stop)[:, None] / (2 * SEGMENT_INSTANTS))
+        lock_start = concatenate(1, _joint_values(locked)[:, free], instants), concatenate(1, lock_rate[:, free], ones)
         return is_valid & self.stays_in_unique_box(centers, response, half, unique_box, lock_start, is_first, is_tangent)
 
     def stays_in_unique_box(
@@ -221,14 +216,8 @@ class PathVerifier(HealthyMotion):
         previous_centers = _previous_rows(centers)
         previous_response = _previous_rows(response)
         previous_half = np.roll(half, 1, axis=0)
-        offset = (
-            select_rows(
-                is_first,
-                lock_start[0],
-                previous_centers + einsum("nf,n->nf", previous_response[:, :, 1], BallArray(previous_half[:, 1])),
-            )
-            + -centers
-        )
+        predicted = previous_centers + einsum("nf,n->nf", previous_response[:, :, 1], BallArray(previous_half[:, 1]))
+        offset = select_rows(is_first, lock_start[0], predicted) + -centers
         departure_spread = BallArray(np.zeros((*response.center.shape[:2], len(columns))))
         departure = lock_start[1] + -response[:, :, 0]
         departure_spread.center[:, :, 0] = departure.center
@@ -257,11 +246,7 @@ class PathVerifier(HealthyMotion):
             for _, group in groupby(zip(chunk, totals, strict=True), lambda entry: (entry[0][0], entry[1] // BATCH_CELLS)):
                 slabs = [slab for slab, _ in group]
                 wrong = np.split(~self.verify_cells(slabs), np.cumsum([len(entry[3]) for entry in slabs])[:-1])
-                rejected += [
-                    (entry, int(rejected_cells.sum()))
-                    for entry, rejected_cells in zip(slabs, wrong, strict=True)
-                    if rejected_cells.any()
-                ]
+                rejected += [(entry, int(cells.sum())) for entry, cells in zip(slabs, wrong, strict=True) if cells.any()]
         return sum(len(slab[3]) for slab in chunk), rejected
 
 

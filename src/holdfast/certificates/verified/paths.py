@@ -52,11 +52,9 @@ def compute_volumes(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
     refuted).
     """
     min_proved, max_refuted = min(proved for proved, _ in parts), max(refuted for _, refuted in parts)
-    return {
-        "proved": format_fraction(min_proved),
-        "refuted": format_fraction(max_refuted),
-        "undecided": format_fraction(max(1 - proved - refuted for proved, refuted in parts)),
-    }
+    max_undecided = max(1 - proved - refuted for proved, refuted in parts)
+    volumes = {"proved": min_proved, "refuted": max_refuted, "undecided": max_undecided}
+    return {key: format_fraction(fraction) for key, fraction in volumes.items()}
 
 
 def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
@@ -74,9 +72,7 @@ def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
         rows, cursor, used, earliest = np.frombuffer(payload, "<i4").reshape(-1, n).astype(np.int64), 0, 0, first
         require(not rows[:, lock["followers"]].any(), "centres of joints that follow must be 0")
         while cursor < len(numbers):
-            begin, stop, count = (
-                (int(number) for number in numbers[cursor : cursor + 3]) if cursor + 3 <= len(numbers) else (0, 0, 0)
-            )
+            begin, stop, count = (int(x) for x in numbers[cursor : cursor + 3]) if cursor + 3 <= len(numbers) else (0, 0, 0)
             encoded_ends = numbers[cursor + 3 : cursor + 3 + max(count, 0)]
             is_valid = earliest <= begin < stop <= last and (stop - 1) // SEGMENT_INSTANTS == begin // SEGMENT_INSTANTS
             require(is_valid and 0 < count == len(encoded_ends), "a slab of lock instants is out of place, or without cells")
@@ -84,10 +80,8 @@ def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
             slab_centers = rows[used : used + count].copy()
             slab_cells = _decode_cells(begin, encoded_ends, slab_centers[:, lock["joint"]])
             slab_centers[:, lock["joint"]] = 0
-            require(
-                (slab_cells[:, 2] == 0).all() or not any(map(parse_hex, document["tube"])),
-                "in a tube there are no turned cells",
-            )
+            is_valid = (slab_cells[:, 2] == 0).all() or not any(map(parse_hex, document["tube"]))
+            require(is_valid, "in a tube there are no turned cells")
             require(slab_cells[-1, 1] == path_end and not slab_cells[-1, 2], "cells of a slab end before the path")
             require(slab_cells[0, 2] or slab_cells[0, 1] >= stop, "the first cell of a slab does not hold it")
             yield lock_index, (begin, stop), slab_cells, slab_centers
@@ -102,18 +96,12 @@ def read_refutations(document: dict[str, Any]) -> Iterator[StoredRefutation]:
         earliest = first
         for entry in lock["refutations"]:
             begin, stop, path_instant = (entry[key] for key in ("begin", "stop", "at"))
-            is_valid = (
-                earliest <= begin < stop <= min(last, path_instant)
-                and (stop - 1) // SEGMENT_INSTANTS == begin // SEGMENT_INSTANTS
-            )
+            is_valid = earliest <= begin < stop <= min(last, path_instant)
+            is_valid = is_valid and (stop - 1) // SEGMENT_INSTANTS == begin // SEGMENT_INSTANTS
             require(is_valid, "a refuted interval of lock instants is out of place")
             tree = decompress_payload(entry["tree"], 2 * MAX_LEAVES, "tree of a refutation")
-            yield (
-                lock_index,
-                (begin, stop),
-                path_instant,
-                list(iterate_cells(tree, len(document["arm"]["joints"]), len(document["pairs"]) - 1)),
-            )
+            cells = list(iterate_cells(tree, len(document["arm"]["joints"]), len(document["pairs"]) - 1))
+            yield lock_index, (begin, stop), path_instant, cells
             earliest = stop
 
 
@@ -128,11 +116,8 @@ def _decode_cells(begin: int, encoded_ends: Ints, encoded_positions: Ints) -> In
     starts = np.where(has_position, segment_starts + encoded_positions, faces[:-1])
     ends = np.where(is_tangent, starts, encoded_ends)
     require(not encoded_positions[~has_position].any(), "centres of joints that are not free must be 0")
-    is_valid = (
-        (starts - segment_starts >= is_tangent)
-        & (starts - segment_starts <= SEGMENT_INSTANTS - ~is_tangent)
-        & (encoded_ends >= -(1 << 31))
-    )
+    lengths = starts - segment_starts
+    is_valid = (lengths >= is_tangent) & (lengths <= SEGMENT_INSTANTS - ~is_tangent) & (encoded_ends >= -(1 << 31))
     is_valid &= is_tangent | (
         (starts < ends) & ((ends - 1) // SEGMENT_INSTANTS == segment_starts // SEGMENT_INSTANTS) & (ends > faces[:-1])
     )

@@ -32,13 +32,9 @@ class TargetLeafVerifier(LeafVerifier):
         self.limits = np.array([[parse_hex(number) for number in pair] for pair in document["limits"]])
         linear = TASK_FORMS[self.task][0]
         self.targets, self.turning = slice(len(leading_axes), len(leading_axes) + self.target_size), self.target_size - linear
-        self.chain_axes = [*range(linear)][::-1] + [*range(linear, self.target_size)][
-            ::-1
-        ]  # axes of a target, as its chain has them
-        self.error_axes = [
-            *range(linear, self.target_size),
-            *range(linear),
-        ]  # and as an error has them, behind the arm's joints
+        # The axes of a target in the order of its chain, and in that of an error, in which they follow the arm's joints.
+        self.chain_axes = [*range(linear)][::-1] + [*range(linear, self.target_size)][::-1]
+        self.error_axes = [*range(linear, self.target_size), *range(linear)]
 
     def enclose_error(self, joints: list[Array], target: list[Array]) -> TaskErrorEnclosure:
         """Return the task rows of the error."""
@@ -63,15 +59,12 @@ class ReachVerifier(TargetLeafVerifier):
         require(len(packed) == row_bytes * count, "there are fewer centres than leaves")
         centers = np.frombuffer(packed, "<i4").reshape(count, self.n)
         require(not np.delete(centers, self.free, axis=1).any(), "centres of joints that do not move must be 0")
-        return (
-            count,
-            undecided,
-            lambda: zip(
-                (proved_cell for token, proved_cell in iterate_cells(tree, axis_count) if token == PROVED_TOKEN),
-                centers,
-                strict=True,
-            ),
-        )
+
+        def iterate_leaves() -> Iterator[Leaf]:
+            cells = (cell for token, cell in iterate_cells(tree, axis_count) if token == PROVED_TOKEN)
+            return zip(cells, centers, strict=True)
+
+        return count, undecided, iterate_leaves
 
     def enclose_leaf_centers(self, leaves: list[Leaf]) -> tuple[list[Array], list[Array]]:
         """Return the joints at the centers, and the axes of the cells, as :func:`enclose_angle` gives them."""

@@ -17,12 +17,9 @@ from .zeros import bound_snap_errors
 def claim_sentence(document: dict[str, Any]) -> str:
     """Return the claim of a certificate as a sentence, made from its other keys."""
     names = [joint["name"] for joint in document["arm"]["joints"]]
-    format_claim = {
-        "path": _path_claim,
-        "structural-zero": _structural_zero_claim,
-        "ceiling": _bound_claim,
-        "floor": _bound_claim,
-    }.get(document["kind"], _target_claim)
+    format_claims = {"path": _path_claim, "structural-zero": _structural_zero_claim}
+    format_claims |= {"ceiling": _bound_claim, "floor": _bound_claim}
+    format_claim = format_claims.get(document["kind"], _target_claim)
     return f"{format_claim(document, names)} arm {document['arm_digest'][:12]}."
 
 
@@ -30,18 +27,14 @@ def _structural_zero_claim(document: dict[str, Any], names: list[str]) -> str:
     tolerance = "{} rad and {} m".format(
         *(f"{_two_digits(Fraction(error), True):g}" if error else "0" for error in bound_snap_errors(document))
     )
-    text = (
-        f"For every configuration of an arm whose frames are within {tolerance} of the file's, relative manipulability of the"
-    )
-    return f"{text} pose after a lock of {names[document['locked']]} is 0;"
+    text = f"For every configuration of an arm whose frames are within {tolerance} of the file's, "
+    return f"{text}relative manipulability of the pose after a lock of {names[document['locked']]} is 0;"
 
 
 def _bound_claim(document: dict[str, Any], names: list[str]) -> str:
-    text = (
-        f"For every configuration with {format_intervals(names, document['joint_box'])}, the least relative "
-        f"manipulability of the "
-    )
-    text += f"{document['task']} after a lock of one of {', '.join(names[lock] for lock in document['locks'])} is at "
+    text = f"For every configuration with {format_intervals(names, document['joint_box'])}, the least relative "
+    text += f"manipulability of the {document['task']} after a lock of one of "
+    text += f"{', '.join(names[lock] for lock in document['locks'])} is at "
     return f"{text}{'most' if document['kind'] == 'ceiling' else 'least'} {parse_hex(document['threshold'])!r}; angles in rad,"
 
 
@@ -49,16 +42,11 @@ def _path_claim(document: dict[str, Any], names: list[str]) -> str:
     knots, (first, last), locked = document["knots"], document["during"], [names[lock["joint"]] for lock in document["locks"]]
     metres, radians = map(parse_hex, document["tube"])
     knots_digest = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
-    text = (
-        f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {knots_digest}. For "
-        f"every instant from "
-    )
-    text += f"knot {first / SEGMENT_INSTANTS!r} to knot {last / SEGMENT_INSTANTS!r} at which one of {', '.join(locked)} locks "
-    text += (
-        f"where it is, one continuous motion within the limits ({format_intervals(names, document['limits'])}) begins "
-        f"there with that "
-    )
-    text += f"joint at rest and takes the tool along the rest of the {document['task']} path"
+    text = f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {knots_digest}. "
+    text += f"For every instant from knot {first / SEGMENT_INSTANTS!r} to knot {last / SEGMENT_INSTANTS!r} at which one of "
+    text += f"{', '.join(locked)} locks where it is, one continuous motion within "
+    text += f"the limits ({format_intervals(names, document['limits'])}) begins there with that joint at rest and takes "
+    text += f"the tool along the rest of the {document['task']} path"
     if metres or radians:
         angle_note = f" and {radians!r} rad" if "pose" in document["task"] else ""
         text += f", or along any continuous path that is within {metres!r} m{angle_note} of it and begins on it"
@@ -70,11 +58,9 @@ def _target_claim(document: dict[str, Any], names: list[str]) -> str:
     axes = [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in target["axes"]]
     orientation = [parse_hex(number) for number in target["orientation"] or ()]
     if orientation:
-        orientation_note = (
-            f" and the tool's z axis along {orientation[2::3]}"
-            if document["task"] == "pointing"
-            else f" and the rotation {orientation}"
-        )
+        is_pointing = document["task"] == "pointing"
+        orientation_note = f" and the tool's z axis along {orientation[2::3]}"
+        orientation_note = orientation_note if is_pointing else f" and the rotation {orientation}"
     orientation_note += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
     text = f"For every {document['task']} target with {format_intervals(axes, target['box'])}{orientation_note}"
     configuration = f"configuration within the limits ({format_intervals(names, document['limits'])})"
@@ -83,10 +69,8 @@ def _target_claim(document: dict[str, Any], names: list[str]) -> str:
         text += f", a configuration within the working ranges ({ranges}) reaches it, and after a lock of any one of "
         text += f"{', '.join(locked)} at any value of its range"
     elif document["locked"] >= 0:
-        text += (
-            f", and every value {format_intervals(['from'], [document['angle']])} at which "
-            f"{names[document['locked']]} may be locked"
-        )
+        text += f", and every value {format_intervals(['from'], [document['angle']])} at which "
+        text += f"{names[document['locked']]} may be locked"
     configuration += " with that value" * (kind == "bundle" or document["locked"] >= 0)
     text += f" and every {configuration}: the tool is elsewhere" if kind == "refutation" else f", a {configuration} reaches it"
     return f"{text}; lengths in m, angles in rad, base frame,"

@@ -41,9 +41,7 @@ class StructuralZeroVerifier(LeafVerifier):
         """Return whether the pair of axes shares its point."""
         frame, points = self._document["snapped"][kind], [Fraction(number) for number in self._document["points"]]
         rotation = exact_rotation(map(int, frame["rotation"]))
-        meeting_point = [
-            Fraction(number) + row[2] * points[kind] for number, row in zip(frame["origin"], rotation, strict=True)
-        ]
+        meeting_point = [Fraction(x) + row[2] * points[kind] for x, row in zip(frame["origin"], rotation, strict=True)]
         return [meeting_point == [0, 0, points[kind - 1]]]
 
 
@@ -61,15 +59,11 @@ def bound_snap_errors(document: dict[str, Any]) -> tuple[float, float]:
     rotation_error, position_error = 0.0, 0.0
     for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
         exact = [number for row in exact_rotation(map(int, frame["rotation"])) for number in row]
-        squared_error = sum(
-            (snapped - Fraction(parse_hex(original))) ** 2 for snapped, original in zip(exact, joint["rotation"], strict=True)
-        )
+        squared_error = sum((x - Fraction(parse_hex(y))) ** 2 for x, y in zip(exact, joint["rotation"], strict=True))
         require(squared_error < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
         # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
         rotation_error = max(rotation_error, math.sqrt(squared_error) / math.sqrt(2) * 1.0001)
-        squared_distance = sum(
-            (Fraction(snapped) - Fraction(parse_hex(original))) ** 2
-            for snapped, original in zip(frame["origin"], joint["origin"], strict=True)
-        )
+        origins = zip(frame["origin"], joint["origin"], strict=True)
+        squared_distance = sum((Fraction(x) - Fraction(parse_hex(y))) ** 2 for x, y in origins)
         position_error = max(position_error, math.sqrt(squared_distance) * ROUND_UP)
     return rotation_error, position_error
