@@ -249,7 +249,7 @@ def screws_from_the_middle(chain, q, first, point):
 
     def frame(joints):
         moved = chain.enclose_point(joints[:middle], 0, chain.origins[middle])
-        return moved.tip.center[0], moved.turn.center[0]
+        return moved.tip.center[0], moved.rotation.center[0]
 
     (here, turn), (there, then) = frame(joints), frame(at(*first))
     moved, back = chain.enclose_point(joints), then @ turn.T

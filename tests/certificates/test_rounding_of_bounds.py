@@ -54,9 +54,9 @@ def test_sums_and_products_of_balls(rng):
     assert holds(balls.einsum("na,na->n", a, b), (x * y).sum(axis=1))
     cross = np.stack([x[:, i - 2] * y[:, i - 1] - x[:, i - 1] * y[:, i - 2] for i in range(3)], 1)
     assert holds(balls.einsum("nij,nj->ni", balls.cross_matrix(a), b), cross)
-    assert (exact(a.size) >= abs(x)).all()
-    assert (exact(a.low) <= x).all()
-    assert (exact(balls.bound_length(a.at)) ** 2 >= (exact(a.at) ** 2).sum(axis=1)).all()
+    assert (exact(a.magnitude) >= abs(x)).all()
+    assert (exact(a.lower) <= x).all()
+    assert (exact(balls.bound_length(a.center)) ** 2 >= (exact(a.center) ** 2).sum(axis=1)).all()
 
 
 @pytest.mark.parametrize("bent", [0.0, 1.0])

@@ -3,11 +3,11 @@
 The file holds a bisection tree, and for each leaf of it what makes a proof easy: a configuration near the targets, or a joint
 whose lock costs enough. The search that found it may be wrong; here every leaf is proved again, in balls (true numbers, and how
 far from them doubles are at most), from exact first and second derivatives and a bound for the third. What a leaf shows is
-said at the top of a module in the folder beside this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
-(ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` is the form of
-the file, ``words`` what it claims, ``tree`` and ``paths`` which cells it has, ``chain`` the arm and its target, ``taylor`` what
-most leaves are proved by. These are 1,642 lines of code in all, without docstrings and comments; the explanation of
-certificates in the documentation says which have to be read for one claim.
+said at the top of a module in the folder next to this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
+(ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` checks the form
+of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths`` read the cells, ``chain`` encloses the arm and its
+target, ``taylor`` proves most leaves. These are 1,701 lines of code in all, without docstrings and comments; the explanation
+of certificates in the documentation says which have to be read for one claim.
 """
 
 from __future__ import annotations
@@ -34,15 +34,14 @@ if TYPE_CHECKING or __package__:
         distances,
         files,
         forms,
+        kinds,
         motions,
         paths,
-        targets,
         tree,
-        words,
         zeros,
     )
 else:  # run as a file: the folder lies beside it
-    from verified import balls, bounds, distances, files, forms, motions, paths, targets, tree, words, zeros
+    from verified import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
 
 CertificateRejected = forms.CertificateRejected
 require = forms.require
@@ -50,7 +49,7 @@ parse_hex = forms.parse_hex
 compute_digest = forms.compute_digest
 decompress_payload = forms.decompress_payload
 load_certificate, bound_snap_errors, exact_rotation = files.load_certificate, zeros.bound_snap_errors, zeros.exact_rotation
-format_percent, claim_sentence, qualify_claim = words.format_percent, words.claim_sentence, words.qualify_claim
+format_percent, claim_sentence, qualify_claim = forms.format_percent, kinds.claim_sentence, forms.qualify_claim
 iterate_cells = tree.iterate_cells
 compute_covered_volume = tree.compute_covered_volume
 compute_volume = tree.compute_volume
@@ -58,9 +57,6 @@ MAX_LEAVES = tree.MAX_LEAVES
 MAX_COVER_STEPS = tree.MAX_COVER_STEPS
 FIRST_LOCK_TOKEN = bounds.FIRST_LOCK_TOKEN
 FOR_PEOPLE = forms.FOR_PEOPLE
-CLAIM_VERIFIERS: dict[str, Any] = {"reach": targets.ReachVerifier, "refutation": distances.RefutationVerifier}
-CLAIM_VERIFIERS["structural-zero"] = zeros.StructuralZeroVerifier
-CLAIM_VERIFIERS |= {"ceiling": bounds.CeilingVerifier, "floor": bounds.FloorVerifier}
 CHUNK_LEAVES = 256
 
 
@@ -102,7 +98,7 @@ class CertificateVerdict:
     def claim(self) -> str:
         """The sentence of the claim, with the fraction of it that is verified; of a bundle, whatever locks."""
         proved = self.tolerant_fraction if self.parts else self.proved
-        return words.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.is_sampled)
+        return forms.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.is_sampled)
 
     @property
     def summary(self) -> str:
@@ -116,18 +112,18 @@ class CertificateVerdict:
             witness_text = f"{round_bound(self.attained_bound * 1e6) / 1e6:.6f} occurs, {witness_text}"
             if self.refuted:
                 return f"Refuted: {witness_text}."
-        text = f"Proved: {words.format_percent(self.proved)}"
-        text += f", refuted: {words.format_percent(self.false)}" * bool(self.false)
-        text += f", undecided: {words.format_percent(self.undecided, up=True)}"
+        text = f"Proved: {forms.format_percent(self.proved)}"
+        text += f", refuted: {forms.format_percent(self.false)}" * bool(self.false)
+        text += f", undecided: {forms.format_percent(self.undecided, up=True)}"
         text += " of all pairs of target and configuration" * (kind == "refutation")
         text += " of the lock instants" * (kind == "path")
         text += " in the worst part" * bool(self.parts)
         if kind in ("ceiling", "floor"):
             text += f" of the box; {witness_text}"
         elif kind == "path":
-            text += f"; whichever joint locks, at least {words.format_percent(self.tolerant_fraction)}" * bool(self.parts)
+            text += f"; whichever joint locks, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
         elif kind != "structural-zero" and self.document.get("locked") != -1:
-            text += f"; wherever the lock, at least {words.format_percent(self.tolerant_fraction)} of the targets"
+            text += f"; wherever the lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return str(text) + (f"; of {self.leaves}: sampled, not verified." if self.is_sampled else ".")
 
@@ -151,7 +147,11 @@ def _verify_boxes(
     document: dict[str, Any], sample: int | None, workers: int, report_checked: Callable[[int], None]
 ) -> CertificateVerdict:
     """Verify any claim except those of paths and bundles: one tree, each leaf of which is proved alone."""
-    started, claim_verifier, kind = time.perf_counter(), CLAIM_VERIFIERS[document["kind"]](document), document["kind"]
+    started, claim_verifier, kind = (
+        time.perf_counter(),
+        kinds.CERTIFICATE_KINDS[document["kind"]].verifier(document),
+        document["kind"],
+    )
     count, undecided, leaves = claim_verifier.read_leaves(document)
     undecided_volume = tree.compute_volume(undecided)
     volumes = {"proved": 1 - undecided_volume, "refuted": Fraction(0), "undecided": undecided_volume}

@@ -32,7 +32,7 @@ from .balls import (
     stack_second,
 )
 from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration
-from .forms import decompress_payload, parse_hex, require
+from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, format_intervals, parse_hex, require, require_revolute
 from .taylor import DerivativeEnclosure
 from .tree import MAX_LEAVES, SPLIT_TOKEN, Cell, iterate_cells
 
@@ -228,3 +228,19 @@ class FloorVerifier(CeilingVerifier):
         norm_bound = (np.sqrt(norm_bound * ROUND_UP) + bound_length(shift)) * ROUND_UP
         min_component = np.nextafter(abs(nu) - (joint_travel + shift) * ROUND_UP, -np.inf)[:, positions].min(axis=1)
         return np.asarray(is_closed & (min_component > 1e-100) & (min_component > self.threshold * norm_bound * ROUND_UP))
+
+
+def bound_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a ceiling or floor has in addition to the common ones."""
+    require_revolute(document)
+    require(document["task"] in SCREW_ROWS, f"ceilings and floors are of {' and '.join(SCREW_ROWS)}")
+    form = {"joint_box": [[NUMBER_PATTERN, 2], n], "threshold": NUMBER_PATTERN, "found": [NUMBER_PATTERN, n]}
+    return form | {"locks": [range(n), ...], "tree": TEXT_PATTERN}
+
+
+def describe_bound(document: dict[str, Any], names: list[str]) -> str:
+    """Return the claim of a ceiling or floor as a sentence without its end."""
+    text = f"For every configuration with {format_intervals(names, document['joint_box'])}, the least relative "
+    text += f"manipulability of the {document['task']} after a lock of one of "
+    text += f"{', '.join(names[lock] for lock in document['locks'])} is at "
+    return f"{text}{'most' if document['kind'] == 'ceiling' else 'least'} {parse_hex(document['threshold'])!r}; angles in rad,"

@@ -18,10 +18,10 @@ import numpy as np
 
 from .balls import ROUND_UP, Array, BallArray, Flags, bound_length, cross_matrix, einsum, flint, solve_regular
 from .chain import BallChain, Leaf, LeafVerifier, enclose_angle, enclose_configuration
-from .forms import decompress_payload, parse_hex, require
+from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, parse_hex, require
 from .motions import HealthyMotion
 from .paths import SEGMENT_INSTANTS, StoredRefutation
-from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier
+from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier, locked_target_form
 from .taylor import DerivativeEnclosure, compute_derivatives, enclose_difference
 from .tree import MAX_LEAVES, PROVED_TOKEN, SPLIT_TOKEN, Cell, iterate_cells
 
@@ -268,3 +268,11 @@ def limit_to_revolution(ranges: list[Any], joints: list[dict[str, Any]]) -> list
         require(is_revolute or math.isfinite(upper - lower), f"{joint['name']} slides without an end")
         limited.append([-half_turn, half_turn] if is_revolute and not upper - lower < 2 * math.pi else [lower, upper])
     return limited
+
+
+def refutation_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a refutation has in addition to the common ones."""
+    form = locked_target_form(document, n)
+    lemma: dict[str, Any] = {"link": range(n), "point": [NUMBER_PATTERN, 3], "least": NUMBER_PATTERN}
+    lemma |= {"most": NUMBER_PATTERN, "tree": TEXT_PATTERN}
+    return form | {"lemmas": [lemma, ...], "witness": [NUMBER_PATTERN, n] if document.get("witness") else None}

@@ -4,6 +4,9 @@ they cover.
 
 from __future__ import annotations
 
+import hashlib
+import json
+import re
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -11,7 +14,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .forms import decompress_payload, parse_hex, require
+from .forms import (
+    FRACTION_PATTERN,
+    LIMITS_FORM,
+    NUMBER_PATTERN,
+    TASK_FORMS,
+    TEXT_PATTERN,
+    VOLUMES_FORM,
+    decompress_payload,
+    format_intervals,
+    parse_hex,
+    require,
+    require_task,
+)
 from .tree import MAX_LEAVES, Cell, iterate_cells
 
 Ints = NDArray[np.int64]
@@ -23,6 +38,8 @@ StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # t
 SEGMENT_INSTANTS = 1 << 20  # instants
 PATH_CENTER_UNIT = 2.0**-28  # rad
 MAX_CELLS = 1 << 24
+MAX_PATH_JOINTS = 32
+MAX_SEGMENTS = 1 << 14
 
 
 def measure_coverage(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> Fraction:
@@ -123,3 +140,37 @@ def _decode_cells(begin: int, encoded_ends: Ints, encoded_positions: Ints) -> In
     )
     require(is_valid.all(), "cells of a slab leave a gap")
     return np.stack([starts, ends, np.where(is_tangent, -encoded_ends, 0)], axis=1)
+
+
+def path_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a path has in addition to the common ones."""
+    task = require_task(document)
+    count, points = (len(x) if isinstance(x, list) else 0 for x in (document.get("knots"), document.get("points")))
+    is_valid = n <= MAX_PATH_JOINTS and 2 <= count <= MAX_SEGMENTS + 1
+    require(is_valid, f"a path has from 1 to {MAX_SEGMENTS} segments, and {MAX_PATH_JOINTS} joints at most")
+    instant = range((count - 1) * SEGMENT_INSTANTS + 1)
+    follower = [range(n), n - 1 - TASK_FORMS[task][0] - TASK_FORMS[task][1]]
+    refuted = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT_PATTERN}, ...]
+    lock = {"joint": range(n), "followers": follower, "refutations": refuted}
+    lock |= {"cells": TEXT_PATTERN, "centres": TEXT_PATTERN, "proved": FRACTION_PATTERN, "refuted": FRACTION_PATTERN}
+    form: dict[str, Any] = {"knots": [[NUMBER_PATTERN, n], ...], "tube": [NUMBER_PATTERN, 2], "limits": [LIMITS_FORM, n]}
+    form["during"] = [instant, 2]
+    form |= {"pairs": [[range(points), 2], ...], "points": [{"link": range(n + 1), "place": [NUMBER_PATTERN, 3]}, ...]}
+    volumes = dict.fromkeys(VOLUMES_FORM, FRACTION_PATTERN)
+    return form | {"unit": re.escape(PATH_CENTER_UNIT.hex()), "locks": [lock, ...], "volumes": volumes}
+
+
+def describe_path(document: dict[str, Any], names: list[str]) -> str:
+    """Return the claim of a path as a sentence without its end."""
+    knots, (first, last), locked = document["knots"], document["during"], [names[lock["joint"]] for lock in document["locks"]]
+    metres, radians = map(parse_hex, document["tube"])
+    knots_digest = hashlib.sha256(json.dumps(knots, separators=(",", ":")).encode()).hexdigest()[:12]
+    text = f"The healthy arm moves along {len(knots) - 1} straight segments between configurations {knots_digest}. "
+    text += f"For every instant from knot {first / SEGMENT_INSTANTS!r} to knot {last / SEGMENT_INSTANTS!r} at which one of "
+    text += f"{', '.join(locked)} locks where it is, one continuous motion within "
+    text += f"the limits ({format_intervals(names, document['limits'])}) begins there with that joint at rest and takes "
+    text += f"the tool along the rest of the {document['task']} path"
+    if metres or radians:
+        angle_note = f" and {radians!r} rad" if "pose" in document["task"] else ""
+        text += f", or along any continuous path that is within {metres!r} m{angle_note} of it and begins on it"
+    return f"{text}; angles in rad,"

@@ -14,7 +14,7 @@ from typing import Any
 
 from .balls import ROUND_UP
 from .chain import Leaf, LeafVerifier
-from .forms import parse_hex, require
+from .forms import INTEGER_PATTERN, RATIONAL_PATTERN, parse_hex, require, require_revolute, round_to_two_digits
 from .tree import Cell
 
 
@@ -67,3 +67,20 @@ def bound_snap_errors(document: dict[str, Any]) -> tuple[float, float]:
         squared_distance = sum((Fraction(x) - Fraction(parse_hex(y))) ** 2 for x, y in origins)
         position_error = max(position_error, math.sqrt(squared_distance) * ROUND_UP)
     return rotation_error, position_error
+
+
+def structural_zero_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a structural zero has in addition to the common ones."""
+    require_revolute(document)
+    require(document["task"] == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
+    frame = {"rotation": [INTEGER_PATTERN, 4], "origin": [RATIONAL_PATTERN, 3]}
+    return {"locked": range(1, n - 1), "snapped": [frame, n], "points": [RATIONAL_PATTERN, n]}
+
+
+def describe_structural_zero(document: dict[str, Any], names: list[str]) -> str:
+    """Return the claim of a structural zero as a sentence without its end."""
+    tolerance = "{} rad and {} m".format(
+        *(f"{round_to_two_digits(Fraction(error), True):g}" if error else "0" for error in bound_snap_errors(document))
+    )
+    text = f"For every configuration of an arm whose frames are within {tolerance} of the file's, "
+    return f"{text}relative manipulability of the pose after a lock of {names[document['locked']]} is 0;"
