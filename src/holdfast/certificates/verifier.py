@@ -122,7 +122,7 @@ class CertificateVerdict:
             text += f" of the box; {witness_text}"
         elif kind == "path":
             text += f"; whichever joint locks, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
-        elif kind != "structural-zero" and self.document.get("locked") != -1:
+        elif "target" in self.document and self.document.get("locked") != -1:
             text += f"; wherever the lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return str(text) + (f"; of {self.leaves}: sampled, not verified." if self.is_sampled else ".")

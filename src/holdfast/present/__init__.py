@@ -14,6 +14,7 @@ PRESENTER_MODULES = {
     "Arm": ("arm.console", "arm.view"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
+    "BisectionResult": ("certificates.console", ""),
     "RecordBook": ("designs.records", "designs.book"),
     "UpperBound": ("ceilings.console", ""),
     "UpperBoundSearch": ("ceilings.console", ""),
