@@ -18,8 +18,9 @@ from holdfast.failures.sets import FailureSpec, single_joints
 from holdfast.grammar import TASK_SIZES
 from holdfast.typing import FloatArray
 
-if TYPE_CHECKING:
-    pass
+if TYPE_CHECKING:  # named in strings, as classes of results
+    from holdfast.certificates.joint_boxes.refutations import Refutation  # noqa: F401
+    from holdfast.certificates.proof import Proof, TolerantProof  # noqa: F401
 
 TASK_ROWS = {
     "planar": [0, 1],

@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,7 @@ from holdfast.certificates.verified.tree import Cell
 from holdfast.errors import InputError
 
 Document = dict[str, Any]
-TargetClaim = ReachClaim | TolerantClaim | OutOfReachClaim
+TargetClaim: TypeAlias = ReachClaim | TolerantClaim | OutOfReachClaim
 
 
 def build_reach_document(claim: ReachClaim, result: TargetBoxResult, undecided: Fraction) -> Document:

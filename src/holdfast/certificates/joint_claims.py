@@ -17,8 +17,9 @@ from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 from holdfast.typing import FloatArray
 
-if TYPE_CHECKING:
-    pass
+if TYPE_CHECKING:  # named in strings, as classes of results
+    from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound  # noqa: F401
+    from holdfast.certificates.structure import StructuralZero  # noqa: F401
 
 _TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 

@@ -18,8 +18,8 @@ from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 from holdfast.typing import FloatArray
 
-if TYPE_CHECKING:
-    pass
+if TYPE_CHECKING:  # named in strings, as classes of results
+    from holdfast.certificates.tool_paths.proof import PathProof  # noqa: F401
 
 _MAX_SEGMENTS = 256
 _MAX_TUBE = 0.1  # m and rad, of a tube
