@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,10 +17,6 @@ from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, single_joints
 from holdfast.grammar import TASK_SIZES
 from holdfast.typing import FloatArray
-
-if TYPE_CHECKING:  # named in strings, as classes of results
-    from holdfast.certificates.joint_boxes.refutations import Refutation  # noqa: F401
-    from holdfast.certificates.proof import Proof, TolerantProof  # noqa: F401
 
 TASK_ROWS = {
     "planar": [0, 1],
@@ -34,7 +30,7 @@ _ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReachClaim(Claim["Proof"]):
+class ReachClaim(Claim):
     """Claim that a configuration within limits reaches every target of a box, at every value at which one joint may be locked.
 
     Attributes:
@@ -60,7 +56,7 @@ class ReachClaim(Claim["Proof"]):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TolerantClaim(Claim["TolerantProof"]):
+class TolerantClaim(Claim):
     """Claim that the healthy arm reaches every target of a box within working ranges, and also after any one joint locks within
     its working range.
 
@@ -276,7 +272,7 @@ def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -
 
 
 @dataclass(frozen=True, kw_only=True)
-class OutOfReachClaim(Claim["Refutation"]):
+class OutOfReachClaim(Claim):
     """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
 
     Attributes:

@@ -49,13 +49,13 @@ def build_reach_document(claim: ReachClaim, result: TargetBoxResult, undecided: 
     )
 
 
-def format_claim(claim: Claim[Any]) -> str:
+def format_claim(claim: Claim) -> str:
     """Return the sentence of a claim, with all of its numbers and the digest of the arm."""
     fields = _common_fields(claim, 0.0, 0)
     return verifier.claim_sentence(fields | {"arm_digest": verifier.compute_digest(fields["arm"])})
 
 
-def build_document(claim: Claim[Any], fields: Document, *, undecided: Fraction, seconds: float, nodes: int) -> Document:
+def build_document(claim: Claim, fields: Document, *, undecided: Fraction, seconds: float, nodes: int) -> Document:
     """Build the certificate of a claim with the fields that prove it, with the fraction ``undecided`` of its box open."""
     return _sign_document(_common_fields(claim, seconds, nodes) | fields | {"volumes": _format_volumes(undecided)})
 
@@ -168,7 +168,7 @@ def find_undecided_cells(document: Document) -> list[Cell]:
     ]
 
 
-def _common_fields(claim: Claim[Any], seconds: float, nodes: int) -> Document:
+def _common_fields(claim: Claim, seconds: float, nodes: int) -> Document:
     """Return the fields that define a claim and those that all certificates have, except digests and volumes."""
     return {
         "format": "holdfast-certificate",

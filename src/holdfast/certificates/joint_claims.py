@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,15 +17,11 @@ from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 from holdfast.typing import FloatArray
 
-if TYPE_CHECKING:  # named in strings, as classes of results
-    from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound  # noqa: F401
-    from holdfast.certificates.structure import StructuralZero  # noqa: F401
-
 _TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoundClaim(Claim["ManipulabilityBound"]):
+class BoundClaim(Claim):
     """Bound of the least relative manipulability after one of some locks, for every configuration of a box.
 
     Attributes:
@@ -130,7 +126,7 @@ def _make_bound_claim(
 
 
 @dataclass(frozen=True, kw_only=True)
-class StructuralZeroClaim(Claim["StructuralZero"]):
+class StructuralZeroClaim(Claim):
     """Claim that the axes of the arm make a lock of one joint remove all relative manipulability of the pose in every
     configuration.
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from holdfast.errors import InputError
 
@@ -20,11 +20,9 @@ if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.certificates.crew import SearchBudget
 
-R = TypeVar("R")
 
-
-class Claim(Generic[R]):
-    """Base of claims; ``R`` is the class of the result of the search."""
+class Claim:
+    """Base of claims."""
 
     if TYPE_CHECKING:
 
