@@ -56,7 +56,7 @@ nitpick_ignore_regex = [
         r"_?Motion|Setting|RestSystem|React|Ended|holdfast\.simulation\.closed_loop\.Locking|holdfast\.endurance\.problem\.Problem",
     ),
     (r"py:class", r"holdfast\.control\.export\._Law"),
-    (r"py:class", r"(holdfast\.certificates\.kinds\.)?(Claim|R)"),
+    (r"py:class", r"(holdfast\.certificates\.kinds\.)?Claim"),
     (r"py:class", r"holdfast\.certificates\.proof\.(BisectionResult|CompositeResult)"),
     (
         r"py:class",
