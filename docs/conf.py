@@ -56,7 +56,8 @@ nitpick_ignore_regex = [
         r"_?Motion|Setting|RestSystem|React|Ended|holdfast\.simulation\.closed_loop\.Locking|holdfast\.endurance\.problem\.Problem",
     ),
     (r"py:class", r"holdfast\.control\.export\._Law"),
-    (r"py:class", r"holdfast\.certificates\.proof\.(Halved|InParts)"),
+    (r"py:class", r"(holdfast\.certificates\.kinds\.)?Claim"),
+    (r"py:class", r"holdfast\.certificates\.proof\.(BisectionResult|CompositeResult)"),
     (
         r"py:class",
         r"holdfast\.(faults\.(scheme\.Jointed|spread\.Spread|kinds\.When)|diagnosis\.signals\.(Scaled|Signals)|ceilings\.(ceiling\.OfFailures|least_singular_values\.OfSingularValue)|designs\.book\.entries\.RecordFile|certificates\.tool_paths\.march\.LockedPath)|Tolerance",

@@ -131,3 +131,62 @@ def test_walk_of_a_fault_kind(run, tmp_path):
     code, told = run(*draw)
     assert code == 0, told
     assert "one_sided" in told
+
+
+# ---- the walk of a claim kind ----------------------------------------------------------------------------------------
+
+
+def claim_kind_steps():
+    """Return where the page says to write the parts of a claim kind, and what."""
+    section = PAGE.split("(add-a-claim-kind)=")[1].split("\n(")[0].split("\n## Kernels")[0]
+    return re.findall(r"^```python\n# ([^\n]+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
+
+
+def insert_after(folder, where, text):
+    """Insert text after the line that the page quotes; without a quoted line, write it as in the other walks."""
+    file, marker, line = where.partition(", after the line ")
+    if not marker:
+        write(folder, where, text)
+        return
+    path, line = folder / file, line.strip('"') + "\n"
+    source = path.read_text(encoding="utf-8")
+    assert source.count(line) == 1
+    path.write_text(source.replace(line, line + text), encoding="utf-8")
+
+
+def test_the_walk_of_a_claim_kind(run, tmp_path):
+    """Without its entry in the verifier the kind is named; with it the certificate is made, checked, and printed."""
+    pytest.importorskip("flint", reason="python-flint is not installed")
+    claim, verifier, import_line, entry, exports, test = claim_kind_steps()
+    for step in (claim, verifier, exports, test):
+        insert_after(tmp_path, *step)
+    pytest_words = ("pytest", "-q", "-n", "0", "-p", "no:cacheprovider")
+    code, told = run(*pytest_words, "tests/certificates/test_words.py", "-k", "same_kinds")
+    assert code == 1
+    assert "kind 'radius' is not in both: see CERTIFICATE_KINDS in verified/kinds.py and the stub of certificates" in told
+    for step in (import_line, entry):
+        insert_after(tmp_path, *step)
+    code, told = run(*pytest_words, "tests/certificates/test_words.py", test[0], "-k", "same_kinds or radius")
+    assert code == 0, told
+
+    (tmp_path / "radius.py").write_text(
+        "import holdfast as hf\n"
+        "proof = hf.certify(hf.certificates.radius_claim(hf.arms.load('planar-3r'), 3.1))\n"
+        "proof.write('a.certificate')\n"
+        "assert 'radius.certificate' in proof._repr_html_()\n",
+        encoding="utf-8",
+    )
+    code, told = run("radius")
+    assert code == 0, told
+    code, told = run("holdfast", "certificate", "check", "a.certificate")
+    assert code == 0, told
+    assert "at most 3.1 m from the origin of joint1" in told
+    done = subprocess.run(
+        [sys.executable, "-E", "src/holdfast/certificates/verifier.py", "a.certificate"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Proved: 100 %, undecided: 0 %. Leaves accepted: 1, rejected: 0" in done.stdout

@@ -139,7 +139,7 @@ STENCILS = {
 def derivative(chain, q, way, order):
     """The length of a derivative of the tool point along a way, by finite differences."""
     step = 0.02
-    points = [chain.moved(at(*(q + k * step * way))).tip.center[0] for k in range(-3, 4)]
+    points = [chain.enclose_point(at(*(q + k * step * way))).tip.center[0] for k in range(-3, 4)]
     return np.linalg.norm(STENCILS[order] @ points) / step**order
 
 
@@ -161,7 +161,7 @@ def derivative(chain, q, way, order):
 def test_derivatives_of_stretched_arms(chain, middle, far, order):
     """Of all corners of a box, and all ways along its edges, no derivative is longer."""
     middle, far = np.array(middle), np.array(far)
-    bound = chain.bound_derivative(order, far[None], chain.whole, middle[None])[0]
+    bound = chain.bound_derivative(order, far[None], chain.link_lengths, middle[None])[0]
     corners = [np.array(signs) for signs in itertools.product((-1.0, 0.0, 1.0), repeat=2)]
     truth = max(derivative(chain, middle + a * far, b * far, order) for a in corners for b in corners)
     assert truth <= bound * (1 + 1e-5) + 1e-9
@@ -248,13 +248,13 @@ def screws_from_the_middle(chain, q, first, point):
     middle, joints = chain.n // 2, at(*q)
 
     def frame(joints):
-        moved = chain.moved(joints[:middle], 0, chain.origins[middle])
-        return moved.tip.center[0], moved.turn.center[0]
+        moved = chain.enclose_point(joints[:middle], 0, chain.origins[middle])
+        return moved.tip.center[0], moved.rotation.center[0]
 
     (here, turn), (there, then) = frame(joints), frame(at(*first))
-    moved, back = chain.moved(joints), then @ turn.T
+    moved, back = chain.enclose_point(joints), then @ turn.T
     z = moved.axes.center[0] @ back.T
-    places = (moved.places.center[0] - here) @ back.T + there
+    places = (moved.points.center[0] - here) @ back.T + there
     return np.concatenate([z, np.cross(places - point, z)], axis=1)
 
 

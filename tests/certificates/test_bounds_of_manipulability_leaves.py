@@ -52,8 +52,8 @@ class Cubics:
             screws=BallArray(screw),
             brackets=BallArray(bracket),
             operators=BallArray(operator),
-            second=np.repeat(curved + abs(third), 3, axis=2),
-            third=np.repeat(abs(third), 3, axis=2),
+            second_remainder=np.repeat(curved + abs(third), 3, axis=2),
+            third_remainder=np.repeat(abs(third), 3, axis=2),
         )
 
     def on_grid(self) -> tuple[Any, Any]:

@@ -296,7 +296,7 @@ def test_rings_whose_base_is_not_known_exactly(elbow, angle, part):
             ring._base_frame = BallArray(ring._base_frame[0].center + off, abs(off)), ring._base_frame[1]
         else:
             ring.chain.origins[2] = ring.chain.origins[2] + off
-            ring._off = abs(off)
+            ring._base_radius = abs(off)
         assert not ring.exclude_cells([ROOT if part == "base" else ASIDE, TIP], [((0, 0),) * 2])[0]
 
 

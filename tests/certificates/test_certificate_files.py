@@ -112,7 +112,7 @@ def test_a_sampled_claim_does_not_stand_alone(three, tmp_path):
 
 def test_the_proved_fraction_of_a_path_is_that_of_its_worst_lock():
     """Of one lock all is refuted, of the other all undecided: nothing is proved, and not -100 %."""
-    part = {"claim": "", "locked": "", "leaves": 0, "accepted": 0, "rejected": 0, "tolerant": 0, "seconds": 0.0, "said": ""}
+    part = {"claim": "", "locked": "", "leaves": 0, "accepted": 0, "rejected": 0, "tolerant": 0, "seconds": 0.0, "summary": ""}
     one, two = CertificateCheck(undecided=0, refuted=1, **part), CertificateCheck(undecided=1, refuted=0, **part)
     assert CertificateCheck(undecided=1, refuted=1, parts=(one, two), **part).proved_fraction == 0
 

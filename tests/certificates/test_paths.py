@@ -505,8 +505,8 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     steps = np.eye(14)
     slopes = np.array([missed(1e-6 * x) - missed(-1e-6 * x) for x in steps]).T / 2e-6
     assert error.center == pytest.approx(missed(np.zeros(14)), abs=1e-14)
-    assert (np.abs(error.center - missed(np.zeros(14))) <= error.off + 1e-15).all()
-    assert error.off.max() < 1e-11
+    assert (np.abs(error.center - missed(np.zeros(14))) <= error.radius + 1e-15).all()
+    assert error.radius.max() < 1e-11
     assert first.at == pytest.approx(slopes, abs=1e-8)
     e = 1e-4
     for i, j in rng.integers(14, size=(20, 2)):

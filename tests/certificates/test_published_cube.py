@@ -36,8 +36,10 @@ def bare(tmp_path_factory):
 
 def test_one_command_checks_it(bare, tmp_path):
     archive = zipped(tmp_path / "verifier.zip")
-    assert subprocess.run([bare, "-c", "import holdfast"], capture_output=True, check=False).returncode == 1
-    done = subprocess.run([bare, archive, CUBE, "--sample", "10"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert subprocess.run([bare, "-E", "-c", "import holdfast"], capture_output=True, check=False).returncode == 1
+    done = subprocess.run(
+        [bare, "-E", archive, CUBE, "--sample", "10"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
     assert (done.returncode, done.stderr) == (0, "")
     assert "Leaves accepted: 80, rejected: 0" in done.stdout
     assert "sampled, not verified" in done.stdout

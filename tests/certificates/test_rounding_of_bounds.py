@@ -54,9 +54,9 @@ def test_sums_and_products_of_balls(rng):
     assert holds(balls.einsum("na,na->n", a, b), (x * y).sum(axis=1))
     cross = np.stack([x[:, i - 2] * y[:, i - 1] - x[:, i - 1] * y[:, i - 2] for i in range(3)], 1)
     assert holds(balls.einsum("nij,nj->ni", balls.cross_matrix(a), b), cross)
-    assert (exact(a.size) >= abs(x)).all()
-    assert (exact(a.low) <= x).all()
-    assert (exact(balls.bound_length(a.at)) ** 2 >= (exact(a.at) ** 2).sum(axis=1)).all()
+    assert (exact(a.magnitude) >= abs(x)).all()
+    assert (exact(a.lower) <= x).all()
+    assert (exact(balls.bound_length(a.center)) ** 2 >= (exact(a.center) ** 2).sum(axis=1)).all()
 
 
 @pytest.mark.parametrize("bent", [0.0, 1.0])
@@ -87,15 +87,15 @@ def test_derivatives_of_points(rng, slides, order):
     far, out = rng.uniform(0, 1, (COUNT, 2)), rng.normal(size=(COUNT, 2))
     slid = exact(far) * np.array(slides)
     angle = np.cumsum(exact(far) * ~np.array(slides), axis=1)
-    reach = exact(chain.extent) + abs(exact(out)) * np.array(slides) + slid
+    reach = exact(chain.link_lengths) + abs(exact(out)) * np.array(slides) + slid
     truth = (angle**order * reach + order * angle ** (order - 1) * slid).sum(axis=1)
-    assert (exact(chain.bound_derivative(order, far, chain.extent, out)) >= truth).all()
+    assert (exact(chain.bound_derivative(order, far, chain.link_lengths, out)) >= truth).all()
 
 
 def test_lengths_of_links(rng):
     """Along x, where the next axis is across."""
     for lengths in rng.uniform(0.1, 1, (COUNT, 2)):
-        whole = make_chain(*lengths, slides=(False, False)).whole
+        whole = make_chain(*lengths, slides=(False, False)).link_lengths
         assert (exact(whole) >= exact(lengths)).all()
         assert (whole < lengths * (1 + 1e-11)).all()
 

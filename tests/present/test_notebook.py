@@ -151,6 +151,7 @@ WITHOUT_FIGURE |= {
 WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
     "Analysis",
+    "BisectionResult",
     "Bounds",
     "ConvergenceDesigns",
     "Designs",

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
+from holdfast.certificates.kinds import Claim
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, single_joints
 from holdfast.grammar import TASK_SIZES
@@ -28,7 +30,7 @@ _ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReachClaim:
+class ReachClaim(Claim):
     """Claim that a configuration within limits reaches every target of a box, at every value at which one joint may be locked.
 
     Attributes:
@@ -43,6 +45,7 @@ class ReachClaim:
         limits: (n, 2) rad and m, within which the configuration is.
     """
 
+    kind: ClassVar[str] = "reach"
     arm: Arm
     task: str
     box: FloatArray
@@ -53,7 +56,7 @@ class ReachClaim:
 
 
 @dataclass(frozen=True, kw_only=True)
-class TolerantClaim:
+class TolerantClaim(Claim):
     """Claim that the healthy arm reaches every target of a box within working ranges, and also after any one joint locks within
     its working range.
 
@@ -63,6 +66,7 @@ class TolerantClaim:
         locks: Indices of the joints that may lock, one at a time, in order. After it the arm's own limits hold.
     """
 
+    kind: ClassVar[str] = "bundle"
     arm: Arm
     task: str
     box: FloatArray
@@ -268,13 +272,14 @@ def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -
 
 
 @dataclass(frozen=True, kw_only=True)
-class OutOfReachClaim:
+class OutOfReachClaim(Claim):
     """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
 
     Attributes:
         arm, task, box, rotation, locked, angle, limits: As of :class:`ReachClaim`.
     """
 
+    kind: ClassVar[str] = "refutation"
     arm: Arm
     task: str
     box: FloatArray

@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantCl
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
 from holdfast.certificates.joint_boxes.jobs import Bisection
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
+from holdfast.certificates.kinds import Claim, find_claim_kind
 from holdfast.certificates.target_boxes.jobs import TargetBoxResult
 from holdfast.certificates.taylor import CENTER_UNIT, CertificateChain
 from holdfast.certificates.tool_paths import cells
@@ -31,30 +32,32 @@ from holdfast.certificates.verified.tree import Cell
 from holdfast.errors import InputError
 
 Document = dict[str, Any]
+TargetClaim: TypeAlias = ReachClaim | TolerantClaim | OutOfReachClaim
 
 
 def build_reach_document(claim: ReachClaim, result: TargetBoxResult, undecided: Fraction) -> Document:
     """Build the certificate of a search that left the fraction ``undecided`` of the box open."""
     return _sign_document(
-        _common_fields("reach", claim, result.seconds, result.nodes)
-        | _claim_fields(claim)
+        _common_fields(claim, result.seconds, result.nodes)
         | {
             "unit": CENTER_UNIT.hex(),
-            "tree": _compress_bytes(result.tree),
-            "centres": _compress_bytes(result.centers.astype("<i4").tobytes()),
+            "tree": compress_bytes(result.tree),
+            "centres": compress_bytes(result.centers.astype("<i4").tobytes()),
             "refutations": [],
             "volumes": _format_volumes(undecided),
         }
     )
 
 
-def format_claim(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> str:
+def format_claim(claim: Claim) -> str:
     """Return the sentence of a claim, with all of its numbers and the digest of the arm."""
-    kinds = {ReachClaim: "reach", OutOfReachClaim: "refutation", PathClaim: "path"}
-    fields = _common_fields(claim.kind if isinstance(claim, BoundClaim) else kinds[type(claim)], claim, 0.0, 0) | _claim_fields(
-        claim
-    )
+    fields = _common_fields(claim, 0.0, 0)
     return verifier.claim_sentence(fields | {"arm_digest": verifier.compute_digest(fields["arm"])})
+
+
+def build_document(claim: Claim, fields: Document, *, undecided: Fraction, seconds: float, nodes: int) -> Document:
+    """Build the certificate of a claim with the fields that prove it, with the fraction ``undecided`` of its box open."""
+    return _sign_document(_common_fields(claim, seconds, nodes) | fields | {"volumes": _format_volumes(undecided)})
 
 
 def build_bundle_document(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:
@@ -64,11 +67,8 @@ def build_bundle_document(claim: TolerantClaim, parts: Sequence[Document], worst
     ]
     effort_sums = {key: sum(part[key] for part in parts) for key in ("seconds", "nodes")}
     return _sign_document(
-        _common_fields("bundle", claim, **effort_sums)
+        _common_fields(claim, **effort_sums)
         | {
-            "limits": _encode_floats(np.column_stack([claim.arm.lower, claim.arm.upper])),
-            "working_ranges": _encode_floats(claim.working_ranges),
-            "locks": list(claim.locks),
             "parts": part_entries,
             "volumes": parts[worst]["volumes"],
         }
@@ -80,20 +80,19 @@ def build_refutation_document(claim: OutOfReachClaim, exclusion: Exclusion, *, s
     lemmas = [
         {
             "link": lemma.link,
-            "point": _encode_floats(lemma.point),
-            "least": _encode_floats(lemma.least),
-            "most": _encode_floats(lemma.most),
-            "tree": _compress_bytes(lemma.tree),
+            "point": encode_floats(lemma.point),
+            "least": encode_floats(lemma.least),
+            "most": encode_floats(lemma.most),
+            "tree": compress_bytes(lemma.tree),
         }
         for lemma in exclusion.lemmas
     ]
     return _sign_document(
-        _common_fields("refutation", claim, seconds, exclusion.nodes)
-        | _claim_fields(claim)
+        _common_fields(claim, seconds, exclusion.nodes)
         | {
-            "tree": _compress_bytes(exclusion.tree),
+            "tree": compress_bytes(exclusion.tree),
             "lemmas": lemmas,
-            "witness": None if exclusion.witness is None else _encode_floats(exclusion.witness),
+            "witness": None if exclusion.witness is None else encode_floats(exclusion.witness),
             "volumes": _format_volumes(exclusion.undecided),
         }
     )
@@ -102,17 +101,17 @@ def build_refutation_document(claim: OutOfReachClaim, exclusion: Exclusion, *, s
 def build_bound_document(claim: BoundClaim, bisection: Bisection, extreme: NDArray[np.float64], *, seconds: float) -> Document:
     """Build the certificate of an upper or lower bound, with the extreme configuration that the search found."""
     fields = {
-        "tree": _compress_bytes(bisection.tree),
-        "found": _encode_floats(extreme),
+        "tree": compress_bytes(bisection.tree),
+        "found": encode_floats(extreme),
         "volumes": _format_volumes(bisection.undecided),
     }
-    return _sign_document(_common_fields(claim.kind, claim, seconds, bisection.nodes) | _claim_fields(claim) | fields)
+    return _sign_document(_common_fields(claim, seconds, bisection.nodes) | fields)
 
 
 def build_structural_zero_document(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
     """Build the certificate of a structural zero: frames and points on axes, as exact fractions."""
-    fields = {"locked": claim.locked, "snapped": snapped, "points": points, "volumes": _format_volumes(Fraction(0))}
-    return _sign_document(_common_fields("structural-zero", claim, 0.0, len(points)) | fields)
+    fields = {"snapped": snapped, "points": points, "volumes": _format_volumes(Fraction(0))}
+    return _sign_document(_common_fields(claim, 0.0, len(points)) | fields)
 
 
 def build_path_document(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
@@ -128,24 +127,22 @@ def build_path_document(claim: PathClaim, parts: Sequence[LockedPath]) -> Docume
                 "begin": interval.begin,
                 "stop": interval.stop,
                 "at": interval.path_instant,
-                "tree": _compress_bytes(interval.tree),
+                "tree": compress_bytes(interval.tree),
             }
             for interval in part.refuted_intervals
         ]
         locks.append(
-            entry
-            | {"cells": _compress_bytes(np.array(numbers, "<i8").tobytes()), "centres": _compress_bytes(centers.tobytes())}
+            entry | {"cells": compress_bytes(np.array(numbers, "<i8").tobytes()), "centres": compress_bytes(centers.tobytes())}
         )
     refuted_joint = next((part.joint for part in parts if part.refuted_intervals), None)
     exclusion = (
         None if refuted_joint is None else make_closure_exclusion(claim, refuted_joint)
     )  # the points of all locks are the same
     points = (
-        [] if exclusion is None else [{"link": link, "place": _encode_floats(position)} for link, position in exclusion.points]
+        [] if exclusion is None else [{"link": link, "place": encode_floats(position)} for link, position in exclusion.points]
     )
     return _sign_document(
-        _common_fields("path", claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
-        | _claim_fields(claim)
+        _common_fields(claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
         | {
             "unit": cells.PATH_CENTER_UNIT.hex(),
             "locks": locks,
@@ -171,16 +168,12 @@ def find_undecided_cells(document: Document) -> list[Cell]:
     ]
 
 
-def _common_fields(
-    kind: str,
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
-    seconds: float,
-    nodes: int,
-) -> Document:
-    fields = {
+def _common_fields(claim: Claim, seconds: float, nodes: int) -> Document:
+    """Return the fields that define a claim and those that all certificates have, except digests and volumes."""
+    return {
         "format": "holdfast-certificate",
         "version": 1,
-        "kind": kind,
+        "kind": claim.kind,
         "arm": _encode_arm(claim.arm),
         "source": {"name": claim.arm.name},
         "task": claim.task,
@@ -188,39 +181,32 @@ def _common_fields(
         "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
         "seconds": seconds,
         "nodes": nodes,
-    }
-    if isinstance(claim, BoundClaim | StructuralZeroClaim | PathClaim):
-        return fields
-    return fields | {
-        "target": {"axes": _target_axes(claim), "box": _encode_floats(claim.box), "orientation": _encode_rotation(claim)}
-    }
+    } | find_claim_kind(claim).fields(claim)
 
 
-def _claim_fields(claim: ReachClaim | OutOfReachClaim | BoundClaim | PathClaim) -> Document:
-    """Return the fields that define a claim, except arm, task and target."""
-    if isinstance(claim, BoundClaim):
-        return {
-            "joint_box": _encode_floats(claim.joint_box),
-            "threshold": _encode_floats(claim.threshold),
-            "locks": list(claim.locks),
-        }
-    if isinstance(claim, PathClaim):
-        return {
-            "knots": _encode_floats(claim.knots),
-            "tube": _encode_floats(claim.tube),
-            "limits": _encode_floats(np.column_stack([claim.arm.lower, claim.arm.upper])),
-            "during": list(claim.during),
-            "locks": [{"joint": joint} for joint in claim.locks],
-        }
-    angle = None if claim.angle is None else _encode_floats(claim.angle)
-    return {"locked": claim.locked, "angle": angle, "limits": _encode_floats(claim.limits)}
+def encode_target(claim: TargetClaim) -> Document:
+    """Return the field about the targets of a claim."""
+    target = {"axes": _target_axes(claim), "box": encode_floats(claim.box), "orientation": _encode_rotation(claim)}
+    return {"target": target}
 
 
-def _encode_rotation(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> list[str] | None:
-    return None if claim.rotation is None else [number for row in _encode_floats(claim.rotation) for number in row]
+def encode_target_claim(claim: ReachClaim | OutOfReachClaim) -> Document:
+    """Return the fields that define a claim about the targets of a box and a locked joint."""
+    angle = None if claim.angle is None else encode_floats(claim.angle)
+    return encode_target(claim) | {"locked": claim.locked, "angle": angle, "limits": encode_floats(claim.limits)}
 
 
-def _target_axes(claim: ReachClaim | TolerantClaim | OutOfReachClaim) -> str:
+def encode_limits(arm: Arm) -> list[list[str]]:
+    """Return the limits of all joints as the file contains them."""
+    limits: list[list[str]] = encode_floats(np.column_stack([arm.lower, arm.upper]))
+    return limits
+
+
+def _encode_rotation(claim: TargetClaim) -> list[str] | None:
+    return None if claim.rotation is None else [number for row in encode_floats(claim.rotation) for number in row]
+
+
+def _target_axes(claim: TargetClaim) -> str:
     """Return the letters of a target's coordinates."""
     return {"planar": "xy", "planar-pose": "xya"}.get(claim.task, "xyzRPY"[: len(claim.box)])
 
@@ -257,7 +243,7 @@ def require_same_arm(document: Document, arm: Arm) -> None:
 def _encode_arm(arm: Arm) -> Document:
     chain, limits = CertificateChain.from_arm(arm), np.column_stack([arm.lower, arm.upper])
     frames = [
-        {"rotation": _encode_floats(rotation.ravel()), "origin": _encode_floats(origin)}
+        {"rotation": encode_floats(rotation.ravel()), "origin": encode_floats(origin)}
         for rotation, origin in zip(chain.rotations, chain.origins, strict=True)
     ]
     joints = zip(arm.joints, frames, limits, strict=False)
@@ -266,16 +252,18 @@ def _encode_arm(arm: Arm) -> Document:
             "name": joint.name,
             "type": "prismatic" if joint.prismatic else "revolute",
             **frame,
-            "limits": _encode_floats(interval),
+            "limits": encode_floats(interval),
         }
         for joint, frame, interval in joints
     ]
     return {"joints": joint_entries, "tool": frames[-1]}
 
 
-def _encode_floats(values: NDArray[np.float64] | float) -> Any:
-    return [_encode_floats(value) for value in np.asarray(values)] if np.ndim(values) else float(values).hex()
+def encode_floats(values: NDArray[np.float64] | float) -> Any:
+    """Return numbers as hexadecimal texts, nested as the array is."""
+    return [encode_floats(value) for value in np.asarray(values)] if np.ndim(values) else float(values).hex()
 
 
-def _compress_bytes(data: bytes) -> str:
+def compress_bytes(data: bytes) -> str:
+    """Return a payload as the file contains it."""
     return base64.b64encode(zlib.compress(data, 9)).decode()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 from holdfast.arguments import check_arguments
 from holdfast.arm.model import Arm
 from holdfast.certificates.claims import narrow_limits, require_planar, require_revolute, validate_interval
+from holdfast.certificates.kinds import Claim
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
 from holdfast.typing import FloatArray
@@ -19,7 +21,7 @@ _TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all o
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoundClaim:
+class BoundClaim(Claim):
     """Bound of the least relative manipulability after one of some locks, for every configuration of a box.
 
     Attributes:
@@ -124,7 +126,7 @@ def _make_bound_claim(
 
 
 @dataclass(frozen=True, kw_only=True)
-class StructuralZeroClaim:
+class StructuralZeroClaim(Claim):
     """Claim that the axes of the arm make a lock of one joint remove all relative manipulability of the pose in every
     configuration.
 
@@ -134,6 +136,7 @@ class StructuralZeroClaim:
         tolerance: m, by which its geometry may miss exact ones.
     """
 
+    kind: ClassVar[str] = "structural-zero"
     arm: Arm
     locked: int
     tolerance: float

@@ -14,6 +14,10 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from holdfast.caching import cached_property
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ReachClaim, TolerantClaim
+from holdfast.certificates.crew import SearchBudget
+from holdfast.certificates.kinds import ClaimKind
+from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
+from holdfast.certificates.tree import compute_undecided
 from holdfast.files.output import make_folder, replace_file
 from holdfast.result import Result
 
@@ -219,3 +223,42 @@ def write_document(document: dict[str, Any], path: Path) -> Path:
 def encode_document(document: dict[str, Any]) -> bytes:
     """Return the file content of a certificate."""
     return (json.dumps(document, sort_keys=True, indent=1) + "\n").encode()
+
+
+def prove_reach(claim: ReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Proof:
+    """Search for a proof of a reach claim with the options of :func:`holdfast.certify`."""
+    return _prove_parts((claim,), halvings, seed, budget)[0]
+
+
+def prove_tolerant(claim: TolerantClaim, halvings: int, seed: int, budget: SearchBudget) -> TolerantProof:
+    """Search for proofs of the parts of a claim with the options of :func:`holdfast.certify`."""
+    return TolerantProof(claim=claim, parts=_prove_parts(claim.parts, halvings, seed, budget))
+
+
+def _prove_parts(parts: tuple[ReachClaim, ...], halvings: int, seed: int, budget: SearchBudget) -> tuple[Proof, ...]:
+    results = budget.run_jobs([TargetBoxJob(part, halvings, seed, index) for index, part in enumerate(parts)])
+    return tuple(_build_proof(part, result) for part, result in zip(parts, results, strict=True))
+
+
+def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
+    remainder = compute_undecided(result.tree)
+    return Proof(
+        claim=claim,
+        proved=1 - remainder,
+        undecided=remainder,
+        leaves=len(result.centers),
+        nodes=result.nodes,
+        finished=result.finished,
+        seconds=result.seconds,
+        document=documents.build_reach_document(claim, result, remainder),
+    )
+
+
+def _encode_tolerant_claim(claim: TolerantClaim) -> dict[str, Any]:
+    ranges = documents.encode_floats(claim.working_ranges)
+    fields = {"limits": documents.encode_limits(claim.arm), "working_ranges": ranges, "locks": list(claim.locks)}
+    return documents.encode_target(claim) | fields
+
+
+REACH_KIND = ClaimKind("reach", prove_reach, documents.encode_target_claim, halvings=8)
+TOLERANT_KIND = ClaimKind("bundle", prove_tolerant, _encode_tolerant_claim, halvings=8)

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import monotonic
-from typing import TypedDict, Unpack, overload
+from typing import Any, TypedDict, Unpack, overload
 
 import numpy as np
 
 from holdfast.arguments import check_arguments
-from holdfast.certificates import documents, structure
+from holdfast.certificates import documents
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.crew import SearchBudget, StopCheck
-from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound, prove_manipulability_bound
-from holdfast.certificates.joint_boxes.refutations import Refutation, prove_out_of_reach
+from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
+from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
+from holdfast.certificates.kinds import Claim, find_claim_kind
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.structure import StructuralZero
-from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
-from holdfast.certificates.tool_paths import proof as motions
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.proof import PathProof
-from holdfast.certificates.tree import SearchState, StateCallback, compute_undecided
+from holdfast.certificates.tree import SearchState, StateCallback
 from holdfast.engine.memory import SearchMemory
 from holdfast.errors import InputError
 from holdfast.notice import Progress, reports_progress
@@ -54,10 +53,12 @@ def certify(claim: BoundClaim, **how: Unpack[CertifyOptions]) -> ManipulabilityB
 def certify(claim: StructuralZeroClaim, **how: Unpack[CertifyOptions]) -> StructuralZero: ...
 @overload
 def certify(claim: PathClaim, **how: Unpack[CertifyOptions]) -> PathProof: ...
+@overload
+def certify(claim: Claim, **how: Unpack[CertifyOptions]) -> Any: ...
 @check_arguments
 @reports_progress("searching for a proof")
 def certify(
-    claim: ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | StructuralZeroClaim | PathClaim,
+    claim: Claim,
     *,
     halvings: int | None = None,
     time_limit: float | None = None,
@@ -67,7 +68,7 @@ def certify(
     progress: Progress | None = None,
     state: StateCallback | None = None,
     stop: StopCheck = lambda: False,
-) -> Proof | TolerantProof | Refutation | ManipulabilityBound | StructuralZero | PathProof:
+) -> Any:
     """Prove as much of a claim as possible by bisecting cells of targets and locked angles until one configuration proves each
     cell.
 
@@ -105,15 +106,15 @@ def certify(
         InputError: A number out of range, or a box that would take more than 2^24 cells.
         StoreError: The folder holds another search or something else, or cannot be written.
     """
-    if halvings is None:
-        halvings = 16 if isinstance(claim, OutOfReachClaim | BoundClaim) else 6 if isinstance(claim, PathClaim) else 8
+    kind = find_claim_kind(claim)
+    halvings = kind.halvings if halvings is None else halvings
     if not 0 <= halvings <= 20:
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
     deadline = np.inf if time_limit is None else monotonic() + time_limit
 
-    part_count = len(claim.parts) if isinstance(claim, TolerantClaim) else 1
+    part_count = len(claim.parts)
 
     def report_state(current: SearchState) -> None:
         decided = int(_PROGRESS_STEPS * part_count * (1 - current.open))
@@ -124,40 +125,9 @@ def certify(
 
     if workers < 1:
         raise InputError(f"workers is {workers}; it must be 1 or more")
-    if isinstance(claim, StructuralZeroClaim):
-        return structure.prove_structural_zero(claim)
-    if not isinstance(claim, ReachClaim | TolerantClaim | OutOfReachClaim | BoundClaim | PathClaim):
-        raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
-    part_claims = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
-    plan = {
-        "kind": "certify",
-        "claims": [documents.format_claim(part_claim) for part_claim in part_claims],
-        "halvings": halvings,
-        "seed": seed,
-    }
-    memory = None if store is None else SearchMemory(store, plan)
+    memory = None
+    if store is not None and kind.halvings:
+        sentences = [documents.format_claim(part) for part in claim.parts]
+        memory = SearchMemory(store, {"kind": "certify", "claims": sentences, "halvings": halvings, "seed": seed})
     budget = SearchBudget(deadline=deadline, should_stop=stop, report_state=report_state, workers=workers, memory=memory)
-    if isinstance(claim, OutOfReachClaim):
-        return prove_out_of_reach(claim, halvings, seed, budget)
-    if isinstance(claim, PathClaim):
-        return motions.prove_path(claim, halvings, budget)
-    if isinstance(claim, BoundClaim):
-        return prove_manipulability_bound(claim, halvings, seed, budget)
-    parts = claim.parts if isinstance(claim, TolerantClaim) else (claim,)
-    results = budget.run_jobs([TargetBoxJob(part, halvings, seed, index) for index, part in enumerate(parts)])
-    proofs = tuple(_build_proof(*pair) for pair in zip(parts, results, strict=True))
-    return TolerantProof(claim=claim, parts=proofs) if isinstance(claim, TolerantClaim) else proofs[0]
-
-
-def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
-    remainder = compute_undecided(result.tree)
-    return Proof(
-        claim=claim,
-        proved=1 - remainder,
-        undecided=remainder,
-        leaves=len(result.centers),
-        nodes=result.nodes,
-        finished=result.finished,
-        seconds=result.seconds,
-        document=documents.build_reach_document(claim, result, remainder),
-    )
+    return kind.search(claim, halvings, seed, budget)

@@ -17,6 +17,7 @@ import numpy as np
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.joint_claims import StructuralZeroClaim
+from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import write_document
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.errors import InputError
@@ -115,3 +116,8 @@ def _snap_rotation(rotation: FloatArray) -> tuple[int, int, int, int]:
         return tuple(int(number) for number in integers)  # type: ignore[return-value]
     x, y, z, w = Rotation.from_matrix(rotation).as_quat()
     return tuple(round(float(number) * _QUATERNION_SCALE) for number in (w, x, y, z))  # type: ignore[return-value]
+
+
+STRUCTURAL_ZERO_KIND = ClaimKind(
+    "structural-zero", lambda claim, *_: prove_structural_zero(claim), lambda claim: {"locked": claim.locked}
+)

@@ -3,11 +3,11 @@
 The file holds a bisection tree, and for each leaf of it what makes a proof easy: a configuration near the targets, or a joint
 whose lock costs enough. The search that found it may be wrong; here every leaf is proved again, in balls (true numbers, and how
 far from them doubles are at most), from exact first and second derivatives and a bound for the third. What a leaf shows is
-said at the top of a module in the folder beside this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
-(ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` is the form of
-the file, ``words`` what it claims, ``tree`` and ``paths`` which cells it has, ``chain`` the arm and its target, ``taylor`` what
-most leaves are proved by. These are 1,413 lines of code in all, without docstrings and comments; the explanation of
-certificates in the documentation says which have to be read for one claim.
+said at the top of a module in the folder next to this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
+(ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` checks the form
+of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths`` read the cells, ``chain`` encloses the arm and its
+target, ``taylor`` proves most leaves. These are 1,701 lines of code in all, without docstrings and comments; the explanation
+of certificates in the documentation says which have to be read for one claim.
 """
 
 from __future__ import annotations
@@ -34,40 +34,29 @@ if TYPE_CHECKING or __package__:
         distances,
         files,
         forms,
+        kinds,
         motions,
         paths,
-        targets,
         tree,
-        words,
         zeros,
     )
 else:  # run as a file: the folder lies beside it
-    from verified import balls, bounds, distances, files, forms, motions, paths, targets, tree, words, zeros
+    from verified import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
 
-CertificateRejected, require, parse_hex, compute_digest, decompress_payload = (
-    forms.CertificateRejected,
-    forms.require,
-    forms.parse_hex,
-    forms.compute_digest,
-    forms.decompress_payload,
-)
+CertificateRejected = forms.CertificateRejected
+require = forms.require
+parse_hex = forms.parse_hex
+compute_digest = forms.compute_digest
+decompress_payload = forms.decompress_payload
 load_certificate, bound_snap_errors, exact_rotation = files.load_certificate, zeros.bound_snap_errors, zeros.exact_rotation
-format_percent, claim_sentence, qualify_claim = words.format_percent, words.claim_sentence, words.qualify_claim
-iterate_cells, compute_covered_volume, compute_volume, MAX_LEAVES = (
-    tree.iterate_cells,
-    tree.compute_covered_volume,
-    tree.compute_volume,
-    tree.MAX_LEAVES,
-)
+format_percent, claim_sentence, qualify_claim = forms.format_percent, kinds.claim_sentence, forms.qualify_claim
+iterate_cells = tree.iterate_cells
+compute_covered_volume = tree.compute_covered_volume
+compute_volume = tree.compute_volume
+MAX_LEAVES = tree.MAX_LEAVES
 MAX_COVER_STEPS = tree.MAX_COVER_STEPS
 FIRST_LOCK_TOKEN = bounds.FIRST_LOCK_TOKEN
 FOR_PEOPLE = forms.FOR_PEOPLE
-CLAIM_VERIFIERS: dict[str, Any] = {
-    "reach": targets.ReachVerifier,
-    "refutation": distances.RefutationVerifier,
-    "structural-zero": zeros.StructuralZeroVerifier,
-}
-CLAIM_VERIFIERS |= {"ceiling": bounds.CeilingVerifier, "floor": bounds.FloorVerifier}
 CHUNK_LEAVES = 256
 
 
@@ -96,11 +85,9 @@ class CertificateVerdict:
     @property
     def tolerant_fraction(self) -> Fraction:
         """Lower bound of the fraction of targets that is proved for every locked value and, for a bundle, every lock."""
-        return (
-            1 - tree.compute_covered_volume(self.unproved_targets, [tree.MAX_COVER_STEPS])
-            if self.whichever is None
-            else self.whichever
-        )
+        if self.whichever is not None:
+            return self.whichever
+        return 1 - tree.compute_covered_volume(self.unproved_targets, [tree.MAX_COVER_STEPS])
 
     @property
     def proved(self) -> Fraction:
@@ -111,7 +98,7 @@ class CertificateVerdict:
     def claim(self) -> str:
         """The sentence of the claim, with the fraction of it that is verified; of a bundle, whatever locks."""
         proved = self.tolerant_fraction if self.parts else self.proved
-        return words.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.is_sampled)
+        return forms.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.is_sampled)
 
     @property
     def summary(self) -> str:
@@ -121,26 +108,22 @@ class CertificateVerdict:
         if self.document.get("witness"):
             return f"Refuted: {witness_text} the tool is in the box." if self.refuted else "Rejected: the witness is none."
         if kind in ("ceiling", "floor"):
-            witness_text = (
-                f"{(math.floor if kind == 'ceiling' else math.ceil)(self.attained_bound * 1e6) / 1e6:.6f} "
-                f"occurs, {witness_text}"
-            )
+            round_bound = math.floor if kind == "ceiling" else math.ceil
+            witness_text = f"{round_bound(self.attained_bound * 1e6) / 1e6:.6f} occurs, {witness_text}"
             if self.refuted:
                 return f"Refuted: {witness_text}."
-        text = f"Proved: {words.format_percent(self.proved)}" + f", refuted: {words.format_percent(self.false)}" * bool(
-            self.false
-        )
-        text += f", undecided: {words.format_percent(self.undecided, up=True)}"
-        text += " of all pairs of target and configuration" * (kind == "refutation") + " of the lock instants" * (
-            kind == "path"
-        )
+        text = f"Proved: {forms.format_percent(self.proved)}"
+        text += f", refuted: {forms.format_percent(self.false)}" * bool(self.false)
+        text += f", undecided: {forms.format_percent(self.undecided, up=True)}"
+        text += " of all pairs of target and configuration" * (kind == "refutation")
+        text += " of the lock instants" * (kind == "path")
         text += " in the worst part" * bool(self.parts)
         if kind in ("ceiling", "floor"):
             text += f" of the box; {witness_text}"
         elif kind == "path":
-            text += f"; whichever joint locks, at least {words.format_percent(self.tolerant_fraction)}" * bool(self.parts)
-        elif kind != "structural-zero" and self.document.get("locked") != -1:
-            text += f"; wherever the lock, at least {words.format_percent(self.tolerant_fraction)} of the targets"
+            text += f"; whichever joint locks, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
+        elif "target" in self.document and self.document.get("locked") != -1:
+            text += f"; wherever the lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return str(text) + (f"; of {self.leaves}: sampled, not verified." if self.is_sampled else ".")
 
@@ -164,7 +147,11 @@ def _verify_boxes(
     document: dict[str, Any], sample: int | None, workers: int, report_checked: Callable[[int], None]
 ) -> CertificateVerdict:
     """Verify any claim except those of paths and bundles: one tree, each leaf of which is proved alone."""
-    started, claim_verifier, kind = time.perf_counter(), CLAIM_VERIFIERS[document["kind"]](document), document["kind"]
+    started, claim_verifier, kind = (
+        time.perf_counter(),
+        kinds.CERTIFICATE_KINDS[document["kind"]].verifier(document),
+        document["kind"],
+    )
     count, undecided, leaves = claim_verifier.read_leaves(document)
     undecided_volume = tree.compute_volume(undecided)
     volumes = {"proved": 1 - undecided_volume, "refuted": Fraction(0), "undecided": undecided_volume}
@@ -172,9 +159,8 @@ def _verify_boxes(
     require(document["volumes"] == volume_texts, "volumes are not those of the tree")
     lower, upper = claim_verifier.enclose_attained(document["found"]) if "found" in document else (0.0, 0.0)
     picked = range(count) if sample is None else set(random.SystemRandom().sample(range(count), max(0, min(sample, count))))
-    checked, rejected = _check_leaves(
-        claim_verifier, (leaf for index, leaf in enumerate(leaves()) if index in picked), workers, report_checked
-    )
+    picked_leaves = (leaf for index, leaf in enumerate(leaves()) if index in picked)
+    checked, rejected = _check_leaves(claim_verifier, picked_leaves, workers, report_checked)
     undecided += claim_verifier.find_unproved_cells(rejected, leaves)
     refuted = bool(document.get("witness")) and checked > len(rejected)
     if "found" in document:
@@ -183,7 +169,7 @@ def _verify_boxes(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), refuted=refuted,
         seconds=time.perf_counter() - started, undecided=tree.compute_volume(undecided),
         attained_bound=lower if kind == "ceiling" else upper,
-        unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets),
+        unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets)
     )  # fmt: skip
 
 
@@ -192,9 +178,7 @@ def _verify_path(
 ) -> CertificateVerdict:
     """Verify slabs of lock instants, each proved by all of its cells together, and refuted intervals, by their leaves."""
     started, verifiers = time.perf_counter(), (motions.PathVerifier(document), distances.PathRefutationVerifier(document))
-    entries: list[Any] = [(0, entry) for entry in paths.read_slabs(document)] + [
-        (1, entry) for entry in paths.read_refutations(document)
-    ]
+    entries: list[Any] = [(0, x) for x in paths.read_slabs(document)] + [(1, x) for x in paths.read_refutations(document)]
     remaining, picked, rejected, parts = sample, set[int](), list[Any](), list[CertificateVerdict]()
     for index in random.SystemRandom().sample(range(len(entries)), len(entries)):
         if remaining is None or remaining > 0:
@@ -202,49 +186,29 @@ def _verify_path(
             remaining = None if remaining is None else remaining - len(entries[index][1][3])
     chosen = [entries[index] for index in sorted(picked)]
     for kind, path_verifier in enumerate(verifiers):
-        rejected += [
-            (kind, *entry)
-            for entry in _check_leaves(
-                path_verifier, (entry for entry_kind, entry in chosen if entry_kind == kind), workers, report_checked, 8
-            )[1]
-        ]
+        path_entries = (entry for entry_kind, entry in chosen if entry_kind == kind)
+        wrong = _check_leaves(path_verifier, path_entries, workers, report_checked, 8)[1]
+        rejected += [(kind, *entry) for entry in wrong]
     broken = {(kind, entry[0], entry[1][0]) for kind, entry, _ in rejected}
-    for lock_index, lock in enumerate(document["locks"]):
-        lock_entries = [(kind, entry[1]) for kind, entry in entries if entry[0] == lock_index]
-        fractions = [
-            paths.measure_coverage([instants for entry_kind, instants in lock_entries if entry_kind == kind], document)
-            for kind in (0, 1)
-        ]
-        require(
-            [lock["proved"], lock["refuted"]] == [paths.format_fraction(entry_kind) for entry_kind in fractions],
-            "volumes are not those of the slabs",
-        )
-        require(
-            paths.measure_coverage([instants for _, instants in lock_entries], document) == sum(fractions),
-            "lock instants are both proved and refuted",
-        )
-        proved, refuted = (
-            [
-                instants
-                for entry_kind, instants in lock_entries
-                if entry_kind == kind and (kind, lock_index, instants[0]) not in broken
-            ]
-            for kind in (0, 1)
-        )
-        leaf_count, checked_count = (
-            sum(len(entry[3]) for _, entry in group if entry[0] == lock_index) for group in (entries, chosen)
-        )
-        rejected_count, gaps = (
-            sum(bad_leaves for _, entry, bad_leaves in rejected if entry[0] == lock_index),
-            paths.find_gaps(proved + refuted, document),
-        )
+    for index, lock in enumerate(document["locks"]):
+        lock_entries = [(kind, entry[1]) for kind, entry in entries if entry[0] == index]
+        by_kind = [[instants for entry_kind, instants in lock_entries if entry_kind == kind] for kind in (0, 1)]
+        fractions = [paths.measure_coverage(intervals, document) for intervals in by_kind]
+        stated = [lock["proved"], lock["refuted"]]
+        require(stated == [paths.format_fraction(x) for x in fractions], "volumes are not those of the slabs")
+        covered = paths.measure_coverage([instants for _, instants in lock_entries], document)
+        require(covered == sum(fractions), "lock instants are both proved and refuted")
+        proved, refuted = ([x for x in by_kind[kind] if (kind, index, x[0]) not in broken] for kind in (0, 1))
+        leaf_count, checked_count = (sum(len(x[3]) for _, x in group if x[0] == index) for group in (entries, chosen))
+        rejected_count = sum(bad_leaves for _, entry, bad_leaves in rejected if entry[0] == index)
+        gaps = paths.find_gaps(proved + refuted, document)
         lock_fields = {"locked": lock["joint"], "claim": f"Lock of {document['arm']['joints'][lock['joint']]['name']}."}
         part = CertificateVerdict(
             document=document | lock_fields | {"left": paths.find_gaps(proved, document)}, leaves=leaf_count,
             accepted=checked_count - rejected_count,
             rejected=rejected_count, undecided=paths.measure_coverage(gaps, document),
             false=paths.measure_coverage(refuted, document),
-            whichever=paths.measure_coverage(proved, document),
+            whichever=paths.measure_coverage(proved, document)
         )  # fmt: skip
         parts.append(part)
     volumes = paths.compute_volumes([(Fraction(lock["proved"]), Fraction(lock["refuted"])) for lock in document["locks"]])
@@ -269,9 +233,7 @@ def _verify_bundle(
         require(is_expected, f"{part['file']} is not the part that the bundle needs")
     parts = [_verify_boxes(file, sample, workers, report_checked) for file in documents]
     volumes = [file["volumes"] for file in documents]
-    worst = max(
-        volumes, key=lambda texts: Fraction(int(texts["undecided"].split("/")[0]), 1 << int(texts["undecided"].split("^")[1]))
-    )
+    worst = max(volumes, key=lambda x: Fraction(int(x["undecided"].split("/")[0]), 1 << int(x["undecided"].split("^")[1])))
     require(document["volumes"] == worst, "volumes are not those of the worst part")
     return _combine_verdicts(document, parts, sum(part.seconds for part in parts))
 
@@ -279,20 +241,10 @@ def _verify_bundle(
 def _combine_verdicts(
     document: dict[str, Any], parts: list[CertificateVerdict], seconds: float, **more: Any
 ) -> CertificateVerdict:
-    sums = {key: sum(getattr(part, key) for part in parts) for key in ("leaves", "accepted", "rejected")}
-    unproved_targets, worst = (
-        frozenset[tree.Cell]().union(*(part.unproved_targets for part in parts)),
-        max(part.undecided for part in parts),
-    )
-    return CertificateVerdict(
-        document=document,
-        parts=tuple(parts),
-        seconds=seconds,
-        undecided=worst,
-        unproved_targets=unproved_targets,
-        **sums,
-        **more,
-    )
+    fields: dict[str, Any] = {key: sum(getattr(part, key) for part in parts) for key in ("leaves", "accepted", "rejected")}
+    fields["undecided"] = max(part.undecided for part in parts)
+    fields["unproved_targets"] = frozenset[tree.Cell]().union(*(part.unproved_targets for part in parts))
+    return CertificateVerdict(document=document, parts=tuple(parts), seconds=seconds, **fields, **more)
 
 
 def verify(
@@ -303,7 +255,7 @@ def verify(
     ``progress`` is told how many leaves were checked since it was told last.
 
     Raises:
-        Refused: A file that cannot be checked.
+        CertificateRejected: A file that cannot be checked.
     """
     require(
         balls.flint is not None,

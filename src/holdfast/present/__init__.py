@@ -19,6 +19,7 @@ PRESENTER_MODULES = {
     "ceilings.ceiling.UpperBoundTable": ("ceilings.console", ""),
     "ceilings.least_singular_values.SingularValueBound": ("ceilings.console", ""),
     "ceilings.searching.UpperBoundSearch": ("ceilings.console", ""),
+    "certificates.proof.BisectionResult": ("certificates.console", ""),
     "certificates.checks.CertificateCheck": ("certificates.console", ""),
     "certificates.joint_boxes.bounds.ManipulabilityBound": ("certificates.console", "certificates.joint_boxes"),
     "certificates.joint_boxes.refutations.Refutation": ("certificates.console", "certificates.joint_boxes"),

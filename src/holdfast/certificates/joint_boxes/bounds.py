@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from holdfast.certificates.joint_boxes.jobs import bisect_box, summarize_tree
 from holdfast.certificates.joint_boxes.kernels import FloorTest
 from holdfast.certificates.joint_boxes.wrenches import CeilingTest
 from holdfast.certificates.joint_claims import BoundClaim
+from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tree import UNDECIDED_TOKEN
@@ -115,3 +117,12 @@ def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[FloatA
         improved = values > best_values
         candidates[improved], best_values[improved] = trials[improved], values[improved]
     return candidates[best_values.argmax()], sign * float(best_values.max())
+
+
+def _encode_bound_claim(claim: BoundClaim) -> dict[str, Any]:
+    box, threshold = (documents.encode_floats(values) for values in (claim.joint_box, claim.threshold))
+    return {"joint_box": box, "threshold": threshold, "locks": list(claim.locks)}
+
+
+CEILING_KIND = ClaimKind("ceiling", prove_manipulability_bound, _encode_bound_claim, halvings=16)
+FLOOR_KIND = ClaimKind("floor", prove_manipulability_bound, _encode_bound_claim, halvings=16)

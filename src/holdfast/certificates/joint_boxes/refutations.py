@@ -12,6 +12,7 @@ from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.joint_boxes.exclusion import search_exclusion
+from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
 
 
@@ -66,3 +67,6 @@ def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget:
         seconds=seconds,
         document=documents.build_refutation_document(claim, exclusion, seconds=seconds),
     )
+
+
+REFUTATION_KIND = ClaimKind("refutation", prove_out_of_reach, documents.encode_target_claim, halvings=16)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 from holdfast.arguments import check_arguments, require_real_numbers
 from holdfast.arm.model import Arm
 from holdfast.certificates.claims import TASK_ROWS, require_planar
+from holdfast.certificates.kinds import Claim
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.errors import InputError
 from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
@@ -23,7 +25,7 @@ _INSTANT_STEP = SEGMENT_INSTANTS >> 6  # instants: ends of what is claimed are m
 
 
 @dataclass(frozen=True, kw_only=True)
-class PathClaim:
+class PathClaim(Claim):
     """Claim that one continuous motion finishes the path of the tool after a lock at any instant of a healthy motion.
 
     Attributes:
@@ -36,6 +38,7 @@ class PathClaim:
         deviation: m, between the tool at configurations that were given and that of the straight segments, at most.
     """
 
+    kind: ClassVar[str] = "path"
     arm: Arm
     task: str
     knots: FloatArray

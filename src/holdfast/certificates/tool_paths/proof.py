@@ -13,6 +13,7 @@ import numpy as np
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.crew import SearchBudget
+from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import CompositeResult, format_early_stop, write_document
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.jobs import ToolPathJob
@@ -121,3 +122,15 @@ def _choose_followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
         np.linalg.svd(np.delete(jacobians, [joint, *followers], axis=2), compute_uv=False)[:, -1].min() for followers in choices
     ]
     return choices[int(np.argmax(min_singular_values))]
+
+
+def _encode_path_claim(claim: PathClaim) -> dict[str, Any]:
+    knots, tube = (documents.encode_floats(values) for values in (claim.knots, claim.tube))
+    locks = [{"joint": joint} for joint in claim.locks]
+    limits = documents.encode_limits(claim.arm)
+    return {"knots": knots, "tube": tube, "limits": limits, "during": list(claim.during), "locks": locks}
+
+
+PATH_KIND = ClaimKind(
+    "path", lambda claim, halvings, seed, budget: prove_path(claim, halvings, budget), _encode_path_claim, halvings=6
+)

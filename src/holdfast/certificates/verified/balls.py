@@ -101,9 +101,7 @@ def solve_regular(a: Array, b: Array) -> Array:
 
 def concatenate(axis: int, *parts: BallArray) -> BallArray:
     """Concatenate arrays along an axis."""
-    return BallArray(
-        np.concatenate([part.center for part in parts], axis), np.concatenate([part.radius for part in parts], axis)
-    )
+    return BallArray(np.concatenate([x.center for x in parts], axis), np.concatenate([x.radius for x in parts], axis))
 
 
 def stack_second(parts: list[BallArray]) -> BallArray:

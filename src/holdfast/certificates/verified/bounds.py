@@ -32,7 +32,7 @@ from .balls import (
     stack_second,
 )
 from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration
-from .forms import decompress_payload, parse_hex, require
+from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, format_intervals, parse_hex, require, require_revolute
 from .taylor import DerivativeEnclosure
 from .tree import MAX_LEAVES, SPLIT_TOKEN, Cell, iterate_cells
 
@@ -59,20 +59,14 @@ class ScrewEnclosure:
         links = np.zeros(self.half.shape)
         for index, joint in enumerate(self.order):  # any point of an axis will do: one that is near the one before
             previous, points = axis_points[0] if index == n - middle else previous, kinematics.points[:, joint]
-            axis_points.append(
-                points
-                + einsum(
-                    "n,na->na", np.nan_to_num(((previous.center - points.center) * z.center[:, index]).sum(axis=1)), z[:, index]
-                )
-            )
+            axis_offset = np.nan_to_num(((previous.center - points.center) * z.center[:, index]).sum(axis=1))
+            axis_points.append(points + einsum("n,na->na", axis_offset, z[:, index]))
             links[:, index], previous = bound_length((axis_points[index] + -previous).magnitude), axis_points[index]
         offsets = stack_second(axis_points) + -axis_points[0][:, None]
         moments = einsum("nlij,nlj->nli", cross_matrix(offsets), z)
         spin, shift, zeros = cross_matrix(z), cross_matrix(moments), BallArray(np.zeros((*z.center.shape, 3)))
-        self.screws, self.operators = (
-            concatenate(2, z, moments),
-            concatenate(2, concatenate(3, spin, zeros), concatenate(3, shift, spin)),
-        )
+        self.screws = concatenate(2, z, moments)
+        self.operators = concatenate(2, concatenate(3, spin, zeros), concatenate(3, shift, spin))
         # (N, j, l, 6), of which the second derivative by i and j is the bracket with i.
         self.brackets = einsum("njab,nlb->njla", self.operators, self.screws).multiply_signs(self.moves.T[:, :, None])
         # A link of the path to an axis goes with the joints between the middle and it.
@@ -96,11 +90,9 @@ class CeilingVerifier(LeafVerifier):
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document, document["joint_box"])
         self.arm = BallChain(document["arm"], document["task"] == "planar-pose")
-        self.threshold, self.screw_rows, self.locks = (
-            parse_hex(document["threshold"]),
-            SCREW_ROWS[document["task"]],
-            document["locks"],
-        )
+        self.threshold = parse_hex(document["threshold"])
+        self.screw_rows = SCREW_ROWS[document["task"]]
+        self.locks = document["locks"]
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
         """Return the number of leaves, the undecided cells, and an iterator of the leaves, each with a joint, or 0 for a lower
@@ -108,29 +100,22 @@ class CeilingVerifier(LeafVerifier):
         """
         tree, n = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"), self.arm.n
         valid_tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
-        require(
-            set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)},
-            "a token of the tree is unknown, or not among the locks",
-        )
+        is_valid = set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)}
+        require(is_valid, "a token of the tree is unknown, or not among the locks")
         undecided = [cell for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN) if token == 2]
 
         def iterate_leaves() -> Iterator[Leaf]:
-            return (
-                (cell, max(token - FIRST_LOCK_TOKEN, 0))
-                for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN)
-                if token != 2
-            )
+            cells = iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN)
+            return ((cell, max(token - FIRST_LOCK_TOKEN, 0)) for token, cell in cells if token != 2)
 
         return sum(tree.count(token) for token in valid_tokens), undecided, iterate_leaves
 
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
         """Return a mask of the leaves in which a lock of joint ``kind`` reduces relative manipulability enough."""
         screws, threshold = ScrewEnclosure(self.arm, self.enclose_centers(cell for cell, _ in leaves)), self.threshold
-        position, half, moves = (
-            screws.order.index(kind),
-            screws.half,
-            screws.brackets.multiply_signs(screws.side[:, None, None]),
-        )
+        position = screws.order.index(kind)
+        half = screws.half
+        moves = screws.brackets.multiply_signs(screws.side[:, None, None])
         y, wrench_rate = self.choose_wrench(screws, position)
         gradients = einsum("njla,na->nlj", moves, y) + einsum("nla,naj->nlj", screws.screws, wrench_rate)
         cross_terms = einsum("nai,njla->nlij", wrench_rate, moves)
@@ -149,10 +134,8 @@ class CeilingVerifier(LeafVerifier):
             np.nextafter(form.value.lower - (form.bound_change(half)[0] + remainder) * ROUND_UP, -np.inf)[:, position], 0
         )
         moments[:, position] = 0
-        upper, lower = (
-            (moments**2).sum(axis=1) * ((1 - threshold) * (1 + threshold)) * ROUND_UP,
-            threshold**2 * own_moment**2 * (1 - 1e-12),
-        )
+        upper = (moments**2).sum(axis=1) * ((1 - threshold) * (1 + threshold)) * ROUND_UP
+        lower = threshold**2 * own_moment**2 * (1 - 1e-12)
         return np.asarray((upper < lower) & (own_moment > 1e-100))
 
     def choose_wrench(self, screws: ScrewEnclosure, k: int) -> tuple[Array, Array]:
@@ -180,9 +163,7 @@ class CeilingVerifier(LeafVerifier):
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             kinematics = self.arm.enclose_point(enclose_configuration(q))
             columns = concatenate(2, kinematics.axes, kinematics.columns)[0][:, self.screw_rows].transpose(1, 0)
-            entries = [
-                flint.arb(float(x), float(radius)) for x, radius in zip(columns.center.flat, columns.radius.flat, strict=True)
-            ]
+            entries = [flint.arb(float(x), float(r)) for x, r in zip(columns.center.flat, columns.radius.flat, strict=True)]
             jacobian = flint.arb_mat(*columns.center.shape, entries)
             try:
                 solution = (jacobian * jacobian.transpose()).solve(jacobian)
@@ -205,15 +186,8 @@ class FloorVerifier(CeilingVerifier):
         if n - len(self.screw_rows) == 1:
             return self.verify_null_motion(screws, np.linalg.svd(jacobian)[2][:, -1], inverse, positions)
         null_projector = np.eye(n) - inverse @ jacobian
-        return np.asarray(
-            np.all(
-                [
-                    self.verify_null_motion(screws, null_projector[:, :, position], inverse, [position])
-                    for position in positions
-                ],
-                axis=0,
-            )
-        )
+        masks = [self.verify_null_motion(screws, null_projector[:, :, x], inverse, [x]) for x in positions]
+        return np.asarray(np.all(masks, axis=0))
 
     def verify_null_motion(self, screws: ScrewEnclosure, nu: Array, inverse: Array, positions: list[int]) -> Flags:
         """Return a mask of leaves all over which some nu + N (q - q_c) + P s keeps the tool still and has large enough
@@ -228,14 +202,11 @@ class FloorVerifier(CeilingVerifier):
         second_brackets = (
             einsum("niab,njb->naij", screws.operators, motion_brackets)[:, rows].multiply_signs(screws.same_side).symmetrize()
         )
-        gradients, second = (
-            gradients + einsum("nlb,nlj->nbj", screw, response),
-            second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2),
-        )
+        gradients = gradients + einsum("nlb,nlj->nbj", screw, response)
+        second = second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2)
         joint_travel = np.einsum("nlj,nj->nl", abs(response), half) * ROUND_UP
-        remainder = np.einsum("nl,nlb->nb", abs(nu), screws.third_remainder[..., rows]) + np.einsum(
-            "nl,nlb->nb", joint_travel, screws.second_remainder[..., rows]
-        )
+        remainder = np.einsum("nl,nlb->nb", abs(nu), screws.third_remainder[..., rows])
+        remainder = remainder + np.einsum("nl,nlb->nb", joint_travel, screws.second_remainder[..., rows])
         residual = DerivativeEnclosure(einsum("nlb,nl->nb", screw, nu), gradients, second).bound_magnitude(
             half, remainder * ROUND_UP
         )
@@ -252,11 +223,24 @@ class FloorVerifier(CeilingVerifier):
         # s -> s - J x sends its box into itself; and as miss s < s, J P has an inverse everywhere: nothing is singular.
         is_closed = ((residual + np.einsum("nbc,nc->nb", contraction, s)) * ROUND_UP < s).all(axis=1) & (s < 1e3).all(axis=1)
         shift = np.einsum("nlb,nb->nl", abs(inverse), s) * ROUND_UP
-        norm_bound = (
-            (nu**2).sum(axis=1)
-            + 2 * (einsum("nl,nlj->nj", nu, response).magnitude * half).sum(axis=1)
-            + (joint_travel**2).sum(axis=1)
-        )
+        norm_bound = (nu**2).sum(axis=1) + 2 * (einsum("nl,nlj->nj", nu, response).magnitude * half).sum(axis=1)
+        norm_bound += (joint_travel**2).sum(axis=1)
         norm_bound = (np.sqrt(norm_bound * ROUND_UP) + bound_length(shift)) * ROUND_UP
         min_component = np.nextafter(abs(nu) - (joint_travel + shift) * ROUND_UP, -np.inf)[:, positions].min(axis=1)
         return np.asarray(is_closed & (min_component > 1e-100) & (min_component > self.threshold * norm_bound * ROUND_UP))
+
+
+def bound_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a ceiling or floor has in addition to the common ones."""
+    require_revolute(document)
+    require(document["task"] in SCREW_ROWS, f"ceilings and floors are of {' and '.join(SCREW_ROWS)}")
+    form = {"joint_box": [[NUMBER_PATTERN, 2], n], "threshold": NUMBER_PATTERN, "found": [NUMBER_PATTERN, n]}
+    return form | {"locks": [range(n), ...], "tree": TEXT_PATTERN}
+
+
+def describe_bound(document: dict[str, Any], names: list[str]) -> str:
+    """Return the claim of a ceiling or floor as a sentence without its end."""
+    text = f"For every configuration with {format_intervals(names, document['joint_box'])}, the least relative "
+    text += f"manipulability of the {document['task']} after a lock of one of "
+    text += f"{', '.join(names[lock] for lock in document['locks'])} is at "
+    return f"{text}{'most' if document['kind'] == 'ceiling' else 'least'} {parse_hex(document['threshold'])!r}; angles in rad,"

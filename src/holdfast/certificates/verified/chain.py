@@ -53,10 +53,8 @@ def build_target_chain(target: dict[str, Any]) -> dict[str, Any]:
     axes, first, orientation = target["axes"], [IDENTITY_HEX] * ("z" in target["axes"]), target["orientation"] or IDENTITY_HEX
     kinds = ["prismatic"] * sum(axis in "xyz" for axis in axes) + ["revolute"] * sum(axis not in "xyz" for axis in axes)
     # The cycle of rows of ONE takes z to y, the next y to x, and so on; three are none.
-    frames = [
-        {"rotation": rows, "origin": ["0x0p+0"] * 3}
-        for rows in (first + [IDENTITY_HEX[3:] + IDENTITY_HEX[:3]] * 6)[: len(kinds)]
-    ]
+    rotations = (first + [IDENTITY_HEX[3:] + IDENTITY_HEX[:3]] * 6)[: len(kinds)]
+    frames = [{"rotation": rows, "origin": ["0x0p+0"] * 3} for rows in rotations]
     tool = {"rotation": orientation if axes == "xya" else orientation[3:] + orientation[:3], "origin": ["0x0p+0"] * 3}
     return {"joints": [frame | {"type": kind} for frame, kind in zip(frames, kinds, strict=True)], "tool": tool}
 
@@ -86,10 +84,8 @@ class BallChain:
         self.origins = [np.array([parse_hex(value) for value in frame["origin"]]) for frame in frames]
         self.turns = [enclose_rotation(frame["rotation"]) for frame in frames]
         if planar:  # all that moves, moves in the plane: heights count nothing
-            is_planar = all(
-                abs(value.center[2, 2]) == 1 and not value.center[2, :2].any() and not value.center[:2, 2].any()
-                for value in self.turns
-            )
+            matrices = [rotation.center for rotation in self.turns]
+            is_planar = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in matrices)
             require(is_planar and not self.slides.any(), "a planar task is one of arms that stay in the plane")
             self.origins = [value * [1, 1, 0] for value in self.origins]
         self.link_lengths = self.bound_link_lengths(0, self.n)
@@ -103,10 +99,8 @@ class BallChain:
         tip, orientation = BallArray(np.zeros((count, 3))), BallArray(np.broadcast_to(np.eye(3), (count, 3, 3)))
         empty, axes, points = BallArray(np.zeros((count, 0, 3))), [], []
         for index, joint in enumerate(joints, first):
-            tip, orientation = (
-                tip + einsum("nij,j->ni", orientation, self.origins[index]),
-                einsum("nij,jk->nik", orientation, self.turns[index]),
-            )
+            tip = tip + einsum("nij,j->ni", orientation, self.origins[index])
+            orientation = einsum("nij,jk->nik", orientation, self.turns[index])
             axes.append(orientation[:, :, 2])
             points.append(tip)
             if self.slides[index]:
@@ -155,9 +149,7 @@ class LeafVerifier:
 
     def __init__(self, document: dict[str, Any], intervals: Iterable[Iterable[Any]]) -> None:
         self._document = {key: value for key, value in document.items() if key not in ("tree", "centres")}
-        exact_intervals = [
-            [Fraction(parse_hex(number) if isinstance(number, str) else number) for number in pair] for pair in intervals
-        ]
+        exact_intervals = [[Fraction(parse_hex(x) if isinstance(x, str) else x) for x in pair] for pair in intervals]
         self.low, self.width = [low for low, _ in exact_intervals], [high - low for low, high in exact_intervals]
         self._cache: dict[tuple[int, int, int], list[float]] = {}
 
@@ -168,10 +160,8 @@ class LeafVerifier:
         """Return the rows of :func:`enclose_angle` for the centers of each axis from ``first`` on, with half widths rounded up,
         (N, 5).
         """
-        return [
-            np.array([self._enclose_center(axis, part) for part in parts])
-            for axis, parts in enumerate(zip(*cells, strict=True), first)
-        ]
+        columns = enumerate(zip(*cells, strict=True), first)
+        return [np.array([self._enclose_center(axis, part) for part in parts]) for axis, parts in columns]
 
     def find_unproved_cells(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
         """Return the cells of the root box that rejected leaves leave unproved."""
@@ -183,9 +173,7 @@ class LeafVerifier:
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for kind in sorted({self.leaf_kind(leaf) for leaf in chunk}):
                 group = [leaf for leaf in chunk if self.leaf_kind(leaf) == kind]
-                rejected += [
-                    leaf for leaf, is_proved in zip(group, self.verify_leaves(kind, group), strict=True) if not is_proved
-                ]
+                rejected += [leaf for leaf, proved in zip(group, self.verify_leaves(kind, group), strict=True) if not proved]
         return len(chunk), rejected
 
     def leaf_kind(self, leaf: Leaf) -> Any:

@@ -18,10 +18,10 @@ import numpy as np
 
 from .balls import ROUND_UP, Array, BallArray, Flags, bound_length, cross_matrix, einsum, flint, solve_regular
 from .chain import BallChain, Leaf, LeafVerifier, enclose_angle, enclose_configuration
-from .forms import decompress_payload, parse_hex, require
+from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, parse_hex, require
 from .motions import HealthyMotion
 from .paths import SEGMENT_INSTANTS, StoredRefutation
-from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier
+from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier, locked_target_form
 from .taylor import DerivativeEnclosure, compute_derivatives, enclose_difference
 from .tree import MAX_LEAVES, PROVED_TOKEN, SPLIT_TOKEN, Cell, iterate_cells
 
@@ -42,11 +42,8 @@ def bound_norm_below(form: DerivativeEnclosure, linear: int, remainders: tuple[A
         unit = direction / np.sqrt((direction**2).sum(axis=1))[:, None] * (1 - 1e-12)
         unit = np.where(((unit**2).sum(axis=1) < 1 - 1e-13)[:, None], unit, 0.0)
         projection = form.combine_rows(BallArray(unit))
-        loss = (
-            projection.bound_change(half)[0][:, 0]
-            + bound_length(unit * is_position) * remainders[0]
-            + bound_length(unit * ~is_position) * remainders[1]
-        )
+        loss = projection.bound_change(half)[0][:, 0] + bound_length(unit * is_position) * remainders[0]
+        loss = loss + bound_length(unit * ~is_position) * remainders[1]
         best = np.maximum(best, np.nextafter(projection.value.lower[:, 0] - loss * ROUND_UP, -np.inf))
     return best
 
@@ -60,10 +57,8 @@ def bound_norm(form: DerivativeEnclosure, derivatives: list[Array], half: Array)
     (first_derivative, second_derivative, third_derivative), norm = derivatives, bound_length(form.value.magnitude)
     second = einsum("naj,nak->njk", form.slopes, form.slopes) + einsum("na,najk->njk", form.value, form.second)
     square = DerivativeEnclosure(form.value, einsum("na,nak->nk", form.value, form.slopes)[:, None], second[:, None])
-    squared = norm**2 + 2 * (
-        square.bound_change(half)[1][:, 0]
-        + (3 * first_derivative * second_derivative + (norm + first_derivative) * third_derivative) / 6
-    )
+    cubic = (3 * first_derivative * second_derivative + (norm + first_derivative) * third_derivative) / 6
+    squared = norm**2 + 2 * (square.bound_change(half)[1][:, 0] + cubic)
     upper = np.nextafter(np.sqrt(squared * ROUND_UP), np.inf)
     return bound_norm_below(form, 3, (third_derivative / 6, 0), half), np.asarray(upper)
 
@@ -81,10 +76,8 @@ def bound_distance(
     for index, is_prismatic in enumerate(chain.slides[first : first + len(joints)]):
         cost = bound_length(levers[:, index]) * np.minimum(half[:, index], 2) * ROUND_UP
         is_ignored &= (cost < 1e-6) & (not is_prismatic)
-        half[:, index], displacement = (
-            np.where(is_ignored, 0.0, half[:, index]),
-            (displacement + np.where(is_ignored, cost, 0.0)) * ROUND_UP,
-        )
+        half[:, index] = np.where(is_ignored, 0.0, half[:, index])
+        displacement = (displacement + np.where(is_ignored, cost, 0.0)) * ROUND_UP
     lengths = chain.bound_link_lengths(first, first + len(joints), end)
     form = DerivativeEnclosure(kinematics.tip + -start, *compute_derivatives(kinematics.spin_axes, kinematics.columns))
     lower, upper = bound_norm(
@@ -107,11 +100,9 @@ class RefutationVerifier(TargetLeafVerifier):
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
         """Return the number of leaves, the undecided cells of the main tree, and an iterator of the leaves."""
-        main_tree, axis_count, last_token = (
-            decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"),
-            len(self.width),
-            2 + len(self.links),
-        )
+        main_tree = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree")
+        axis_count = len(self.width)
+        last_token = 2 + len(self.links)
         trees = [decompress_payload(lemma["tree"], 2 * MAX_LEAVES - 1, "tree of a lemma") for lemma in document["lemmas"]]
         require(last_token < SPLIT_TOKEN, f"there are more than {SPLIT_TOKEN - FIRST_LEMMA_TOKEN} lemmas")
         require(not any(tree.count(token) for tree in trees for token in (1, 2)), "a lemma is not proved everywhere")
@@ -119,27 +110,21 @@ class RefutationVerifier(TargetLeafVerifier):
         if document["witness"]:
             require(main_tree == b"\2" and not trees, "beside a witness nothing is proved")
             return 1, undecided, lambda: iter([(undecided[0], WITNESS_LEAF)])
-        count = sum(tree.count(0) for tree in trees) + sum(
-            main_tree.count(valid_token) for valid_token in (PROVED_TOKEN, *range(FIRST_LEMMA_TOKEN, last_token + 1))
-        )
+        count = sum(tree.count(0) for tree in trees)
+        count += sum(main_tree.count(token) for token in (PROVED_TOKEN, *range(FIRST_LEMMA_TOKEN, last_token + 1)))
 
         def iterate_leaves() -> Iterator[Leaf]:
             for index, tree in enumerate(trees):
                 yield from ((cell, (index, index)) for _, cell in iterate_cells(tree, self.n - self.links[index]))
-            yield from (
-                (cell, (-1, max(token, 2) - FIRST_LEMMA_TOKEN))
-                for token, cell in iterate_cells(main_tree, axis_count, last_token)
-                if token not in (1, 2)
-            )
+            cells = iterate_cells(main_tree, axis_count, last_token)
+            yield from ((cell, (-1, max(token, 2) - FIRST_LEMMA_TOKEN)) for token, cell in cells if token not in (1, 2))
 
         return count, undecided, iterate_leaves
 
     def find_unproved_cells(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
         """Return the cells of the main tree that are rejected, or that need a lemma with a rejected leaf."""
-        broken_lemmas, rejected_cells = (
-            {tree for _, (tree, _) in rejected if tree >= 0},
-            {cell for cell, (tree, _) in rejected if tree == -1},
-        )
+        broken_lemmas = {tree for _, (tree, _) in rejected if tree >= 0}
+        rejected_cells = {cell for cell, (tree, _) in rejected if tree == -1}
         return [cell for cell, (tree, lemma) in leaves() if tree == -1 and (lemma in broken_lemmas or cell in rejected_cells)]
 
     def verify_leaves(self, kind: tuple[int, int], leaves: list[Leaf]) -> Any:
@@ -166,32 +151,21 @@ class RefutationVerifier(TargetLeafVerifier):
         of an error.
         """
         joint_count, point, joint_half = len(joints), self.points[lemma], half[:, : len(joints)]
-        arm_point, target_point = (
-            self.arm.enclose_point(joints, 0, point, len(half)),
-            self.goal.enclose_point([target[axis] for axis in self.chain_axes]),
-        )
-        slide_extent, lengths = (
-            np.reshape([values[:, 0] for values in joints], joint_half.T.shape).T,
-            self.arm.bound_link_lengths(0, joint_count, point),
-        )
+        arm_point = self.arm.enclose_point(joints, 0, point, len(half))
+        target_point = self.goal.enclose_point([target[axis] for axis in self.chain_axes])
+        slide_extent = np.reshape([values[:, 0] for values in joints], joint_half.T.shape).T
+        lengths = self.arm.bound_link_lengths(0, joint_count, point)
         derivatives = [self.arm.bound_derivative(order, joint_half, lengths, slide_extent) for order in (1, 2, 3)]
         derivatives[0] += bound_length(half[:, joint_count + self.turning :])
-        return bound_norm(
-            enclose_difference(
-                arm_point, arm_point.columns, arm_point.tip, target_point, target_point.columns, target_point.tip
-            ),
-            derivatives,
-            half,
-        )
+        arm_vectors, target_vectors = ((x, x.columns, x.tip) for x in (arm_point, target_point))
+        return bound_norm(enclose_difference(*arm_vectors, *target_vectors), derivatives, half)
 
     def verify_witness(self, witness: list[str]) -> bool:
         """Return True if a witness satisfies the claim's limits and has its tool in the box of targets."""
         q, document = [parse_hex(number) for number in witness], self._document
         ranges = [document["angle"] if joint == document["locked"] else pair for joint, pair in enumerate(document["limits"])]
-        tip, sides = (
-            self.arm.enclose_point(enclose_configuration(witness)).tip,
-            [[parse_hex(number) for number in pair] for pair in document["target"]["box"]],
-        )
+        tip = self.arm.enclose_point(enclose_configuration(witness)).tip
+        sides = [[parse_hex(number) for number in pair] for pair in document["target"]["box"]]
         ends = zip(sides, tip.lower[0], -(-tip).lower[0], strict=False)
         in_limits = all(parse_hex(pair[0]) <= number <= parse_hex(pair[1]) for number, pair in zip(q, ranges, strict=True))
         in_box = all(a <= number and y <= b for (a, b), number, y in ends) and document["task"] in ("planar", "position")
@@ -222,12 +196,10 @@ class LoopClosureVerifier(LeafVerifier):
         self, arm: dict[str, Any], ranges: list[Any], *, tool_q: list[Fraction], uses_rotation: bool, planar: bool
     ) -> None:
         super().__init__({}, limit_to_revolution(ranges, arm["joints"]))
-        self.chain, self.n, self.uses_rotation, self._plane_mask = (
-            BallChain(arm, planar),
-            len(ranges),
-            uses_rotation,
-            np.array([1, 1, not planar]),
-        )
+        self.chain = BallChain(arm, planar)
+        self.n = len(ranges)
+        self.uses_rotation = uses_rotation
+        self._plane_mask = np.array([1, 1, not planar])
         chain, self.tip = self.chain, self.chain.origins[-1]
         kinematics = chain.enclose_point([np.array([enclose_angle(x)]) for x in tool_q])
         # From the tool back to the base: where that is seen from the last link, and how turned.
@@ -262,9 +234,7 @@ class PathRefutationVerifier(HealthyMotion):
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document)
-        self._points = [
-            (point["link"], np.array([parse_hex(number) for number in point["place"]])) for point in document["points"]
-        ]
+        self._points = [(point["link"], np.array([parse_hex(x) for x in point["place"]])) for point in document["points"]]
 
     def check_leaves(self, chunk: list[StoredRefutation]) -> tuple[int, list[tuple[StoredRefutation, int]]]:
         """Check refutations; return the number of leaves, and the refutations that fail, each with its number of rejected
@@ -274,32 +244,17 @@ class PathRefutationVerifier(HealthyMotion):
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for refutation in chunk:
                 lock_index, ends, path_instant, leaves = refutation
-                lock, ranges = (
-                    document["locks"][lock_index]["joint"],
-                    [[parse_hex(number) for number in pair] for pair in document["limits"]],
-                )
-                ranges[lock] = sorted(
-                    self.interpolate_joints(2 * number, max(number - 1, 0) // SEGMENT_INSTANTS)[lock] for number in ends
-                )
-                tool_q, uses_rotation = (
-                    self.interpolate_joints(2 * path_instant, (path_instant - 1) // SEGMENT_INSTANTS),
-                    "pose" in self.task,
-                )
-                loop, excluded = (
-                    LoopClosureVerifier(
-                        document["arm"],
-                        ranges,
-                        tool_q=tool_q,
-                        uses_rotation=uses_rotation,
-                        planar=self.task.startswith("planar"),
-                    ),
-                    0,
-                )
+                lock = document["locks"][lock_index]["joint"]
+                ranges = [[parse_hex(number) for number in pair] for pair in document["limits"]]
+                ranges[lock] = sorted(self.interpolate_joints(2 * k, max(k - 1, 0) // SEGMENT_INSTANTS)[lock] for k in ends)
+                tool_q = self.interpolate_joints(2 * path_instant, (path_instant - 1) // SEGMENT_INSTANTS)
+                uses_rotation = "pose" in self.task
+                planar = self.task.startswith("planar")
+                loop = LoopClosureVerifier(document["arm"], ranges, tool_q=tool_q, uses_rotation=uses_rotation, planar=planar)
+                excluded = 0
                 for token in sorted({token for token, _ in leaves}):
                     pair = [self._points[index] for index in document["pairs"][token]]
-                    excluded += int(
-                        loop.exclude_cells(pair, [cell for leaf_token, cell in leaves if leaf_token == token]).sum()
-                    )
+                    excluded += int(loop.exclude_cells(pair, [cell for kind, cell in leaves if kind == token]).sum())
                 rejected += [(refutation, len(leaves) - excluded)] * (excluded < len(leaves))
         return sum(len(leaves) for *_, leaves in chunk), rejected
 
@@ -313,3 +268,11 @@ def limit_to_revolution(ranges: list[Any], joints: list[dict[str, Any]]) -> list
         require(is_revolute or math.isfinite(upper - lower), f"{joint['name']} slides without an end")
         limited.append([-half_turn, half_turn] if is_revolute and not upper - lower < 2 * math.pi else [lower, upper])
     return limited
+
+
+def refutation_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a refutation has in addition to the common ones."""
+    form = locked_target_form(document, n)
+    lemma: dict[str, Any] = {"link": range(n), "point": [NUMBER_PATTERN, 3], "least": NUMBER_PATTERN}
+    lemma |= {"most": NUMBER_PATTERN, "tree": TEXT_PATTERN}
+    return form | {"lemmas": [lemma, ...], "witness": [NUMBER_PATTERN, n] if document.get("witness") else None}

@@ -9,42 +9,30 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
-from .bounds import SCREW_ROWS
-from .forms import FOR_PEOPLE, TASK_FORMS, CertificateRejected, compute_digest, parse_hex, require
-from .paths import PATH_CENTER_UNIT as PATH_UNIT
-from .paths import SEGMENT_INSTANTS
-from .targets import CENTER_UNIT
+from .forms import (
+    FOR_PEOPLE,
+    HASH_PATTERN,
+    LIMITS_FORM,
+    NUMBER_PATTERN,
+    TEXT_PATTERN,
+    VOLUMES_FORM,
+    CertificateRejected,
+    compute_digest,
+    parse_hex,
+    require,
+)
+from .kinds import CERTIFICATE_KINDS, claim_sentence
 from .tree import SPLIT_TOKEN
-from .words import claim_sentence
 
-NUMBER_PATTERN = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}"
-TEXT_PATTERN = "[^\0]*"
-HASH_PATTERN = "[0-9a-f]{64}"
-INTEGER_PATTERN = r"-?\d{1,40}"
-RATIONAL_PATTERN = r"-?\d{1,60}/[1-9]\d{0,60}"
-FRACTION_PATTERN = r"\d{1,60}/[1-9]\d{0,60}"
-LIMITS_FORM = [f"{NUMBER_PATTERN}|-?inf", 2]
 FRAME_FORM = {"rotation": [NUMBER_PATTERN, 9], "origin": [NUMBER_PATTERN, 3]}
-ARM_FORM = {
-    "joints": [{"name": TEXT_PATTERN, "type": "revolute|prismatic", "limits": LIMITS_FORM, **FRAME_FORM}, ...],
-    "tool": FRAME_FORM,
-}
-VOLUMES_FORM = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
-KIND_PATTERN = "reach|bundle|refutation|ceiling|floor|structural-zero|path"
+JOINT_FORM = {"name": TEXT_PATTERN, "type": "revolute|prismatic", "limits": LIMITS_FORM, **FRAME_FORM}
+ARM_FORM = {"joints": [JOINT_FORM, ...], "tool": FRAME_FORM}
+KIND_PATTERN = "|".join(CERTIFICATE_KINDS)
 COMMON_FORM: dict[str, Any] = {"format": "holdfast-certificate", "version": range(1, 2), "kind": KIND_PATTERN, "arm": ARM_FORM}
-COMMON_FORM |= {
-    "arm_digest": HASH_PATTERN,
-    "source": ...,
-    "claim": TEXT_PATTERN,
-    "task": TEXT_PATTERN,
-    "volumes": VOLUMES_FORM,
-    "digest": HASH_PATTERN,
-    **FOR_PEOPLE,
-}
+COMMON_FORM |= {"arm_digest": HASH_PATTERN, "source": ..., "claim": TEXT_PATTERN, "task": TEXT_PATTERN}
+COMMON_FORM |= {"volumes": VOLUMES_FORM, "digest": HASH_PATTERN, **FOR_PEOPLE}
 MAX_BYTES = 256 << 20
 MAX_JOINTS = 64
-MAX_PATH_JOINTS = 32
-MAX_SEGMENTS = 1 << 14
 
 
 def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:
@@ -121,11 +109,10 @@ def _check_document(document: dict[str, Any]) -> None:
     names = [joint["name"] for joint in document["arm"]["joints"]]
     is_valid = 0 < len(names) <= MAX_JOINTS and len(set(names)) == len(names)
     require(is_valid, f"there must be 1 to {MAX_JOINTS} joints of different names")
-    require(
-        all(name.isprintable() and name and len(name) <= 200 for name in names),
-        "joints must have names of 1 to 200 letters to print",
-    )
-    require_form(document, COMMON_FORM | _document_form(document, len(names)), "the certificate")
+    is_valid = all(name.isprintable() and name and len(name) <= 200 for name in names)
+    require(is_valid, "joints must have names of 1 to 200 letters to print")
+    form = CERTIFICATE_KINDS[document["kind"]].form(document, len(names))
+    require_form(document, COMMON_FORM | form, "the certificate")
     _check_values(document)
     for key, value in (
         ("arm_digest", compute_digest(document["arm"])),
@@ -135,77 +122,10 @@ def _check_document(document: dict[str, Any]) -> None:
         require(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
 
 
-def _document_form(document: dict[str, Any], n: int) -> dict[str, Any]:
-    """Return the keys of a document of this kind, in addition to the common ones, with their forms."""
-    kind, task, target, locks = str(document["kind"]), str(document["task"]), document.get("target"), document.get("locks")
-    form: dict[str, Any]
-    all_revolute = all(joint["type"] == "revolute" for joint in document["arm"]["joints"])
-    require(all_revolute or kind not in ("structural-zero", "ceiling", "floor"), f"a {kind} is of joints that turn")
-    if kind in ("ceiling", "floor"):
-        require(task in SCREW_ROWS, f"ceilings and floors are of {' and '.join(SCREW_ROWS)}")
-        form = {"joint_box": [[NUMBER_PATTERN, 2], n], "threshold": NUMBER_PATTERN, "found": [NUMBER_PATTERN, n]}
-        return form | {"locks": [range(n), ...], "tree": TEXT_PATTERN}
-    if kind == "structural-zero":
-        require(task == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
-        frame = {"rotation": [INTEGER_PATTERN, 4], "origin": [RATIONAL_PATTERN, 3]}
-        return {"locked": range(1, n - 1), "snapped": [frame, n], "points": [RATIONAL_PATTERN, n]}
-    require(task in TASK_FORMS, f"the task must be one of: {', '.join(TASK_FORMS)}")
-    if kind == "path":
-        count, points = (
-            len(items) if isinstance(items, list) else 0 for items in (document.get("knots"), document.get("points"))
-        )
-        is_valid = n <= MAX_PATH_JOINTS and 2 <= count <= MAX_SEGMENTS + 1
-        require(is_valid, f"a path has from 1 to {MAX_SEGMENTS} segments, and {MAX_PATH_JOINTS} joints at most")
-        instant, follower = (
-            range((count - 1) * SEGMENT_INSTANTS + 1),
-            [range(n), n - 1 - TASK_FORMS[task][0] - TASK_FORMS[task][1]],
-        )
-        refuted = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT_PATTERN}, ...]
-        lock = {"joint": range(n), "followers": follower, "refutations": refuted}
-        lock |= {"cells": TEXT_PATTERN, "centres": TEXT_PATTERN, "proved": FRACTION_PATTERN, "refuted": FRACTION_PATTERN}
-        form = {
-            "knots": [[NUMBER_PATTERN, n], ...],
-            "tube": [NUMBER_PATTERN, 2],
-            "limits": [LIMITS_FORM, n],
-            "during": [instant, 2],
-        }
-        form |= {"pairs": [[range(points), 2], ...], "points": [{"link": range(n + 1), "place": [NUMBER_PATTERN, 3]}, ...]}
-        return form | {
-            "unit": re.escape(PATH_UNIT.hex()),
-            "locks": [lock, ...],
-            "volumes": dict.fromkeys(VOLUMES_FORM, FRACTION_PATTERN),
-        }
-    axes = str(target.get("axes")) if isinstance(target, dict) else ""
-    orientation: Any = [NUMBER_PATTERN, 9] if axes == "xyz" and task in ("pose", "pointing") else None
-    box = {"axes": TASK_FORMS[task][2], "box": [[NUMBER_PATTERN, 2], len(axes)], "orientation": orientation}
-    form = {"target": box, "limits": [LIMITS_FORM, n]}
-    if kind == "bundle":
-        part = {"file": r"\w[\w.-]*", "digest": HASH_PATTERN, "locked": range(-1, n)}
-        parts = [part, len(locks) + 1 if isinstance(locks, list) else 0]
-        return form | {"working_ranges": [LIMITS_FORM, n], "locks": [range(n), ...], "parts": parts}
-    form |= {
-        "locked": range(-1, n),
-        "angle": None if document.get("locked") == -1 else [NUMBER_PATTERN, 2],
-        "tree": TEXT_PATTERN,
-    }
-    if kind == "reach":
-        return form | {"centres": TEXT_PATTERN, "unit": re.escape(CENTER_UNIT.hex()), "refutations": [..., 0]}
-    lemma = {
-        "link": range(n),
-        "point": [NUMBER_PATTERN, 3],
-        "least": NUMBER_PATTERN,
-        "most": NUMBER_PATTERN,
-        "tree": TEXT_PATTERN,
-    }
-    return form | {"lemmas": [lemma, ...], "witness": [NUMBER_PATTERN, n] if document.get("witness") else None}
-
-
 def _check_values(document: dict[str, Any]) -> None:
-    kind, arm_limits, locks = (
-        document["kind"],
-        [joint["limits"] for joint in document["arm"]["joints"]],
-        document.get("locks", [0]),
-    )
+    kind = document["kind"]
+    arm_limits = [joint["limits"] for joint in document["arm"]["joints"]]
+    locks = document.get("locks", [0])
     limits = document.get("limits", arm_limits)
     for key, outer in (("limits", arm_limits), ("joint_box", arm_limits), ("working_ranges", limits)):
         require_within(document.get(key, []), outer[: len(document.get(key, []))], key)

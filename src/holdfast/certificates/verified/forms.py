@@ -5,8 +5,11 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import math
 import zlib
 from collections.abc import Iterable
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
 from typing import Any
 
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
@@ -17,6 +20,14 @@ TASK_FORMS = {  # how many rows of the place, how many of the rotation, and axes
     "pointing": (3, 2, "xyz"),
     "pose": (3, 3, "xyz|xyzRPY"),
 }
+NUMBER_PATTERN = r"-?0x[01]\.[0-9a-f]{1,13}p[+-]\d{1,4}"
+TEXT_PATTERN = "[^\0]*"
+HASH_PATTERN = "[0-9a-f]{64}"
+INTEGER_PATTERN = r"-?\d{1,40}"
+RATIONAL_PATTERN = r"-?\d{1,60}/[1-9]\d{0,60}"
+FRACTION_PATTERN = r"\d{1,60}/[1-9]\d{0,60}"
+LIMITS_FORM = [f"{NUMBER_PATTERN}|-?inf", 2]
+VOLUMES_FORM = dict.fromkeys(("proved", "refuted", "undecided"), r"\d{1,100}/2\^\d{1,3}")
 parse_hex = float.fromhex
 
 
@@ -40,9 +51,7 @@ def compute_digest(document: dict[str, Any]) -> str:
 
 def format_intervals(names: Iterable[str], pairs: Iterable[list[str]]) -> str:
     """Format intervals as text; decimals are the shortest that represent the same doubles."""
-    return ", ".join(
-        f"{name} {' to '.join(repr(parse_hex(number)) for number in pair)}" for name, pair in zip(names, pairs, strict=True)
-    )
+    return ", ".join(f"{name} {' to '.join(repr(parse_hex(x)) for x in pair)}" for name, pair in zip(names, pairs, strict=True))
 
 
 def decompress_payload(text: str, max_bytes: int, label: str) -> bytes:
@@ -56,3 +65,42 @@ def decompress_payload(text: str, max_bytes: int, label: str) -> bytes:
         decompressor.eof and len(data) <= max_bytes and not decompressor.unused_data, f"{label} is cut off or holds too much"
     )
     return data
+
+
+def require_task(document: dict[str, Any]) -> str:
+    """Return the task of a certificate, which must be one of :data:`TASK_FORMS`."""
+    require(document["task"] in TASK_FORMS, f"the task must be one of: {', '.join(TASK_FORMS)}")
+    return str(document["task"])
+
+
+def require_revolute(document: dict[str, Any]) -> None:
+    """Require all joints of the arm of a certificate to be revolute."""
+    all_revolute = all(joint["type"] == "revolute" for joint in document["arm"]["joints"])
+    require(all_revolute, f"a {document['kind']} is of joints that turn")
+
+
+def qualify_claim(claim: str, proved: Fraction, *, refuted: bool = False, sampled: bool = False) -> str:
+    """Return a claim as it may be printed: with the proved fraction in front, unless every cell of all of it is verified."""
+    if refuted or sampled:
+        return f"{'False' if refuted else 'Sampled, not verified'}: {claim}"
+    only = f"Proved for only {format_percent(proved)} of this claim: " if proved else "Not proved: "
+    return claim if proved == 1 else only + claim
+
+
+def format_percent(part: Fraction, up: bool = False) -> str:
+    """Format a fraction in per cent, rounded down or up, so that proved fractions are never overstated and undecided ones never
+    understated.
+    """
+    if part in (0, 1):
+        return f"{100 * int(part)} %"
+    if part < Fraction(1, 10_000):
+        return f"{round_to_two_digits(100 * part, up):g} %"
+    millionths = math.ceil(part * 10**8) if up else math.floor(part * 10**8)
+    if millionths == 10**8:
+        return f"all but {round_to_two_digits(100 * (1 - part), False):g} %"
+    return f"{millionths // 10**6}.{millionths % 10**6:06d} %"
+
+
+def round_to_two_digits(x: Fraction, up: bool) -> Decimal:
+    """Return the decimal of two digits below or above a fraction."""
+    return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))

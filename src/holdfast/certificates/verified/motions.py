@@ -42,10 +42,8 @@ class HealthyMotion:
     def __init__(self, document: dict[str, Any]) -> None:
         payloads = {"cells": "", "centres": "", "refutations": []}
         self._document = document | {"locks": [lock | payloads for lock in document["locks"]]}
-        self.task, self.knots = (
-            document["task"],
-            np.array([[parse_hex(number) for number in knot] for knot in document["knots"]]),
-        )
+        self.task = document["task"]
+        self.knots = np.array([[parse_hex(number) for number in knot] for knot in document["knots"]])
         self._exact_knots = [[Fraction(number) for number in knot] for knot in self.knots.tolist()]
 
     def __reduce__(self) -> tuple[Any, ...]:  # to another process
@@ -93,37 +91,28 @@ class PathVerifier(HealthyMotion):
         on it is one more of what the section moves.
         """
         tube, free, (locked, path) = len(self.tube), [joint for joint in range(self.n) if joint not in driven], rates
-        gradients, lock_mask, is_follower = (
-            np.nan_to_num(gradients),
-            np.arange(self.n) == driven[0],
-            np.isin(np.arange(2 * self.n), driven[1:]),
-        )
+        gradients = np.nan_to_num(gradients)
+        lock_mask = np.arange(self.n) == driven[0]
+        is_follower = np.isin(np.arange(2 * self.n), driven[1:])
         driven_rates = concatenate(1, path, path[:, ::-1]).multiply_signs(is_follower | (np.arange(2 * self.n) >= self.n))
         jacobian, drift = gradients[:, :, free], np.einsum("nmk,nk->nm", gradients[:, :, : self.n], locked.center * lock_mask)
         path_gradient = np.einsum("nmk,nk->nm", gradients, driven_rates.center)
-        extended, is_regular = (
-            np.concatenate([jacobian, path_gradient[:, :, None]], axis=2),
-            abs(np.linalg.det(jacobian)) > 1e-12,
-        )
+        extended = np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)
+        is_regular = abs(np.linalg.det(jacobian)) > 1e-12
         pseudo_inverse = np.linalg.inv(np.where(is_regular[:, None, None], jacobian, np.eye(self.m)))
         tangent = np.pad(-np.einsum("nfm,nm->nf", pseudo_inverse, path_gradient), ((0, 0), (0, 1)), constant_values=1.0)
         pseudo_inverse = np.pad(pseudo_inverse, ((0, 0), (0, 1), (0, 0)))
         if is_tangent.any():
-            pseudo_inverse[is_tangent], null_vectors = (
-                np.linalg.pinv(extended[is_tangent]),
-                np.linalg.svd(extended[is_tangent])[2][:, -1],
-            )
+            pseudo_inverse[is_tangent] = np.linalg.pinv(extended[is_tangent])
+            null_vectors = np.linalg.svd(extended[is_tangent])[2][:, -1]
             tangent[is_tangent] = null_vectors * np.where(null_vectors[:, -1:] < 0, -1.0, 1.0)
         lock_speed = is_tangent * ((tangent[:, :-1] * locked.center[:, free]).sum(axis=1) + tangent[:, -1])
         lock_response = tangent * lock_speed[:, None] - np.einsum("nfm,nm->nf", pseudo_inverse, drift)
         response = np.concatenate([np.stack([lock_response, tangent], 2), pseudo_inverse[:, :, :tube], pseudo_inverse], axis=2)
         response, free_motion = np.nan_to_num(response), np.zeros((len(gradients), 2 * self.n, response.shape[2]))
         free_motion[:, free] = response[:, :-1]
-        lock_motion = einsum(
-            "nk,c->nkc",
-            concatenate(1, locked.multiply_signs(lock_mask), path.multiply_signs(0)),
-            1.0 * (np.arange(response.shape[2]) == 0),
-        )
+        motion = concatenate(1, locked.multiply_signs(lock_mask), path.multiply_signs(0))
+        lock_motion = einsum("nk,c->nkc", motion, 1.0 * (np.arange(response.shape[2]) == 0))
         return einsum("nk,nc->nkc", driven_rates, response[:, -1]) + lock_motion + free_motion, BallArray(response)
 
     def bound_gradients(self, cells: Inclusion, half: Array) -> Array:
@@ -137,10 +126,8 @@ class PathVerifier(HealthyMotion):
         chain_terms = zip(error.split_by_chain(joint_travel), error.split_by_chain(cells.response), strict=True)
         for (chain, slide_extent, travel), (_, _, responses) in chain_terms:
             response = responses[:, :, columns]
-            c, cumulative = (
-                np.cumsum(travel * ~chain.slides, axis=1) * ROUND_UP,
-                np.cumsum(response * ~chain.slides[:, None], axis=1) * ROUND_UP,
-            )
+            c = np.cumsum(travel * ~chain.slides, axis=1) * ROUND_UP
+            cumulative = np.cumsum(response * ~chain.slides[:, None], axis=1) * ROUND_UP
             slide_range = travel * chain.slides
             # What a slide goes out by, d, counts first order already: its slope by a turn changes by d c, whatever c is.
             weights = (chain.link_lengths + abs(slide_extent) * chain.slides) * c**2 + 2 * c * slide_range
@@ -207,10 +194,8 @@ class PathVerifier(HealthyMotion):
         if is_tangent.any():
             is_valid &= ~is_tangent | self.moves_forward(inclusion, response, middle - (ends - 1) // SEGMENT_INSTANTS - 1)
         centers = concatenate(1, q[:, free], BallArray(middle[:, None]))
-        lock_start = (
-            concatenate(1, _joint_values(locked)[:, free], BallArray((begin + stop)[:, None] / (2 * SEGMENT_INSTANTS))),
-            concatenate(1, lock_rate[:, free], ones),
-        )
+        instants = BallArray((begin + stop)[:, None] / (2 * SEGMENT_INSTANTS))
+        lock_start = concatenate(1, _joint_values(locked)[:, free], instants), concatenate(1, lock_rate[:, free], ones)
         return is_valid & self.stays_in_unique_box(centers, response, half, unique_box, lock_start, is_first, is_tangent)
 
     def stays_in_unique_box(
@@ -228,25 +213,15 @@ class PathVerifier(HealthyMotion):
         What is entered is a place of the free joints and on the path, as coordinates of the path and of the section.
         """
         m, columns = self.m, [0, *range(2, half.shape[1] - self.m)]
-        previous_centers, previous_response, previous_half = (
-            _previous_rows(centers),
-            _previous_rows(response),
-            np.roll(half, 1, axis=0),
-        )
-        offset = (
-            select_rows(
-                is_first,
-                lock_start[0],
-                previous_centers + einsum("nf,n->nf", previous_response[:, :, 1], BallArray(previous_half[:, 1])),
-            )
-            + -centers
-        )
+        previous_centers = _previous_rows(centers)
+        previous_response = _previous_rows(response)
+        previous_half = np.roll(half, 1, axis=0)
+        predicted = previous_centers + einsum("nf,n->nf", previous_response[:, :, 1], BallArray(previous_half[:, 1]))
+        offset = select_rows(is_first, lock_start[0], predicted) + -centers
         departure_spread = BallArray(np.zeros((*response.center.shape[:2], len(columns))))
         departure = lock_start[1] + -response[:, :, 0]
-        departure_spread.center[:, :, 0], departure_spread.radius = (
-            departure.center,
-            np.repeat(departure.radius[:, :, None], len(columns), axis=2),
-        )
+        departure_spread.center[:, :, 0] = departure.center
+        departure_spread.radius = np.repeat(departure.radius[:, :, None], len(columns), axis=2)
         spread = select_rows(is_first, departure_spread, previous_response[:, :, columns] + -response[:, :, columns])
         section_spread = select_rows(
             is_first, BallArray(np.zeros((*response.center.shape[:2], m))), previous_response[:, :, -m:]
@@ -271,11 +246,7 @@ class PathVerifier(HealthyMotion):
             for _, group in groupby(zip(chunk, totals, strict=True), lambda entry: (entry[0][0], entry[1] // BATCH_CELLS)):
                 slabs = [slab for slab, _ in group]
                 wrong = np.split(~self.verify_cells(slabs), np.cumsum([len(entry[3]) for entry in slabs])[:-1])
-                rejected += [
-                    (entry, int(rejected_cells.sum()))
-                    for entry, rejected_cells in zip(slabs, wrong, strict=True)
-                    if rejected_cells.any()
-                ]
+                rejected += [(entry, int(cells.sum())) for entry, cells in zip(slabs, wrong, strict=True) if cells.any()]
         return sum(len(slab[3]) for slab in chunk), rejected
 
 

@@ -5,6 +5,7 @@ Joints follow the place in a leaf along any matrix, here the one by which the to
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -13,7 +14,18 @@ import numpy as np
 
 from .balls import Array, BallArray, Flags
 from .chain import BallChain, Leaf, LeafVerifier, build_target_chain, enclose_angle, enclose_values
-from .forms import TASK_FORMS, decompress_payload, parse_hex, require
+from .forms import (
+    HASH_PATTERN,
+    LIMITS_FORM,
+    NUMBER_PATTERN,
+    TASK_FORMS,
+    TEXT_PATTERN,
+    decompress_payload,
+    format_intervals,
+    parse_hex,
+    require,
+    require_task,
+)
 from .taylor import Inclusion, TaskErrorEnclosure
 from .tree import MAX_LEAVES, PROVED_TOKEN, Cell, iterate_cells
 
@@ -26,21 +38,15 @@ class TargetLeafVerifier(LeafVerifier):
     def __init__(self, document: dict[str, Any], leading_axes: list[Any], trailing_axes: list[Any], planar: bool) -> None:
         super().__init__(document, [*leading_axes, *document["target"]["box"], *trailing_axes])
         self.task, self.locked, self.arm = document["task"], document["locked"], BallChain(document["arm"], planar)
-        self.goal, self.n, self.target_size = (
-            BallChain(build_target_chain(document["target"])),
-            self.arm.n,
-            len(document["target"]["axes"]),
-        )
+        self.goal = BallChain(build_target_chain(document["target"]))
+        self.n = self.arm.n
+        self.target_size = len(document["target"]["axes"])
         self.limits = np.array([[parse_hex(number) for number in pair] for pair in document["limits"]])
         linear = TASK_FORMS[self.task][0]
         self.targets, self.turning = slice(len(leading_axes), len(leading_axes) + self.target_size), self.target_size - linear
-        self.chain_axes = [*range(linear)][::-1] + [*range(linear, self.target_size)][
-            ::-1
-        ]  # axes of a target, as its chain has them
-        self.error_axes = [
-            *range(linear, self.target_size),
-            *range(linear),
-        ]  # and as an error has them, behind the arm's joints
+        # The axes of a target in the order of its chain, and in that of an error, in which they follow the arm's joints.
+        self.chain_axes = [*range(linear)][::-1] + [*range(linear, self.target_size)][::-1]
+        self.error_axes = [*range(linear, self.target_size), *range(linear)]
 
     def enclose_error(self, joints: list[Array], target: list[Array]) -> TaskErrorEnclosure:
         """Return the task rows of the error."""
@@ -65,15 +71,12 @@ class ReachVerifier(TargetLeafVerifier):
         require(len(packed) == row_bytes * count, "there are fewer centres than leaves")
         centers = np.frombuffer(packed, "<i4").reshape(count, self.n)
         require(not np.delete(centers, self.free, axis=1).any(), "centres of joints that do not move must be 0")
-        return (
-            count,
-            undecided,
-            lambda: zip(
-                (proved_cell for token, proved_cell in iterate_cells(tree, axis_count) if token == PROVED_TOKEN),
-                centers,
-                strict=True,
-            ),
-        )
+
+        def iterate_leaves() -> Iterator[Leaf]:
+            cells = (cell for token, cell in iterate_cells(tree, axis_count) if token == PROVED_TOKEN)
+            return zip(cells, centers, strict=True)
+
+        return count, undecided, iterate_leaves
 
     def enclose_leaf_centers(self, leaves: list[Leaf]) -> tuple[list[Array], list[Array]]:
         """Return the joints at the centers, and the axes of the cells, as :func:`enclose_angle` gives them."""
@@ -115,3 +118,57 @@ class ReachVerifier(TargetLeafVerifier):
         """Return a mask of the leaves in which every target and locked value has a configuration."""
         inclusion, q = self.enclose_leaves(leaves)
         return inclusion.is_proved & inclusion.is_within_limits(q, self.limits, self.free)
+
+
+def target_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys about targets and limits."""
+    task, target = require_task(document), document.get("target")
+    axes = str(target.get("axes")) if isinstance(target, dict) else ""
+    orientation: Any = [NUMBER_PATTERN, 9] if axes == "xyz" and task in ("pose", "pointing") else None
+    box = {"axes": TASK_FORMS[task][2], "box": [[NUMBER_PATTERN, 2], len(axes)], "orientation": orientation}
+    return {"target": box, "limits": [LIMITS_FORM, n]}
+
+
+def bundle_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a bundle has in addition to the common ones."""
+    form, locks = target_form(document, n), document.get("locks")
+    part = {"file": r"\w[\w.-]*", "digest": HASH_PATTERN, "locked": range(-1, n)}
+    parts = [part, len(locks) + 1 if isinstance(locks, list) else 0]
+    return form | {"working_ranges": [LIMITS_FORM, n], "locks": [range(n), ...], "parts": parts}
+
+
+def locked_target_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys about targets, limits, and a locked joint, with the tree."""
+    angle = None if document.get("locked") == -1 else [NUMBER_PATTERN, 2]
+    form = target_form(document, n)
+    return form | {"locked": range(-1, n), "angle": angle, "tree": TEXT_PATTERN}
+
+
+def reach_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a reach has in addition to the common ones."""
+    form = locked_target_form(document, n)
+    return form | {"centres": TEXT_PATTERN, "unit": re.escape(CENTER_UNIT.hex()), "refutations": [..., 0]}
+
+
+def describe_targets(document: dict[str, Any], names: list[str]) -> str:
+    """Return a claim about targets as a sentence without its end."""
+    target, kind, orientation_note = document["target"], document["kind"], ""
+    axes = [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in target["axes"]]
+    orientation = [parse_hex(number) for number in target["orientation"] or ()]
+    if orientation:
+        is_pointing = document["task"] == "pointing"
+        orientation_note = f" and the tool's z axis along {orientation[2::3]}"
+        orientation_note = orientation_note if is_pointing else f" and the rotation {orientation}"
+    orientation_note += " and the rotation Rz(yaw) Ry(pitch) Rx(roll)" * ("R" in target["axes"])
+    text = f"For every {document['task']} target with {format_intervals(axes, target['box'])}{orientation_note}"
+    configuration = f"configuration within the limits ({format_intervals(names, document['limits'])})"
+    if kind == "bundle":
+        ranges, locked = format_intervals(names, document["working_ranges"]), [names[lock] for lock in document["locks"]]
+        text += f", a configuration within the working ranges ({ranges}) reaches it, and after a lock of any one of "
+        text += f"{', '.join(locked)} at any value of its range"
+    elif document["locked"] >= 0:
+        text += f", and every value {format_intervals(['from'], [document['angle']])} at which "
+        text += f"{names[document['locked']]} may be locked"
+    configuration += " with that value" * (kind == "bundle" or document["locked"] >= 0)
+    text += f" and every {configuration}: the tool is elsewhere" if kind == "refutation" else f", a {configuration} reaches it"
+    return f"{text}; lengths in m, angles in rad, base frame,"

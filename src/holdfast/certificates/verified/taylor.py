@@ -75,21 +75,16 @@ class DerivativeEnclosure:
         h, changes = half[:, None], list[Array]()
         mixed_terms = ((self.mixed_curvature @ h[..., None])[..., 0] * h).sum(axis=2)
         for curvature in self.own_curvature:
-            own_terms = np.where(
-                self.gradient_magnitude < curvature * h,
-                self.gradient_magnitude**2 / (2 * curvature),
-                self.gradient_magnitude * h - curvature * h**2 / 2,
-            )
+            slopes = self.gradient_magnitude
+            own_terms = np.where(slopes < curvature * h, slopes**2 / (2 * curvature), slopes * h - curvature * h**2 / 2)
             changes.append((own_terms.sum(axis=2) + mixed_terms) * ROUND_UP + MIN_ROUNDING)
         return changes
 
     def bound_magnitude(self, half: Array, remainder: Array) -> Array:
         """Bound the absolute values of the numbers, with the remainder after second order."""
         (decrease, increase), value = ((change + remainder) * ROUND_UP for change in self.bound_change(half)), self.value
-        upper, lower = (
-            np.nextafter(value.center + value.radius, np.inf) + increase,
-            np.nextafter(value.radius - value.center, np.inf) + decrease,
-        )
+        upper = np.nextafter(value.center + value.radius, np.inf) + increase
+        lower = np.nextafter(value.radius - value.center, np.inf) + decrease
         return np.nextafter(np.maximum(upper, lower), np.inf) + MIN_ROUNDING
 
 
@@ -103,25 +98,18 @@ class TaskErrorEnclosure(DerivativeEnclosure):
         self.m, self.uses_rotation = self.linear + turning, turning > 0
         arm_point, goal_point = arm.enclose_point(joints), goal.enclose_point(places)
         self.chains = [(x, np.stack([joint[:, 0] for joint in values], 1)) for x, values in ((arm, joints), (goal, places))]
-        parts = [
-            enclose_difference(
-                arm_point, arm_point.columns, arm_point.tip, goal_point, goal_point.columns, goal_point.tip
-            ).select(slice(self.linear))
-        ]
+        arm_vectors, goal_vectors = ((x, x.columns, x.tip) for x in (arm_point, goal_point))
+        parts = [enclose_difference(*arm_vectors, *goal_vectors).select(slice(self.linear))]
         if turning == 2:
             arm_axis, goal_axis = arm_point.rotation[:, :, 2], goal_point.rotation[:, :, 2]
             columns = (
                 einsum("nkij,nj->nki", cross_matrix(tool.spin_axes), axis)
                 for tool, axis in ((arm_point, arm_axis), (goal_point, goal_axis))
             )
-            axis, transverse = (
-                enclose_difference(arm_point, next(columns), arm_axis, goal_point, next(columns), goal_axis),
-                goal_point.rotation.center,
-            )
-            gradients, second = (
-                einsum("nir,nij->nrj", transverse, axis.slopes),
-                einsum("nir,nijk->nrjk", transverse, axis.second),
-            )
+            axis = enclose_difference(arm_point, next(columns), arm_axis, goal_point, next(columns), goal_axis)
+            transverse = goal_point.rotation.center
+            gradients = einsum("nir,nij->nrj", transverse, axis.slopes)
+            second = einsum("nir,nijk->nrjk", transverse, axis.second)
             parts.append(DerivativeEnclosure(einsum("nir,ni->nr", transverse, axis.value), gradients, second))
         elif turning:
             rotation = einsum("nij,nkj->nik", arm_point.rotation, goal_point.rotation)
@@ -137,10 +125,8 @@ class TaskErrorEnclosure(DerivativeEnclosure):
     def split_by_chain(self, values: Array) -> list[tuple[BallChain, Array, Array]]:
         """Split values for each variable (N, V, ...) into those of the joints of each chain, and return them with the chain."""
         n = self.chains[0][0].n
-        return [
-            (chain, slide_extent, part)
-            for (chain, slide_extent), part in zip(self.chains, (values[:, :n], values[:, : n - 1 : -1]), strict=True)
-        ]
+        travels = values[:, :n], values[:, : n - 1 : -1]
+        return [(chain, slide_extent, part) for (chain, slide_extent), part in zip(self.chains, travels, strict=True)]
 
     def bound_remainder(self, joint_travel: Array) -> tuple[Array, Array]:
         """Bound the remainder of each row after second order where joints travel ``joint_travel`` (N, V), and the angle of

@@ -14,7 +14,7 @@ from typing import Any
 
 from .balls import ROUND_UP
 from .chain import Leaf, LeafVerifier
-from .forms import parse_hex, require
+from .forms import INTEGER_PATTERN, RATIONAL_PATTERN, parse_hex, require, require_revolute, round_to_two_digits
 from .tree import Cell
 
 
@@ -41,9 +41,7 @@ class StructuralZeroVerifier(LeafVerifier):
         """Return whether the pair of axes shares its point."""
         frame, points = self._document["snapped"][kind], [Fraction(number) for number in self._document["points"]]
         rotation = exact_rotation(map(int, frame["rotation"]))
-        meeting_point = [
-            Fraction(number) + row[2] * points[kind] for number, row in zip(frame["origin"], rotation, strict=True)
-        ]
+        meeting_point = [Fraction(x) + row[2] * points[kind] for x, row in zip(frame["origin"], rotation, strict=True)]
         return [meeting_point == [0, 0, points[kind - 1]]]
 
 
@@ -61,15 +59,28 @@ def bound_snap_errors(document: dict[str, Any]) -> tuple[float, float]:
     rotation_error, position_error = 0.0, 0.0
     for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
         exact = [number for row in exact_rotation(map(int, frame["rotation"])) for number in row]
-        squared_error = sum(
-            (snapped - Fraction(parse_hex(original))) ** 2 for snapped, original in zip(exact, joint["rotation"], strict=True)
-        )
+        squared_error = sum((x - Fraction(parse_hex(y))) ** 2 for x, y in zip(exact, joint["rotation"], strict=True))
         require(squared_error < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
         # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
         rotation_error = max(rotation_error, math.sqrt(squared_error) / math.sqrt(2) * 1.0001)
-        squared_distance = sum(
-            (Fraction(snapped) - Fraction(parse_hex(original))) ** 2
-            for snapped, original in zip(frame["origin"], joint["origin"], strict=True)
-        )
+        origins = zip(frame["origin"], joint["origin"], strict=True)
+        squared_distance = sum((Fraction(x) - Fraction(parse_hex(y))) ** 2 for x, y in origins)
         position_error = max(position_error, math.sqrt(squared_distance) * ROUND_UP)
     return rotation_error, position_error
+
+
+def structural_zero_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+    """Return the form of the keys that a structural zero has in addition to the common ones."""
+    require_revolute(document)
+    require(document["task"] == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
+    frame = {"rotation": [INTEGER_PATTERN, 4], "origin": [RATIONAL_PATTERN, 3]}
+    return {"locked": range(1, n - 1), "snapped": [frame, n], "points": [RATIONAL_PATTERN, n]}
+
+
+def describe_structural_zero(document: dict[str, Any], names: list[str]) -> str:
+    """Return the claim of a structural zero as a sentence without its end."""
+    tolerance = "{} rad and {} m".format(
+        *(f"{round_to_two_digits(Fraction(error), True):g}" if error else "0" for error in bound_snap_errors(document))
+    )
+    text = f"For every configuration of an arm whose frames are within {tolerance} of the file's, "
+    return f"{text}relative manipulability of the pose after a lock of {names[document['locked']]} is 0;"

@@ -18,6 +18,13 @@ from holdfast.present.certificates import joint_boxes, slices
 from holdfast.present.printing import TextTable
 from holdfast.present.story import PageContent
 
+_FILE_NAMES = {
+    "bundle": "certificates",
+    "ceiling": "bound.certificate",
+    "floor": "bound.certificate",
+    "refutation": "out-of-reach.certificate",
+    "structural-zero": "zero.certificate",
+}
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | CertificateCheck
 
 
@@ -80,17 +87,10 @@ def story(result: Found | StructuralZero) -> PageContent:
 
 def next_steps(result: Found | StructuralZero, name: str) -> list[str]:
     """Suggest the check of the written certificate by independent code."""
-    if isinstance(result, Proof):
-        return [f'hf.check_certificate({name}.write("reach.certificate"))  # by other code']
-    if isinstance(result, StructuralZero):
-        return [f'hf.check_certificate({name}.write("zero.certificate"))  # by other code']
-    if isinstance(result, ManipulabilityBound):
-        return [f'hf.check_certificate({name}.write("bound.certificate"))  # by other code']
-    if isinstance(result, Refutation):
-        return [f'hf.check_certificate({name}.write("out-of-reach.certificate"))  # by other code']
-    if isinstance(result, TolerantProof):
-        return [f'hf.check_certificate({name}.write("certificates"))  # by other code']
-    return [f"{name}.ok  # every cell was checked and accepted"]
+    if isinstance(result, CertificateCheck):
+        return [f"{name}.ok  # every cell was checked and accepted"]
+    kind = result.claim.kind
+    return [f'hf.check_certificate({name}.write("{_FILE_NAMES.get(kind, f"{kind}.certificate")}"))  # by other code']
 
 
 def tables(result: Found | StructuralZero) -> list[TextTable]:

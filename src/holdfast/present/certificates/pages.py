@@ -107,7 +107,8 @@ def _part_name(proof: Found, part: Found | LockedPath) -> str:
             else ", ".join(part.claim.arm.joint_names[joint] for joint in locks)
         )
     assert not isinstance(part, TolerantProof | PathProof)
-    return "healthy" if part.claim.locked < 0 else part.claim.arm.joint_names[part.claim.locked]
+    locked = getattr(part.claim, "locked", -1)  # a claim about no lock has no such attribute
+    return "healthy" if locked < 0 else part.claim.arm.joint_names[locked]
 
 
 def _list_check_instructions(proof: Found, check: CertificateCheck | None, file: str | Path) -> list[tuple[str, Any]]:

@@ -1,0 +1,82 @@
+"""Kinds of claims: how a claim of each kind is searched for and written.
+
+A claim names its kind. Registered are the :class:`ClaimKind` objects of the modules from which the stub of the package exports;
+nothing else lists them. The verifier has its own table, ``verified/kinds.py``, because it must work without holdfast.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+    from holdfast.certificates.crew import SearchBudget
+
+
+class Claim:
+    """Base of claims."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def arm(self) -> Arm:
+            """The arm."""
+
+        @property
+        def kind(self) -> str:
+            """Name of the kind in certificates."""
+
+        @property
+        def task(self) -> str:
+            """Name of the task."""
+
+    @property
+    def parts(self) -> tuple[Any, ...]:
+        """Claims that are searched for separately; the claim itself if it has no parts."""
+        return (self,)
+
+
+@dataclass(frozen=True)
+class ClaimKind:
+    """Kind of claim.
+
+    Attributes:
+        name: Name in certificates; the verifier's table has an entry of the same name.
+        search: Function of a claim, the largest number of halvings of each axis, a seed, and a
+            :class:`~holdfast.certificates.crew.SearchBudget`; it returns a result with the certificate.
+        fields: Function of a claim that returns the fields of the certificate which define the claim, except arm and task.
+        halvings: Default number of halvings; 0 if the search bisects nothing, so that a store has nothing to remember.
+    """
+
+    name: str
+    search: Callable[[Any, int, int, SearchBudget], Any]
+    fields: Callable[[Any], dict[str, Any]]
+    halvings: int = 0
+
+
+@cache
+def find_claim_kinds() -> dict[str, ClaimKind]:
+    """Return all kinds of claims by name."""
+    stub = Path(__file__).with_name("__init__.pyi").read_text(encoding="utf-8")
+    modules = [import_module(name) for name in dict.fromkeys(re.findall(r"^from (\S+) import", stub, re.MULTILINE))]
+    kinds = [value for module in modules for value in vars(module).values() if isinstance(value, ClaimKind)]
+    return {kind.name: kind for kind in kinds}
+
+
+def find_claim_kind(claim: object) -> ClaimKind:
+    """Return the kind of a claim.
+
+    Raises:
+        InputError: The object is not a claim.
+    """
+    if not isinstance(claim, Claim):
+        raise InputError(f"claim is {claim!r}; it must come from holdfast.certificates, such as reach_claim")
+    return find_claim_kinds()[claim.kind]

@@ -1,0 +1,45 @@
+"""Kinds of certificates: the form of the file, the sentence of the claim, and the verifier of the leaves for each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from .bounds import CeilingVerifier, FloorVerifier, bound_form, describe_bound
+from .distances import RefutationVerifier, refutation_form
+from .paths import describe_path, path_form
+from .targets import ReachVerifier, bundle_form, describe_targets, reach_form
+from .zeros import StructuralZeroVerifier, describe_structural_zero, structural_zero_form
+
+
+@dataclass(frozen=True)
+class CertificateKind:
+    """Form of the keys that a kind adds to the common ones, sentence of its claim, and verifier of the leaves of its tree.
+
+    ``form`` takes a document whose common keys are checked and its number of joints; ``sentence`` takes a document and the
+    names of its joints; ``verifier`` is a class of :class:`LeafVerifier`, or None for a path and a bundle.
+    """
+
+    form: Callable[[dict[str, Any], int], dict[str, Any]]
+    sentence: Callable[[dict[str, Any], list[str]], str]
+    verifier: Any = None
+
+
+CERTIFICATE_KINDS = {
+    "reach": CertificateKind(reach_form, describe_targets, ReachVerifier),
+    "bundle": CertificateKind(bundle_form, describe_targets),
+    "refutation": CertificateKind(refutation_form, describe_targets, RefutationVerifier),
+    "ceiling": CertificateKind(bound_form, describe_bound, CeilingVerifier),
+    "floor": CertificateKind(bound_form, describe_bound, FloorVerifier),
+    "structural-zero": CertificateKind(structural_zero_form, describe_structural_zero, StructuralZeroVerifier),
+    "path": CertificateKind(path_form, describe_path),
+}
+
+
+def claim_sentence(document: dict[str, Any]) -> str:
+    """Return the claim of a certificate as a sentence, made from its other keys; decimals are the shortest that represent the
+    same doubles.
+    """
+    names = [joint["name"] for joint in document["arm"]["joints"]]
+    return f"{CERTIFICATE_KINDS[document['kind']].sentence(document, names)} arm {document['arm_digest'][:12]}."
