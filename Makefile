@@ -88,7 +88,7 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 
 soak: $(VENV)/test.stamp  ## The attacks in full: 10 minutes of load, 1,500 silent sockets, malformed messages, changed bits, damaged inputs, 1,000 rounds of forks; then an hour of the studio. Two hours and a half.
 	$(BIN)/python tests/soak.py
-	$(BIN)/python -m tests.studio.soak --minutes $(MINUTES)
+	$(BIN)/python -m tests.interface.studio.soak --minutes $(MINUTES)
 
 SCHEMA = $(VENV)-release/bin/check-jsonschema --builtin-schema vendor.
 

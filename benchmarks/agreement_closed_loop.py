@@ -398,7 +398,7 @@ def look(family: Family, k: int, row: dict[str, Any]) -> list[str]:
 
 
 def reason_of(runs: Any) -> str:
-    from holdfast.simulation import Reason
+    from holdfast.control.simulation import Reason
 
     reason = Reason(int(runs.reason[0]))
     return reason.name.lower().replace("_", " ") if reason else ""
@@ -412,7 +412,7 @@ def smallest(family: Family, q: Array) -> float:
 
 def report(path: Path) -> str:
     """The section for RESULTS.md."""
-    from holdfast.probability import Interval
+    from holdfast.core.probability import Interval
 
     found: dict[int, dict[int, dict[str, Any]]] = {}
     for (i, k), row in stored(path).items():

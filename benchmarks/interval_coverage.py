@@ -12,8 +12,8 @@ from itertools import groupby
 
 import numpy as np
 
-from holdfast.designs import HeldOutResult
-from holdfast.probability import Difference, Distribution, Interval
+from holdfast.core.probability import Difference, Distribution, Interval
+from holdfast.studies.designs import HeldOutResult
 
 NOMINAL = 0.95
 STUDIES = 2000

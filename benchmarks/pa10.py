@@ -67,7 +67,7 @@ def forward(q: Array) -> tuple[Array, Array]:
 
 def region_poses(count: int, seed: int = 1) -> Array:
     """(count, 4, 4) poses, uniform in the region of the paper; the first ones are the same for every count."""
-    from holdfast.regions import builtin_region
+    from holdfast.kinematics.regions import builtin_region
 
     region = builtin_region("pa10-9dof")
     if region is None:

@@ -26,7 +26,7 @@ def pinocchio():
 
     import pinocchio as pin
 
-    full = pin.buildModelFromUrdf(str(files("holdfast.arms").joinpath("data", "panda.urdf")))
+    full = pin.buildModelFromUrdf(str(files("holdfast.model.arms").joinpath("data", "panda.urdf")))
     fingers = [full.getJointId(name) for name in full.names if "finger" in name]
     model = pin.buildReducedModel(full, fingers, pin.neutral(full))
     if [*model.names][1:] != [joint.name for joint in ours().joints]:

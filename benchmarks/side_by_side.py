@@ -56,7 +56,7 @@ WORK = {
         100_000,
     ),
     "W6 control step, torque gradient, Panda": (
-        "from holdfast.motion import GradientProjection\narm = hf.arms.load('panda')\n"
+        "from holdfast.kinematics.path_following import GradientProjection\narm = hf.arms.load('panda')\n"
         "law = GradientProjection(arm, hf.susceptibility.torque(arm, 'effort'), rate_cap=1.0, period=0.01)\n"
         "step = law.prepare() if hasattr(law, 'prepare') else law.step\nq = draw(arm, 1)[0]; v = rng.normal(size=6) / 10",
         "for _ in range(20_000): step(q, v)",
@@ -111,8 +111,8 @@ WORK = {
         10_000,
     ),
     "W11 numbers of the studio's page, Panda (no browser)": (
-        "from holdfast.arm.task import as_task\n"
-        "from holdfast.studio.scene import bars, machine\n"
+        "from holdfast.model.arm.task import as_task\n"
+        "from holdfast.interface.studio.scene import bars, machine\n"
         "bars_html, losses_html, CompiledArm = bars.bars_html, bars.losses_html, machine.CompiledArm\n"
         "arm = hf.arms.load('panda'); m = CompiledArm(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
         "frames = getattr(arm, 'frames', None) or m.frames\n"
@@ -124,14 +124,14 @@ WORK = {
         300,
     ),
     "W12 study of 4 chunks, PA10, 1 thread": (
-        "sys.path.insert(0, BENCHMARKS); import w12_study as w\n"
+        "sys.path.insert(0, BENCHMARKS); import study_scaling as w\n"
         "kept = tempfile.TemporaryDirectory(); asked = w.study(Path(kept.name), 4, 1 << 20)",
         "with tempfile.TemporaryDirectory() as t: w.timed(Path(t) / 'out', asked, w.threads(1))",
         1 << 22,
     ),
     "W13 designs at poses with gradient, PA10": (
-        "sys.path.insert(0, BENCHMARKS)\nfrom w13_design import designs, holdfast\n"
-        "from w4_optimise import reachable_poses\nrun = holdfast(reachable_poses(16)); many = designs(16)",
+        "sys.path.insert(0, BENCHMARKS)\nfrom design_gradients import designs, holdfast\n"
+        "from optimised_configurations import reachable_poses\nrun = holdfast(reachable_poses(16)); many = designs(16)",
         "run(many)",
         256,
     ),

@@ -1,8 +1,8 @@
 """Faults in mjlab: what happens to which joint of which environment, written into the rows of its model.
 
 UNTESTED: written from mjlab's documentation; nobody has run it, a test only calls it with stand-ins. What of each kind goes
-where is as in ``holdfast.faults.FaultInjector``; here are locked joints and friction. MuJoCo Warp makes one row of a joint's
-two limits, so they must not overlap as the injector's do: a lock is as soft as one step at full torque.
+where is as in ``holdfast.response.faults.FaultInjector``; here are locked joints and friction. MuJoCo Warp makes one row of a
+joint's two limits, so they must not overlap as the injector's do: a lock is as soft as one step at full torque.
 """
 
 import holdfast as hf

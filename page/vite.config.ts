@@ -9,7 +9,7 @@ const pages: Record<string, string> = { station: "index.html", experimenter: "ex
 const viewer: UserConfig = {
   publicDir: false,
   build: {
-    outDir: resolve(import.meta.dirname, "../src/holdfast/report/templates"),
+    outDir: resolve(import.meta.dirname, "../src/holdfast/interface/report/templates"),
     emptyOutDir: false,
     target: "es2022",
     lib: { entry: "src/viewer/main.ts", formats: ["iife"], name: "holdfastView", fileName: () => "viewer.js" },

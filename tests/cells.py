@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.cell import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
+from holdfast.model.cell import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 
 
 def placed(x: float, y: float, z: float) -> np.ndarray:

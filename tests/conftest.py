@@ -30,7 +30,13 @@ gc.set_threshold(50_000)  # of 700: looking for circles again and again is a twe
 _DRAW = 20120831
 _MADE: list[str] = []
 # Every kind of page is drawn in these.
-PAGES = ("tests/report/", "tests/present/", "tests/assessment/", "tests/teleop/test_analysis.py", "tests/test_papers")
+PAGES = (
+    "tests/interface/report/",
+    "tests/interface/presentation/",
+    "tests/studies/assessment/",
+    "tests/teleop/test_analysis.py",
+    "tests/test_papers",
+)
 _LAID_OUT = [True]
 # Solvers that are kept for an arm. Built-in arms are the same objects in every test, so one that was made on CasADi's machine
 # would serve later tests too, and differ in the last bits from what these compile; so would kernels that the arms keep.
@@ -46,7 +52,9 @@ def pytest_addoption(parser):
     parser.addoption(
         "--draw", type=int, default=_DRAW, metavar="SEED", help=f"seed of all random test inputs (default {_DRAW})"
     )
-    parser.addoption("--write-help", action="store_true", help="write the help pages that tests/cli/test_help.py compares with")
+    parser.addoption(
+        "--write-help", action="store_true", help="write the help pages that tests/interface/cli/test_help.py compares with"
+    )
 
 
 def pytest_configure(config):

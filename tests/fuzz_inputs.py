@@ -39,7 +39,7 @@ import yaml
 
 import holdfast
 from flips import change_digits
-from holdfast.errors import HoldfastError
+from holdfast.core.errors import HoldfastError
 from sealing import read_unsealed, read_unsealed_study
 
 SEED = 20120831
@@ -485,7 +485,7 @@ faults:
 """
 FAILURE = b"locked: {joint2: 0.2}\nrange: {joint3: [0, 0.2]}\nspeed: {shoulder: 0.5}\n"
 RATES = b"rates: {joint1: 1.0e-5, joint2: 2.0e-5, joint3: 1.0e-5}\n"
-RECORD = sorted((Path(holdfast.__file__).parent / "designs" / "book" / "data").rglob("*.yaml"))[0]
+RECORD = sorted((Path(holdfast.__file__).parent / "studies" / "designs" / "record_book" / "data").rglob("*.yaml"))[0]
 STUDIES = [
     b"name: two arms\nseed: 1\nposes: 200\nchunk: 50\narms: [planar-3r, {file: arm.yaml}]\n"
     b"assess: {indices: [relative-manipulability, manipulability], tasks: ['base:vx,vy'], regions: [default, region.yaml],"
@@ -632,24 +632,24 @@ def kinds(root: Path) -> dict[str, Kind]:
     import flips
     import holdfast as hf
     from holdfast import arms, teleop
-    from holdfast import engine as study
-    from holdfast.arms.serial import to_dict
-    from holdfast.assessment import load
-    from holdfast.cell import Mesh, Points
+    from holdfast import sweeps as study
     from holdfast.certificates import verifier
-    from holdfast.clearance import Capsules
-    from holdfast.cli.values import read_weights
-    from holdfast.designs.book.entries import load_record_file as read_record
-    from holdfast.endurance.rates import FailureRates
-    from holdfast.engine import ThreadRunner
-    from holdfast.engine.memory import LEGACY_MEMORY_FILE, MEMORY_FILE, SearchMemory
-    from holdfast.paths.path import load_path_file as read_path
-    from holdfast.paths.path_file import read_pose_table
-    from holdfast.recovery.waypoints import read_waypoints
-    from holdfast.regions.pose_list import PoseList
+    from holdfast.core.sweeps import ThreadRunner
+    from holdfast.core.sweeps.memory import LEGACY_MEMORY_FILE, MEMORY_FILE, SearchMemory
+    from holdfast.interface.cli.values import read_weights
+    from holdfast.interface.studio.motions import read_motion
+    from holdfast.kinematics.paths.path import load_path_file as read_path
+    from holdfast.kinematics.paths.path_file import read_pose_table
+    from holdfast.kinematics.regions.pose_list import PoseList
+    from holdfast.model.arms.serial import to_dict
+    from holdfast.model.cell import Mesh, Points
+    from holdfast.model.collision import Capsules
+    from holdfast.response.lock_survival.rates import FailureRates
+    from holdfast.response.recovery.waypoints import read_waypoints
     from holdfast.studies import read_study_file as read_study
-    from holdfast.studies.results import read_assessment
-    from holdfast.studio.motions import read_motion
+    from holdfast.studies.assessment import load
+    from holdfast.studies.designs.record_book.entries import load_record_file as read_record
+    from holdfast.studies.study_files.results import read_assessment
     from holdfast.teleop.records.verification import open_or_name_damage
     from holdfast.teleop.serve import texts
 

@@ -14,7 +14,7 @@ from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
-from holdfast.registry import INDEX_REGISTRY, Registry
+from holdfast.core.registry import INDEX_REGISTRY, Registry
 
 ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
 EPS = float(np.finfo(np.float64).eps)
@@ -482,7 +482,7 @@ def attained(j: np.ndarray, whole: np.ndarray) -> float:
     """What some Jacobian keeps after so many locks: equal entries of the null space, or what is stored."""
     m, n = whole.shape[-2:]
     k = n - j.shape[-1]
-    return np.sqrt((n - m) / n) if k == 1 else hf.ceilings.upper_bound(n=n, m=m, k=k).best_known
+    return np.sqrt((n - m) / n) if k == 1 else hf.index_bounds.upper_bound(n=n, m=m, k=k).best_known
 
 
 ORACLES = {

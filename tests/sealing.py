@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from holdfast.engine import Study
+from holdfast.core.sweeps import Study
 
 
 def read_unsealed(file: Path) -> dict[str, Any]:

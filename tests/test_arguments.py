@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING
 import pytest
 
 import holdfast as hf
-from holdfast.arguments import check_arguments, read_kinds
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.validation import check_arguments, read_kinds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-OPTIONAL_MODULES = {"holdfast.frameworks.jax_rows", "holdfast.frameworks.torch_rows"}  # jax and torch may be missing
+# jax and torch may be missing
+OPTIONAL_MODULES = {"holdfast.kernels.frameworks.jax_rows", "holdfast.kernels.frameworks.torch_rows"}
 
 
 def functions_of(module: object) -> Iterator[object]:

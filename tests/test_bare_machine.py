@@ -84,7 +84,7 @@ def test_what_waits_for_pages_is_shared_by_folder_and_the_rest_by_file():
     named = {folder: [str(path.relative_to(ROOT)) for path in (ROOT / folder).glob("test_*.py")] for folder in workers.PAGES}
     assert all(len(files) > 1 for files in named.values())
     assert {workers.share_of(f"{file}::test_it[a/b]") for files in named.values() for file in files} == set(workers.PAGES)
-    assert workers.share_of("tests/arm/test_urdf.py::test_it[a::b]") == "tests/arm/test_urdf.py"
+    assert workers.share_of("tests/model/arm/test_urdf.py::test_it[a::b]") == "tests/model/arm/test_urdf.py"
 
 
 def test_every_package_has_tests_that_are_quick():

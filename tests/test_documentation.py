@@ -13,8 +13,8 @@ from typing import Annotated, get_args, get_origin, get_type_hints
 import pytest
 import typer
 
-from holdfast.cli.declaration import as_typer
-from holdfast.cli.program import COMMAND_MODULES
+from holdfast.interface.cli.declaration import as_typer
+from holdfast.interface.cli.program import COMMAND_MODULES
 
 DOCS = Path(__file__).parents[1] / "docs"
 sys.path.insert(0, str(DOCS / "_ext"))
@@ -42,7 +42,7 @@ def test_every_link_has_a_text():
 def functions(name):
     """The functions of a command, or of the commands of a group, with how each is called."""
     module, _, function = COMMAND_MODULES[name].partition(":")
-    found = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
+    found = getattr(import_module(f"holdfast.interface.cli.{module}"), function or "command")
     if not isinstance(found, typer.Typer):
         return {name: as_typer(found)}
     return {
@@ -92,10 +92,10 @@ def test_equations_are_read_as_people_cite_them(text, found):
 
 def test_an_equation_is_found_by_its_number_in_any_spelling():
     table = equations.table()
-    assert ":py:obj:`holdfast.indices.susceptibility.torque`" in table["English1998"][12]
-    assert ":py:obj:`holdfast.indices.relative_manipulability`" in table["Abdi2012"][4]
+    assert ":py:obj:`holdfast.kinematics.indices.susceptibility.torque`" in table["English1998"][12]
+    assert ":py:obj:`holdfast.kinematics.indices.relative_manipulability`" in table["Abdi2012"][4]
     assert ":py:obj:`holdfast.joint_bounds`" in table["Goel2005"][8]
-    assert "``holdfast.arm.statics.moment_derivative``, inside" in table["English1998"][15]
+    assert "``holdfast.model.arm.statics.moment_derivative``, inside" in table["English1998"][15]
     of_a_module = table["Goel2003"][8]  # whose docstring names one paper; the function says "eq. (8)" alone
     assert ":py:obj:`holdfast.control.Deviations.peak_velocity_error`" in of_a_module
     spelled = {text.lower() for text in equations.spellings("English1998", 12)}

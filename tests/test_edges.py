@@ -6,12 +6,12 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.task import as_task
-from holdfast.failures import failure_sets
-from holdfast.indices import CustomIndex, by_name
+from holdfast.core.registry import INDEX_REGISTRY
 from holdfast.kernels import Kernel, Loop
-from holdfast.registry import INDEX_REGISTRY
-from holdfast.solvers import solve_ik, solver
+from holdfast.kinematics.indices import CustomIndex, by_name
+from holdfast.kinematics.solvers import solve_ik, solver
+from holdfast.model.arm.task import as_task
+from holdfast.model.failure_modes import failure_sets
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.arms.builtin import DATA_FOLDER
+from holdfast.model.arms.builtin import DATA_FOLDER
 
 NAN, INF = float("nan"), float("inf")
 SPOILT: list[Any] = [
@@ -169,12 +169,12 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             hf.recover,
             {**at_planar, "locked": {"joint2": 0.6}, "at": q, "goal": [0.4, 0.6, 0.8], "clearance": False, "margin": 0.0}
             | {"metric": "travel", "weights": None, "region": None, "samples": 0, "starts": 4, "tries": 0, "seed": 0}
-            | {"time_limit": 5.0, "keep": hf.keep.plane([0.0, 0.0, 1.0])},
+            | {"time_limit": 5.0, "keep": hf.tool_constraints.plane([0.0, 0.0, 1.0])},
         ),
-        "keep.upright": (hf.keep.upright, {"angle": 0.1, "axis": [0.0, 0.0, 1.0], "within": [1e-3, 1e-2]}),
-        "keep.rail": (hf.keep.rail, {"direction": [0.0, 0.0, 1.0], "frame": "tool", "pose": np.eye(4)}),
-        "keep.plane": (hf.keep.plane, {"normal": [0.0, 0.0, 1.0], "angle": 0.1, "pose": np.eye(4)}),
-        "keep.by_label": (hf.keep.by_label, {"label": "upright:0.1"}),
+        "keep.upright": (hf.tool_constraints.upright, {"angle": 0.1, "axis": [0.0, 0.0, 1.0], "within": [1e-3, 1e-2]}),
+        "keep.rail": (hf.tool_constraints.rail, {"direction": [0.0, 0.0, 1.0], "frame": "tool", "pose": np.eye(4)}),
+        "keep.plane": (hf.tool_constraints.plane, {"normal": [0.0, 0.0, 1.0], "angle": 0.1, "pose": np.eye(4)}),
+        "keep.by_label": (hf.tool_constraints.by_label, {"label": "upright:0.1"}),
         "self_motion": (hf.self_motion, {**at_planar, "target": target, "spacing": 0.3, "seed": 0, "starts": 4}),
         "simulate": (
             hf.simulate,
@@ -281,12 +281,12 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "control.weighted": (hf.control.weighted, {**at_planar, "weights": [1, 1, 1], "gain": 1.0}),
         "control.failure_tolerant": (hf.control.failure_tolerant, {**at_planar, "pre_failure_error": 0.5}),
         "control.GradientProjection": (
-            hf.motion.GradientProjection,
+            hf.path_following.GradientProjection,
             {**at_planar, "objective": index, "gain": 1.0, "rate_cap": 1.0} | {"period": 0.01},
         ),
         "control.trade_off": (hf.control.trade_off, {**at_planar, "samples": 5, "allowed": [0.0, 0.5], "seed": 0}),
         "control.slow_enough": (
-            hf.motion.slow_enough,
+            hf.path_following.slow_enough,
             {"arm": arm, "q": [q] * 3, "qd": [q] * 3, "qdd": [q] * 3, "bound": 100.0},
         ),
         "law.velocity": (law.velocity, {"q": q, "v": [0.1, 0]}),

@@ -11,7 +11,7 @@ import pytest
 import typer
 import yaml
 
-from holdfast.cli.program import build_app
+from holdfast.interface.cli.program import build_app
 
 ROOT = Path(__file__).parents[1]
 SOURCE = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")

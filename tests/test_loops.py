@@ -11,7 +11,7 @@ from tools.loops.film import OUT, SIZE, write
 from tools.loops.solid import box
 from tools.loops.two_laws import shots
 
-from holdfast.cell.nodes import split_triangles
+from holdfast.model.cell.nodes import split_triangles
 
 
 @pytest.mark.parametrize("name", LOOPS)

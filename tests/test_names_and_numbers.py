@@ -12,12 +12,12 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.arm.machine import Joint
-from holdfast.control.c_functions import write_c_comment
-from holdfast.errors import ArmError, InputError
-from holdfast.failures import read_failures, read_joint
-from holdfast.files.reading import parse_json
-from holdfast.recovery.waypoints import read_waypoints, write_waypoints
+from holdfast.control.laws.c_functions import write_c_comment
+from holdfast.core.errors import ArmError, InputError
+from holdfast.core.files.reading import parse_json
+from holdfast.model.arm.machine import Joint
+from holdfast.model.failure_modes import read_failures, read_joint
+from holdfast.response.recovery.waypoints import read_waypoints, write_waypoints
 
 NAMES = ("a,b", "=1+1", 'q"r')
 

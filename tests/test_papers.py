@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from measurements.seven_dof import __main__ as seven_dof
+from measurements.seven_dof import study
 from papers.abdi2012.__main__ import nominal
 from papers.claims import PAGE, PAPERS, Claim, Verdict, page, read, stored, table
 from papers.english1998 import measures, planar
@@ -12,8 +14,6 @@ from papers.goel2003 import laws
 from papers.goel2003.peak_error import PeakError, golden
 from papers.goel2005 import three_links, two_link_motion, two_links
 from papers.numbers import beside
-from papers.seven_dof import __main__ as seven_dof
-from papers.seven_dof import study
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from measurements.stuck_panda import study
 from papers.goel2005 import reachability, rest_points, statements, three_links, workspaces
-from papers.stuck_panda import study
 from papers.tolerant_workspace import __main__ as tolerant
 
 import holdfast as hf
-from holdfast.equilibria import Kind, orbit
+from holdfast.control.equilibria import Kind, orbit
 
 
 def family(degrees, folded, sign, x):

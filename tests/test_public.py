@@ -12,29 +12,29 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast import errors
+from holdfast.core import errors
 
 MODULES = [
     "holdfast",
-    "holdfast.arm",
-    "holdfast.assessment",
-    "holdfast.clearance",
-    "holdfast.cli",
+    "holdfast.model.arm",
+    "holdfast.studies.assessment",
+    "holdfast.model.collision",
+    "holdfast.interface.cli",
     "holdfast.control",
-    "holdfast.convergence",
-    "holdfast.designs",
-    "holdfast.diagnosis",
-    "holdfast.faults",
-    "holdfast.indices",
-    "holdfast.indices.susceptibility",
-    "holdfast.keep",
-    "holdfast.frameworks",
+    "holdfast.control.convergence",
+    "holdfast.studies.designs",
+    "holdfast.response.diagnosis",
+    "holdfast.response.faults",
+    "holdfast.kinematics.indices",
+    "holdfast.kinematics.indices.susceptibility",
+    "holdfast.kinematics.tool_constraints",
+    "holdfast.kernels.frameworks",
     "holdfast.kernels",
-    "holdfast.paths",
-    "holdfast.report",
-    "holdfast.simulation",
-    "holdfast.solvers",
-    "holdfast.engine",
+    "holdfast.kinematics.paths",
+    "holdfast.interface.report",
+    "holdfast.control.simulation",
+    "holdfast.kinematics.solvers",
+    "holdfast.core.sweeps",
     "holdfast.teleop",
     "holdfast.teleop.analysis",
 ]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from holdfast.cli.program import COMMAND_MODULES
+from holdfast.interface.cli.program import COMMAND_MODULES
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -36,7 +36,7 @@ def test_its_commands_exist():
 
 
 def test_its_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
-    shutil.copy(str(files("holdfast.arms") / "data" / "xarm7.urdf"), tmp_path / "my_robot.urdf")
+    shutil.copy(str(files("holdfast.model.arms") / "data" / "xarm7.urdf"), tmp_path / "my_robot.urdf")
     monkeypatch.chdir(tmp_path)
     code = blocks("python").replace("poses=2000", "poses=50")
     assert len(code.splitlines()) <= 7  # six lines and the blank one

@@ -10,15 +10,15 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.task import as_task
 from holdfast.control import Damped, Pseudoinverse
-from holdfast.convergence.detours import measure_healthy_cost
-from holdfast.designs import design_space
-from holdfast.designs.evaluation import Evaluator
-from holdfast.designs.family import Family
-from holdfast.recovery.proofs.reach import prove_out_of_reach
-from holdfast.simulation import RunOutcome, simulate
-from holdfast.solvers import solve_ik
+from holdfast.control.convergence.healthy_cost import measure_healthy_cost
+from holdfast.control.simulation import RunOutcome, simulate
+from holdfast.kinematics.solvers import solve_ik
+from holdfast.model.arm.task import as_task
+from holdfast.response.recovery.proofs.reach import prove_out_of_reach
+from holdfast.studies.designs import design_space
+from holdfast.studies.designs.evaluation import Evaluator
+from holdfast.studies.designs.family import Family
 
 # A power of two rounds nothing: such a copy does the same to the last bit. The others are 1 mm and 1 km exactly.
 EXACT, ROUNDED = [2.0**-10, 2.0**10], [1e-3, 1e3]

@@ -15,10 +15,10 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms, control
-from holdfast.engine import Study, ThreadRunner
-from holdfast.recovery import read_waypoints
+from holdfast.core.sweeps import Study, ThreadRunner
+from holdfast.response.recovery import read_waypoints
 from holdfast.studies import read_study_file
-from holdfast.studies.results import read_assessment, read_convergence
+from holdfast.studies.study_files.results import read_assessment, read_convergence
 from holdfast.teleop.records import Records
 from holdfast.teleop.trials import End
 

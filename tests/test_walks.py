@@ -83,20 +83,24 @@ def test_all_walks_in_one_copy(run, tmp_path):
         write(tmp_path, *line)
     command_file, command_line, command_test = steps("add-a-command")
     write(tmp_path, *command_file)
-    registry, imports = "tests/test_registry.py", "tests/cli/test_imports.py"
+    registry, imports = "tests/test_registry.py", "tests/interface/cli/test_imports.py"
     code, told = tests(registry, imports, asked=["has_an_oracle", "in_the_table"])
     assert code == 1
     for _, name, _, _, kind in WALKS.values():
         assert f"{kind} '{name}' has no oracle: add its value by another route to ORACLES['{kind}'] in tests/oracles.py" in told
-    assert "no line of COMMAND_MODULES in src/holdfast/cli/program.py names before.price" in told
+    assert "no line of COMMAND_MODULES in src/holdfast/interface/cli/program.py names before.price" in told
 
     for _, oracle, _ in walks.values():
         write(tmp_path, *oracle)
     section = steps("add-a-report-section")
     for step in (command_line, command_test, *section):
         write(tmp_path, *step)
-    values = ["tests/indices/test_index_values.py", "tests/indices/test_index_gradients.py", "tests/control/test_laws.py"]
-    commands = ["tests/cli/test_examples.py", "tests/cli/test_price_command.py"]
+    values = [
+        "tests/kinematics/indices/test_index_values.py",
+        "tests/kinematics/indices/test_index_gradients.py",
+        "tests/control/laws/test_laws.py",
+    ]
+    commands = ["tests/interface/cli/test_examples.py", "tests/interface/cli/test_price_command.py"]
     rows = ["against_singular_values and (planar or rows)", "test_laws and rates"]
     asked = [*walks, "oracles_are_of", "what_is_registered", "price", "in_the_table", "lists_every_command", *rows]
     code, told = tests(registry, imports, *values, *commands, section[2][0], asked=[*asked, Path(section[2][0]).stem])
@@ -126,7 +130,7 @@ def test_walk_of_a_fault_kind(run, tmp_path):
     assert code != 0
     assert "remaining" in told
     write(tmp_path, *kind_line)
-    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", kind_test[0], "tests/faults/test_kinds.py")
+    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", kind_test[0], "tests/response/faults/test_kinds.py")
     assert code == 0, told
     code, told = run(*draw)
     assert code == 0, told
@@ -163,7 +167,7 @@ def test_the_walk_of_a_claim_kind(run, tmp_path):
     pytest_words = ("pytest", "-q", "-n", "0", "-p", "no:cacheprovider")
     code, told = run(*pytest_words, "tests/certificates/test_words.py", "-k", "same_kinds")
     assert code == 1
-    assert "kind 'radius' is not in both: see CERTIFICATE_KINDS in verified/kinds.py and the stub of certificates" in told
+    assert "kind 'radius' is not in both: see CERTIFICATE_KINDS in verifier_parts/kinds.py and the stub of certificates" in told
     for step in (import_line, entry):
         insert_after(tmp_path, *step)
     code, told = run(*pytest_words, "tests/certificates/test_words.py", test[0], "-k", "same_kinds or radius")

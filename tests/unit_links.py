@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import holdfast as hf
-from holdfast.paths import Constant, TimedPath, line
+from holdfast.kinematics.paths import Constant, TimedPath, line
 
 
 def arm(limits=None):

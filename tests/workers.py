@@ -14,7 +14,7 @@ import pytest
 
 import slow
 
-PAGES = ("tests/browser/", "tests/studio/")
+PAGES = ("tests/browser/", "tests/interface/studio/")
 
 
 def share_of(nodeid: str) -> str:

@@ -6,10 +6,10 @@ import json
 from pathlib import Path
 
 import holdfast as hf
-from holdfast.clearance.cover import MAX_MEAN_EXCESS_M, fit_capsules
-from holdfast.clearance.shape import CollisionModel
+from holdfast.model.collision.cover import MAX_MEAN_EXCESS_M, fit_capsules
+from holdfast.model.collision.shape import CollisionModel
 
-FILE = Path(__file__).parents[1] / "src/holdfast/arms/data/covers.json"
+FILE = Path(__file__).parents[1] / "src/holdfast/model/arms/data/covers.json"
 
 
 def main() -> None:

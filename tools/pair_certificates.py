@@ -1,7 +1,8 @@
 """Finds the certificates of theorem R3: ``python -m tools.pair_certificates [--cases 6,2]``, minutes a case.
 
-Writes ``src/holdfast/ceilings/pair_certificates.json``. Needs ``cvxpy`` and ``clarabel``, which holdfast does not: a
-certificate is replayed in integers by ``holdfast.ceilings``, whatever found it, and none is stored that is not.
+Writes ``src/holdfast/kinematics/index_bounds/pair_certificates.json``. Needs ``cvxpy`` and ``clarabel``, which holdfast does
+not: a certificate is replayed in integers by ``holdfast.kinematics.index_bounds``, whatever found it, and none is stored that
+is not.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ from numpy.typing import NDArray
 from scipy.special import eval_chebyt, eval_gegenbauer
 
 import holdfast as hf
-from holdfast.ceilings.pair_kernels import stored_certificates
+from holdfast.kinematics.index_bounds.pair_kernels import stored_certificates
 
 Array = NDArray[np.float64]
-FILE = Path(__file__).parents[1] / "src/holdfast/ceilings/pair_certificates.json"
+FILE = Path(__file__).parents[1] / "src/holdfast/kinematics/index_bounds/pair_certificates.json"
 CASES = [(5, 2), (6, 2), (7, 2), (8, 2), (9, 2), (10, 2), (7, 3), (8, 3), (9, 3), (10, 3)]
 ROW, NULL, POWERS, FREE = 4, 3, 3, 5  # degrees of the two sides, powers of the weights and of the free functions
 BACK = 0.01  # of the way from the least bound with a kernel to the mean over all pairs, so that it can be proven
@@ -134,7 +135,7 @@ def gegenbauer(degree: int, dimension: int, s: Array) -> Array:
 
 def found(n: int, m: int) -> dict[str, Any]:
     """A certificate near the least bound that has one."""
-    low = float(hf.ceilings.upper_bound(n=n, m=m, k=2).best_known or 0)
+    low = float(hf.index_bounds.upper_bound(n=n, m=m, k=2).best_known or 0)
     high = mean = sqrt(comb(n - m, 2) / comb(n, 2))
     for _ in range(HALVINGS):
         middle = (low + high) / 2

@@ -122,7 +122,7 @@ def holdfast(place: Path, words: list[str], stop: bool = False) -> tuple[int, by
 
     def main() -> None:
         sys.argv = ["holdfast", *words]
-        importlib.import_module("holdfast.cli").main()
+        importlib.import_module("holdfast.interface.cli").main()
 
     return apart(place, main, stop)
 

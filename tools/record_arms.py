@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 import holdfast as hf
-from holdfast.grammar import TASK_SIZES
+from holdfast.core.labels import TASK_SIZES
 
-FOLDER = Path(__file__).parents[1] / "src/holdfast/designs/book/data"
+FOLDER = Path(__file__).parents[1] / "src/holdfast/studies/designs/record_book/data"
 CLASSES = {
     "planar": [(3, 1), (4, 2), (5, 2), (5, 3), (6, 2)],
     "position": [(4, 1), (5, 2), (6, 2), (6, 3), (7, 3), (8, 3)],
@@ -29,7 +29,7 @@ def main() -> None:
     FOLDER.mkdir(exist_ok=True)
     for task, sizes in CLASSES.items():
         for n, k in sizes:
-            c = hf.ceilings.upper_bound(n=n, m=TASK_SIZES[task], k=k)
+            c = hf.index_bounds.upper_bound(n=n, m=TASK_SIZES[task], k=k)
             made = hf.designs.synthesise(c, task=task, starts=STARTS, seed=SEED)
             arm = made.arms[int(np.argmin(made.losses))]
             name = f"{task}-{n}R-k{k}-001"

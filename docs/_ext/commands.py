@@ -19,8 +19,8 @@ from generated import keep
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from holdfast.cli.layout import choose_panel, type_label
-from holdfast.cli.program import COMMAND_MODULES, PANEL_TITLES, build_app
+from holdfast.interface.cli.layout import choose_panel, type_label
+from holdfast.interface.cli.program import COMMAND_MODULES, PANEL_TITLES, build_app
 
 EXAMPLE = re.compile(r"^Examples?:\s*", re.M)
 

@@ -63,7 +63,7 @@ def serve() -> None:
             for number, name in enumerate([os.devnull, *files]):
                 os.dup2(os.open(name, os.O_RDWR | os.O_CREAT), number)
             sys.argv = ["holdfast", *arguments]
-            holdfast.cli.main()
+            holdfast.interface.cli.main()
             return
         print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
 

@@ -144,7 +144,7 @@ class Run(_Live):
 
     def drawn(self, figure: Any) -> nodes.Node:
         """A figure inside the page, so that there is no file to carry."""
-        from holdfast.report import svg
+        from holdfast.interface.report import svg
 
         if "about" not in self.options:
             raise self.error("a figure needs the option :about:, what it shows")
@@ -259,9 +259,9 @@ class FaultKinds(SphinxDirective):
     """The constructors of all kinds of faults, documented."""
 
     def run(self) -> list[nodes.Node]:
-        from holdfast.faults import KINDS
+        from holdfast.response.faults import KINDS
 
-        return self.parse_text_to_nodes("\n\n".join(f".. autofunction:: holdfast.faults.{name}" for name in KINDS))
+        return self.parse_text_to_nodes("\n\n".join(f".. autofunction:: holdfast.response.faults.{name}" for name in KINDS))
 
 
 def _codes(texts: list[str]) -> nodes.Node:

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 from sphinx_gallery.scrapers import figure_rst
 
-from holdfast.report import save_png
+from holdfast.interface.report import save_png
 
 LOOK = {
     "axes.prop_cycle": cycler(color=["#0a5c9e", "#c8500a", "#007a5e", "#a8497f", "#c58a00", "#a9cbe6"]),

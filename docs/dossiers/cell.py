@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from owners_page import links, run, span, write
 
 import holdfast as hf
-from holdfast import report
-from holdfast.probability import Difference
+from holdfast.core.probability import Difference
+from holdfast.interface import report
 
 NAMES = ("panda", "xarm7")
 FINGERS = 0.1034  # m from flange to fingertips, as in the model of the panda's hand; the xarm7's model ends at its flange

@@ -7,7 +7,7 @@ import numpy as np
 from owners_page import links, run, span, write
 
 import holdfast as hf
-from holdfast import report
+from holdfast.interface import report
 
 ARM, TASK = "pa10-7dof", "position"  # the operator commands where the tool point goes; nothing is asked of its orientation
 DISTANCE = (0.1, 0.5)  # m, of the commanded motions

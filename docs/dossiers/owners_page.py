@@ -6,7 +6,7 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from holdfast import report
+from holdfast.interface import report
 
 
 def span(value, scale=100, unit=" %", digits=0):

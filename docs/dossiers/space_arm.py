@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from owners_page import run, span, write
 
 import holdfast as hf
-from holdfast import report
-from holdfast.arm import Joint
-from holdfast.probability import Interval
+from holdfast.core.probability import Interval
+from holdfast.interface import report
+from holdfast.model.arm import Joint
 
 # Of the station's arm (SSRMS, Canadarm2): axis of each joint, and where it sits from the one before it, m, all joints at 0.
 X, Y, Z = np.eye(3)

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from scipy import stats
 
 import holdfast as hf
-from holdfast.assessment import structure
-from holdfast.regions import builtin_region
-from holdfast.report import Scale, Scene, View, style, view_figure
+from holdfast.interface.report import Scale, Scene, View, style, view_figure
+from holdfast.kinematics.regions import builtin_region
+from holdfast.studies.assessment import structure
 from papers.claims import Claim, Verdict, table
 
 HERE = Path(__file__).parent

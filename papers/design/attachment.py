@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.regions import builtin_region
-from holdfast.report import SOFT, Curve, draw_cdf, style
+from holdfast.interface.report import SOFT, Curve, draw_cdf, style
+from holdfast.kinematics.regions import builtin_region
 
 SEED = 1
 POSES, DESIGNS, CLIMBS, FRESH = 500, 256, 6, 2000

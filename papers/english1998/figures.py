@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH_IN, save_png, settle_layout, style
-from holdfast.solvers import self_motion
+from holdfast.interface.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH_IN, save_png, settle_layout, style
+from holdfast.kinematics.solvers import self_motion
 from papers.english1998.hardware import DURATION as HARDWARE_DURATION
 from papers.english1998.hardware import SCALES, Hardware
 from papers.english1998.planar import DURATION, Extremes, Global, Planar, pose

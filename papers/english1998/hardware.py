@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.paths import TimedPath, Trapezoid, line
+from holdfast.kinematics.paths import TimedPath, Trapezoid, line
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.indices.susceptibility import Susceptibility
-from holdfast.solvers import fibres
+from holdfast.kinematics.indices.susceptibility import Susceptibility
+from holdfast.kinematics.solvers import fibres
 
 Array = NDArray[np.float64]
 

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm import as_task
-from holdfast.indices.susceptibility import Susceptibility
-from holdfast.motion import Curvature
-from holdfast.paths import Constant, TimedPath, line
-from holdfast.solvers import best_path_over, fibres, self_motion
+from holdfast.kinematics.indices.susceptibility import Susceptibility
+from holdfast.kinematics.path_following import Curvature
+from holdfast.kinematics.paths import Constant, TimedPath, line
+from holdfast.kinematics.solvers import best_path_over, fibres, self_motion
+from holdfast.model.arm import as_task
 
 Array = NDArray[np.float64]
 

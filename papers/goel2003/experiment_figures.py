@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.present.teleop import (
+from holdfast.interface.presentation.teleop import (
     Motion,
     Scatter,
     bank_figure,
@@ -18,7 +18,7 @@ from holdfast.present.teleop import (
     scatter_figure,
     tasks_figure,
 )
-from holdfast.report import SOFT, save_png, style
+from holdfast.interface.report import SOFT, save_png, style
 from holdfast.teleop.analysis import Analysis, median_operator
 from holdfast.teleop.bank import Binning, TaskBank
 from papers.goel2003.simulated_operators import Study, shown

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
+from holdfast.interface.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
 
 if TYPE_CHECKING:
     from papers.goel2003.peak_error import TwoMinima

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.arm import as_task
 from holdfast.control import FailureTolerant, trade_off
-from holdfast.probability import Interval
+from holdfast.core.probability import Interval
+from holdfast.model.arm import as_task
 from papers.claims import Claim, Verdict
 from papers.goel2003.peak_error import PeakError, TwoMinima
 from papers.numbers import beside

@@ -84,7 +84,7 @@ def study() -> Study:
 
 def shown(a: Analysis) -> dict[str, int]:
     """The middle task, by number, of each group: those that Figs 5 to 7 show."""
-    from holdfast.present.teleop import middle_tasks
+    from holdfast.interface.presentation.teleop import middle_tasks
 
     return dict(zip(a.groups.names, middle_tasks(a), strict=True))
 

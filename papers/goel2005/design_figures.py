@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.report import BLUE, INK, ORANGE, SOFT, save_png, style
+from holdfast.interface.report import BLUE, INK, ORANGE, SOFT, save_png, style
 
 Array = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.designs import DesignJoints, LawOfDesigns, PlanarStationarySets, design_space, planar_measures
+from holdfast.studies.designs import DesignJoints, LawOfDesigns, PlanarStationarySets, design_space, planar_measures
 from papers.goel2005.three_links import law
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report import INK, ORANGE, SOFT
+from holdfast.interface.report import INK, ORANGE, SOFT
 
 Array = NDArray[np.float64]
 

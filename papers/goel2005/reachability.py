@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import save_png
-from holdfast.solvers import SelfMotion
+from holdfast.interface.report import save_png
+from holdfast.kinematics.solvers import SelfMotion
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import TARGET, law
 from papers.numbers import beside

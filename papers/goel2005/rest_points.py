@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.equilibria import Basins, Curves, Kind
-from holdfast.report import save_png
+from holdfast.control.equilibria import Basins, Curves, Kind
+from holdfast.interface.report import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import TARGET, away, law, wrapped
 from papers.numbers import beside

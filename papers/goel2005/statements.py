@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.equilibria import Kind, StationaryPoints, orbit
+from holdfast.control.equilibria import Kind, StationaryPoints, orbit
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import law
 from papers.numbers import beside
@@ -189,7 +189,7 @@ def cycle_table() -> list[str]:
 
 def figure_cycle(path: Path) -> None:
     """The limit cycle in the plane of the healthy joints."""
-    from holdfast.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
+    from holdfast.interface.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
 
     points = at(168.30)
     with style():

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import BLUE, FAINT, INK, WIDTH_IN, save_png, settle_layout, style
+from holdfast.interface.report import BLUE, FAINT, INK, WIDTH_IN, save_png, settle_layout, style
 from papers.goel2005 import drawing
 
 Array = NDArray[np.float64]

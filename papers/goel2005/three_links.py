@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.convergence import configurations_at
+from holdfast.control.convergence import configurations_at
 from papers.claims import Claim, Verdict
 from papers.numbers import beside
 from papers.part import Part

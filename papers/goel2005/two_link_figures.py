@@ -10,7 +10,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from holdfast.report import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
+from holdfast.interface.report import (
+    BLUE,
+    FAINT,
+    INK,
+    ORANGE,
+    SKY,
+    SOFT,
+    WIDTH_IN,
+    legend_below,
+    save_png,
+    settle_layout,
+    style,
+)
 from papers.goel2005 import drawing
 from papers.goel2005.drawing import point
 from papers.goel2005.two_link_motion import START, Ended, hand, rate, target, wrapped

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.simulation import RunPath
+from holdfast.control.simulation import RunPath
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report import save_png
+from holdfast.interface.report import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import START_5, START_6, TARGET, law
 from papers.part import Part
@@ -133,7 +133,7 @@ def analysis(method: str, lattice: int = 52) -> tuple[hf.Workspace, float]:
 
 def figure_10(w: hf.Workspace, path: Path) -> None:
     """The four maps of the paper, and the two that it does not show; an arbitrary joint."""
-    from holdfast.report import Plane, place_maps
+    from holdfast.interface.report import Plane, place_maps
 
     plane = Plane(
         points=w.places.points[:, :2],

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm import as_task
-from holdfast.reach import TolerantWorkspace, closed_form
-from holdfast.report import save_png
+from holdfast.interface.report import save_png
+from holdfast.kinematics.workspace import TolerantWorkspace, closed_form
+from holdfast.model.arm import as_task
 
 HERE = Path(__file__).parent
 Array = NDArray[np.float64]
@@ -103,7 +103,7 @@ def results(found: Sequence[Best], region: TolerantWorkspace) -> list[str]:
         "",
         "Both use the same closed form of the area; that one is checked against sampled inverse kinematics and a scan of "
         "angles in "
-        "`tests/reach/test_tolerant_workspace.py`.",
+        "`tests/kinematics/workspace/test_tolerant_workspace.py`.",
         "",
         "![The region](region.png)",
         "",

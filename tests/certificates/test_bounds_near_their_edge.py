@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 import written
 
-from holdfast.certificates.verified import bounds, distances
-from holdfast.certificates.verified.balls import BallArray
-from holdfast.certificates.verified.chain import BallChain, enclose_values
-from holdfast.certificates.verified.taylor import DerivativeEnclosure, TaskErrorEnclosure
+from holdfast.certificates.verifier_parts import bounds, distances
+from holdfast.certificates.verifier_parts.balls import BallArray
+from holdfast.certificates.verifier_parts.chain import BallChain, enclose_values
+from holdfast.certificates.verifier_parts.taylor import DerivativeEnclosure, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 ROUNDING = 1e-9

@@ -18,8 +18,8 @@ from holdfast.certificates import ceiling_claim, documents, floor_claim, verifie
 from holdfast.certificates.joint_boxes.kernels import FloorTest
 from holdfast.certificates.joint_boxes.wrenches import CeilingTest
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.certificates.verified import bounds
-from holdfast.errors import InputError, TaskError
+from holdfast.certificates.verifier_parts import bounds
+from holdfast.core.errors import InputError, TaskError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 MIDDLE = np.radians([-35, -45, 51, -111, -46, 84, -3])

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from holdfast.certificates.verified import bounds
-from holdfast.certificates.verified.balls import BallArray
+from holdfast.certificates.verifier_parts import bounds
+from holdfast.certificates.verifier_parts.balls import BallArray
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 CASES, ROUNDING = 200, 1e-9

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import written
 
-from holdfast.certificates.verified.balls import BallArray
-from holdfast.certificates.verified.chain import BallChain, enclose_values
-from holdfast.certificates.verified.distances import LoopClosureVerifier
-from holdfast.certificates.verified.motions import PathVerifier
-from holdfast.certificates.verified.taylor import Inclusion, TaskErrorEnclosure
+from holdfast.certificates.verifier_parts.balls import BallArray
+from holdfast.certificates.verifier_parts.chain import BallChain, enclose_values
+from holdfast.certificates.verifier_parts.distances import LoopClosureVerifier
+from holdfast.certificates.verifier_parts.motions import PathVerifier
+from holdfast.certificates.verifier_parts.taylor import Inclusion, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 ROUNDING, EDGE = 1e-7, 1e-3

@@ -19,7 +19,7 @@ from holdfast.certificates.target_boxes.search import TargetBoxSearch
 from holdfast.certificates.taylor import CertificateChain, ReachSolver, TaylorForm
 from holdfast.certificates.tree import compute_undecided
 from holdfast.certificates.verifier import format_percent
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 from holdfast.kernels import set_threads
 
 

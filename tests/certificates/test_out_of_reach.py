@@ -13,13 +13,13 @@ from written import put, shifted
 import holdfast as hf
 import oracles
 from holdfast.certificates import documents, out_of_reach_claim, verifier
-from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.joint_boxes import exclusion
 from holdfast.certificates.joint_boxes.segments import ChainSegment
+from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.certificates.verified import distances
-from holdfast.certificates.verified.chain import BallChain as VerifiedChain
-from holdfast.errors import InputError
+from holdfast.certificates.verifier_parts import distances
+from holdfast.certificates.verifier_parts.chain import BallChain as VerifiedChain
+from holdfast.core.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 SHOULDER = np.array([0, 0, 0.333])  # of the Panda, m

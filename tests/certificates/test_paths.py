@@ -20,9 +20,9 @@ from holdfast.certificates import path_claim, verifier
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths import march
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.certificates.verified import motions
-from holdfast.certificates.verified.taylor import TaskErrorEnclosure
-from holdfast.errors import InputError
+from holdfast.certificates.verifier_parts import motions
+from holdfast.certificates.verifier_parts.taylor import TaskErrorEnclosure
+from holdfast.core.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 START = np.radians([-35, -45, 51, -111, -46, 84, -3])

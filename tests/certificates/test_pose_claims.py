@@ -14,7 +14,7 @@ import holdfast as hf
 import oracles
 from holdfast.certificates import reach_claim, tolerant_claim
 from holdfast.certificates.taylor import ReachSolver, TaylorForm
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 
 START = np.radians([20, -10, 15, -110, -10, 105, 60])
 

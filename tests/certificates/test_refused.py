@@ -13,7 +13,7 @@ from holdfast.certificates.joint_boxes import halving
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, require_capacity
 from holdfast.certificates.joint_boxes.jobs import summarize_tree
 from holdfast.certificates.taylor import ReachSolver
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 
 
 def along_first(size):

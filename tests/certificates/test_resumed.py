@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.certificates import crew, reach_claim, tolerant_claim
+from holdfast.certificates import reach_claim, search_pool, tolerant_claim
 from holdfast.certificates.joint_boxes import jobs as boxes
 from holdfast.certificates.target_boxes import jobs
 from holdfast.certificates.tool_paths import jobs as motions
-from holdfast.errors import InputError, StoreError
-from holdfast.present.certificates.console import format_state
+from holdfast.core.errors import InputError, StoreError
+from holdfast.interface.presentation.certificates.console import format_state
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 WORDS = ["--range", "1=-1..0.5", "--range", "2=0..1.4", "--range", "3=0..1.4"]
@@ -67,7 +67,7 @@ def test_a_busy_machine_finds_the_same(three, monkeypatch):
     monkeypatch.setattr(jobs, "_CELLS_PER_JOB", 8)
     claim = reach_claim(three, (1.5, 0.5), 0.8, locked={"joint2": (0.7, 1.3)})
     quiet = hf.certify(claim, halvings=4)
-    monkeypatch.setattr(crew, "_TIME_SLICE_S", 1e-3)
+    monkeypatch.setattr(search_pool, "_TIME_SLICE_S", 1e-3)
     busy = hf.certify(claim, halvings=4)
     assert quiet.document["digest"] == busy.document["digest"]
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import written
 
-from holdfast.certificates.verified import balls, bounds
-from holdfast.certificates.verified.balls import BallArray
-from holdfast.certificates.verified.chain import BallChain, enclose_values
-from holdfast.certificates.verified.taylor import DerivativeEnclosure, Inclusion, TaskErrorEnclosure
+from holdfast.certificates.verifier_parts import balls, bounds
+from holdfast.certificates.verifier_parts.balls import BallArray
+from holdfast.certificates.verifier_parts.chain import BallChain, enclose_values
+from holdfast.certificates.verifier_parts.taylor import DerivativeEnclosure, Inclusion, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 COUNT = 100

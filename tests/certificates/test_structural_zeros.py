@@ -11,7 +11,7 @@ from written import put
 
 import holdfast as hf
 from holdfast.certificates import structural_zero_claim, verifier
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.assessment.suggested import make_region_claim
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.studies.assessment.suggested import make_region_claim
 
 
 def test_every_pose_of_the_region_is_a_target(panda):

@@ -12,7 +12,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.certificates import tolerant_claim
-from holdfast.errors import InputError, TaskError
+from holdfast.core.errors import InputError, TaskError
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from written import Chain, place, planar, put, shifted, turn
 
 from holdfast.certificates import verifier
-from holdfast.certificates.verified import balls, files, targets
+from holdfast.certificates.verifier_parts import balls, files, targets
 
 pytest.importorskip("flint", reason="python-flint is not installed")
 START = np.radians([0, -10, 0, -110, 0, 100, 45])

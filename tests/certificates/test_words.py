@@ -7,8 +7,8 @@ import pytest
 
 import holdfast as hf
 from holdfast.certificates.kinds import find_claim_kinds
-from holdfast.certificates.verified.kinds import CERTIFICATE_KINDS
-from holdfast.present.certificates import console
+from holdfast.certificates.verifier_parts.kinds import CERTIFICATE_KINDS
+from holdfast.interface.presentation.certificates import console
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 
@@ -46,4 +46,6 @@ def test_proved_and_undecided_go_together(three, panda, tmp_path):
 
 def test_prover_and_verifier_have_the_same_kinds():
     for kind in find_claim_kinds().keys() ^ CERTIFICATE_KINDS.keys():
-        pytest.fail(f"kind '{kind}' is not in both: see CERTIFICATE_KINDS in verified/kinds.py and the stub of certificates")
+        pytest.fail(
+            f"kind '{kind}' is not in both: see CERTIFICATE_KINDS in verifier_parts/kinds.py and the stub of certificates"
+        )

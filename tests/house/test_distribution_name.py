@@ -29,4 +29,4 @@ def test_no_text_advises_to_install_the_other_holdfast():
 def test_the_distribution_offers_a_command_of_its_own_name():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert project["name"] == "holdfast-arms"
-    assert project["scripts"] == {"holdfast": "holdfast.cli:main", "holdfast-arms": "holdfast.cli:main"}
+    assert project["scripts"] == {"holdfast": "holdfast.interface.cli:main", "holdfast-arms": "holdfast.interface.cli:main"}

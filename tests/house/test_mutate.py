@@ -42,7 +42,7 @@ def test_tests_that_fail_without_a_mutation_are_refused(toy):
 
 def test_every_mutated_file_can_be_parsed_and_differs():
     root = Path(__file__).parents[2]
-    for mutation in find_mutations(root, Path("src/holdfast/diagnosis/decision.py")):
+    for mutation in find_mutations(root, Path("src/holdfast/response/diagnosis/decision.py")):
         assert ast.dump(ast.parse(mutation.text)) != ast.dump(ast.parse((root / mutation.file).read_bytes())), mutation
 
 

@@ -16,9 +16,9 @@ import pytest
 from tools.house.ratchet import source
 from tools.house.rules import published
 
-from holdfast.present import PRESENTER_MODULES, find_presenter
-from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
-from holdfast.result import Presentable, Result
+from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
+from holdfast.core.result import Presentable, Result
+from holdfast.interface.presentation import PRESENTER_MODULES, find_presenter
 
 METHODS = ("report", "save", "figures", "plot", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
 
@@ -109,7 +109,7 @@ INPUTS = named(
         "teleop": "Measure Person PointTasks Protocol Records EndRules Scenario Joystick Training",
     }
 )
-DRAWING = ("holdfast.report.", "holdfast.present.")  # what pages and figures are made of
+DRAWING = ("holdfast.interface.report.", "holdfast.interface.presentation.")  # what pages and figures are made of
 
 
 @cache
@@ -190,7 +190,7 @@ def test_a_result_says_what_it_holds(name):
 @pytest.mark.parametrize("name", PRESENTER_MODULES)
 def test_a_presenter_is_there_and_its_class_is_shown(name):
     for module in filter(None, PRESENTER_MODULES[name]):
-        import_module(f"holdfast.present.{module}")
+        import_module(f"holdfast.interface.presentation.{module}")
     module, _, class_name = name.rpartition(".")
     shown = getattr(import_module(f"holdfast.{module}"), class_name)
     assert issubclass(shown, Presentable)

@@ -27,14 +27,14 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.arm.task import as_task
-from holdfast.clearance.object_kernels import outward_kernel
-from holdfast.indices.index import by_name
-from holdfast.indices.susceptibility import by_name as measure_by_name
+from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
 from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows, _translate_to_ptx
-from holdfast.recovery.rows import make_row_solver
-from holdfast.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY
+from holdfast.kinematics.indices.index import by_name
+from holdfast.kinematics.indices.susceptibility import by_name as measure_by_name
+from holdfast.model.arm.task import as_task
+from holdfast.model.collision.object_kernels import outward_kernel
+from holdfast.response.recovery.task_rows import make_row_solver
 from holdfast.teleop.trials.plant import JoystickPlant
 
 TABLE = Path(__file__).with_name("ptx_table.csv")

@@ -10,8 +10,8 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms, control, indices, kernels
-from holdfast.cli.program import main
-from holdfast.engine import Study, ThreadRunner
+from holdfast.core.sweeps import Study, ThreadRunner
+from holdfast.interface.cli.program import main
 from holdfast.kernels import compiled
 from holdfast.studies import read_study_file as read_study
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import javascript as browser
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 from holdfast.kernels import Kernel, Program
 from holdfast.kernels.graph import OP_CONST, OP_INPUT, OP_OUTPUT, OP_SELECT
 from holdfast.kernels.javascript_backend import write_javascript

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from holdfast.errors import InputError, KernelError
+from holdfast.core.errors import InputError, KernelError
 from holdfast.kernels import Kernel, default_backend, shared_pool, thread_count
 
 BACKENDS = ("llvm", "casadi")  # those of a processor

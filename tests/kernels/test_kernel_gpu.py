@@ -10,7 +10,7 @@ import pytest
 
 from fake_driver import Array, FakeDriver, Reader, read
 from holdfast import kernels
-from holdfast.errors import InputError, KernelError
+from holdfast.core.errors import InputError, KernelError
 from holdfast.kernels import Kernel, Loop, Program
 from holdfast.kernels.gpu import driver, launch, ptx
 

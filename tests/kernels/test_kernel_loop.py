@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from holdfast import notice
+from holdfast.core import progress
 from holdfast.kernels import Loop
 
 BACKENDS = ("llvm", "casadi")  # those of a processor
@@ -192,11 +192,11 @@ def test_who_is_told_hears_of_every_row_within_the_tolerance(loop, rng):
 
 def test_a_row_that_goes_on_and_on_tells_of_its_steps(loop, monkeypatch):
     monkeypatch.delenv("HOLDFAST_NOTICES")
-    monkeypatch.setattr(notice, "_start_watcher", lambda: None)
-    with notice.report_work("looking for roots"):
+    monkeypatch.setattr(progress, "_start_watcher", lambda: None)
+    with progress.report_work("looking for roots"):
         told = []
         monkeypatch.setattr(
-            notice.ProgressCount,
+            progress.ProgressCount,
             "add",
             lambda count, number: told.append((count.describe_progress("looking for roots"), number)),
         )

@@ -12,10 +12,10 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.caching import cached_property
-from holdfast.indices import CustomIndex
-from holdfast.kernels import Kernel, Loop, cached_json, cached_kernel, recipe
-from holdfast.kernels.recipe import fingerprint
+from holdfast.core.caching import cached_property
+from holdfast.kernels import Kernel, Loop, cached_json, cached_kernel, input_digest
+from holdfast.kernels.input_digest import fingerprint
+from holdfast.kinematics.indices import CustomIndex
 
 BUILT: list[str] = []
 
@@ -135,7 +135,7 @@ def test_a_function_of_somebody_else_is_always_called():
 
 def test_changed_sources_are_another_recipe(monkeypatch):
     line(3.0)
-    monkeypatch.setattr(recipe, "_sources_digest", lambda: "other")
+    monkeypatch.setattr(input_digest, "_sources_digest", lambda: "other")
     line(3.0)
     assert BUILT == ["line", "line"]
 
@@ -167,13 +167,13 @@ def test_another_thread_may_keep_something_in_the_middle_of_a_digest(monkeypatch
     """The attributes of an arm grow when something that it caches is first asked for."""
     arm = hf.arms.load("planar-3r")
     index = hf.indices.manipulability(arm, "planar")
-    expected, look = fingerprint(index), recipe.getattr_static
+    expected, look = fingerprint(index), input_digest.getattr_static
 
     def looked(*args):
         vars(index)[f"_kept_{len(vars(index))}"] = 1  # as another thread would, between two steps of the loop
         return look(*args)
 
-    monkeypatch.setattr(recipe, "getattr_static", looked)
+    monkeypatch.setattr(input_digest, "getattr_static", looked)
     assert fingerprint(index) == expected
 
 
@@ -202,7 +202,7 @@ def test_texts_are_made_once(backend, flat4, mixed5, monkeypatch):
     assert texts(mixed5) != first
     assert texts(flat4, "name") != first
     assert BUILT == ["texts"] * 4
-    monkeypatch.setattr(recipe, "_sources_digest", lambda: "other")
+    monkeypatch.setattr(input_digest, "_sources_digest", lambda: "other")
     assert texts(flat4) == first
     assert BUILT == ["texts"] * 5
 

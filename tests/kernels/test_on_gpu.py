@@ -8,7 +8,7 @@ from test_kernel_gpu import pair
 
 import holdfast as hf
 from holdfast import arms, control, indices, kernels
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 from oracles import inside
 
 pytestmark = pytest.mark.gpu

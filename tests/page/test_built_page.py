@@ -45,7 +45,7 @@ def test_the_built_view_is_the_view(tmp_path):
     command = ["node_modules/.bin/vite", "build", "--mode", "viewer", "--outDir", str(tmp_path), "--logLevel", "error"]
     subprocess.run(command, cwd=PAGE, check=True, capture_output=True)
     [built] = tmp_path.iterdir()
-    kept = resources.files("holdfast.report").joinpath("templates", built.name).read_bytes()
+    kept = resources.files("holdfast.interface.report").joinpath("templates", built.name).read_bytes()
     assert built.read_bytes() == kept, f"'{built.name}' is not what 'npm run build' makes; run it and commit"
     assert len(kept) < 25_000  # every report holds it
 

@@ -19,10 +19,10 @@ import numpy as np
 
 import holdfast as hf
 from holdfast import arms, control
-from holdfast.engine import Study, ThreadRunner
-from holdfast.recovery import write_waypoints
+from holdfast.core.sweeps import Study, ThreadRunner
+from holdfast.response.recovery import write_waypoints
 from holdfast.studies import read_study_file
-from holdfast.studies.results import read_assessment, read_convergence
+from holdfast.studies.study_files.results import read_assessment, read_convergence
 from holdfast.teleop import simulate_experiment
 from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.trials import End

@@ -10,8 +10,8 @@ import pytest
 
 import holdfast as hf
 from cards import check_card
-from holdfast.errors import HoldfastError, InputError, StoreError
-from holdfast.present.teleop.motions import ring
+from holdfast.core.errors import HoldfastError, InputError, StoreError
+from holdfast.interface.presentation.teleop.motions import ring
 from holdfast.teleop.analysis import analyse
 from holdfast.teleop.analysis.groups import group_by_difficulty
 from holdfast.teleop.protocol.protocol import read_protocol

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from holdfast.present.teleop.figures import measures_figure
-from holdfast.present.teleop.motions import Motion, motions_figure
+from holdfast.interface.presentation.teleop.figures import measures_figure
+from holdfast.interface.presentation.teleop.motions import Motion, motions_figure
 
 
 def titles(figure):

@@ -9,7 +9,7 @@ import pytest
 from scipy import integrate, stats
 from statsmodels.stats.power import TTestPower
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 from holdfast.teleop.analysis import anova, compare_pairs, correct_by_holm, correlate, power, subjects_for_f, subjects_for_t
 
 

@@ -10,9 +10,9 @@ import pytest
 import holdfast as hf
 import javascript as browser
 import oracles
-from holdfast.arm.task import as_task
-from holdfast.errors import TaskError
-from holdfast.registry import LAW_REGISTRY
+from holdfast.core.errors import TaskError
+from holdfast.core.registry import LAW_REGISTRY
+from holdfast.model.arm.task import as_task
 from holdfast.teleop.protocol import protocol
 from holdfast.teleop.protocol.printed_arm import number_laws, print_arm_module
 from holdfast.teleop.records.tables import run_computer_trials

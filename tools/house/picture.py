@@ -1,4 +1,4 @@
-"""The packages of holdfast and the arrows between them as a Mermaid diagram, made of the imports, for CONTRIBUTING."""
+"""Draw the wings of holdfast, with their packages and the imports between wings, as a Mermaid diagram for CONTRIBUTING."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from tools.house.imports import File, graph, read
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "CONTRIBUTING.md"
 MARKS = "<!-- packages: written by python -m tools.house --picture -->", "<!-- end of packages -->"
-BASE = {"files"}  # below everything, as single files are
 
 
 def arrows(imports: dict[str, set[str]], layers: list[str]) -> set[tuple[str, str]]:
@@ -30,13 +29,16 @@ def arrows(imports: dict[str, set[str]], layers: list[str]) -> set[tuple[str, st
 
 
 def picture(files: dict[str, File] | None = None) -> str:
-    """The diagram as Markdown, of the files of holdfast."""
+    """Return the diagram as Markdown, from the files of holdfast."""
     source = ROOT / "src" / "holdfast"
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]["contracts"]
-    listed = next(c["layers"] for c in contracts if c["id"] == "layers")
-    layers = [name for name in listed if (source / name).is_dir() and name not in BASE]
-    found = arrows(graph(files or read(source, "holdfast")), layers)
-    lines = [f"  {a} --> {b}" for a, b in sorted(found, key=lambda x: (layers.index(x[0]), layers.index(x[1])))]
+    wings = [name for name in next(c["layers"] for c in contracts if c["id"] == "wings") if (source / name).is_dir()]
+    lines = []
+    for wing in wings:
+        packages = sorted(file.parent.name for file in (source / wing).glob("*/__init__.py"))
+        lines += [f"  subgraph {wing}", *(f"    {wing}_{package}[{package}]" for package in packages), "  end"]
+    pairs = arrows(graph(files or read(source, "holdfast")), wings)
+    lines += [f"  {a} --> {b}" for a, b in sorted(pairs, key=lambda pair: (wings.index(pair[0]), wings.index(pair[1])))]
     return "\n".join(["```mermaid", "graph TD", *lines, "```"])
 
 

@@ -58,7 +58,7 @@ def counted() -> Count:
     }
     lines = {
         "src": sum(file.lines for file in files.values()),
-        "cli": sum(file.lines for name, file in files.items() if name.startswith("holdfast.cli")),
+        "cli": sum(file.lines for name, file in files.items() if name.startswith("holdfast.interface.cli")),
     }
     return Count(sins, lines, circles(graph(files)) + circles(graph(papers)))
 

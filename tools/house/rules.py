@@ -12,7 +12,7 @@ POSITIONAL = 3  # what a public function acts on, and then names
 LONGEST = 400  # lines of a file
 FULLEST = 15  # files of a folder
 # What takes numbers of one kind in an order that everybody knows.
-ORDERED = {"holdfast.DH", "holdfast.Region.box", "holdfast.paths.arc"}
+ORDERED = {"holdfast.DH", "holdfast.Region.box", "holdfast.kinematics.paths.arc"}
 LOOPED = {"Law", "Objective", "Kernel", "Loop"}  # a loop calls their methods; an Index is an Objective
 
 

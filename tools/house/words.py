@@ -54,7 +54,7 @@ def texts(root: Path, files: dict[str, File]) -> Iterator[tuple[str, bool, str]]
     included), ``docstrings``, ``docs``, ``page`` (texts and templates), or it is one of the ``names``.
     """
     for name, file in files.items():
-        cli, teleop = name.startswith("holdfast.cli"), ".teleop" in name
+        cli, teleop = name.startswith("holdfast.interface.cli"), ".teleop" in name
         for text in file.docstrings:
             yield "cli" if cli else "docstrings", teleop, text
         for text in file.strings:

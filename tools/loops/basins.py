@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 import holdfast as hf
-from holdfast.report.palette import INK, LIGHT_BLUE, ORANGE
+from holdfast.interface.report.palette import INK, LIGHT_BLUE, ORANGE
 from tools.loops.film import TICK, Shot, caption, figure, picture
 
 TARGET, LOCKED = (1.5, 1.5), {"joint2": np.deg2rad(45)}

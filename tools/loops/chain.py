@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 import holdfast as hf
-from holdfast.cell import Box
-from holdfast.faults import FaultEvent
+from holdfast.model.cell import Box
+from holdfast.response.faults import FaultEvent
 from tools.loops.film import Shot
 from tools.loops.solid import box
 from tools.loops.stage import Side, Stage, seen_from

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image, ImageDraw, ImageFont
 
 import holdfast
-from holdfast.report.palette import INK
+from holdfast.interface.report.palette import INK
 
 OUT = Path(__file__).parents[2] / "docs" / "_static" / "loops"
 SIZE = (960, 540)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import holdfast as hf
-from holdfast.report.palette import BLUE, FAINT, INK, ORANGE, PURPLE, SOFT
+from holdfast.interface.report.palette import BLUE, FAINT, INK, ORANGE, PURPLE, SOFT
 from tools.loops.film import Shot, caption, figure, picture
 
 JOINT, BRAKE = "panda_joint4", 150.0  # ms

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 import holdfast as hf
-from holdfast.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
-from holdfast.report.views import View
+from holdfast.interface.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
+from holdfast.interface.report.views import View
 from tools.loops.film import Shot, caption, figure, picture
 
 OBLIQUE = View(np.array([0.62, 0.78, 0.0]), np.array([-0.23, 0.19, 0.95]), "oblique")

@@ -11,11 +11,11 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.cell.nodes import split_triangles
-from holdfast.present.arm.visuals import make_part
-from holdfast.present.cell.bodies import mesh_solid
-from holdfast.report.views import View
-from holdfast.shapes.reading import read_pieces
+from holdfast.interface.presentation.arm.visuals import make_part
+from holdfast.interface.presentation.cell.bodies import mesh_solid
+from holdfast.interface.report.views import View
+from holdfast.model.cell.nodes import split_triangles
+from holdfast.model.shapes.reading import read_pieces
 
 Array = NDArray[np.float64]
 Triangles = Array  # (F, 3, 3) m

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report.palette import BLUE, INK, ORANGE
-from holdfast.report.views import View
+from holdfast.interface.report.palette import BLUE, INK, ORANGE
+from holdfast.interface.report.views import View
 from tools.loops.film import Shot, caption, figure, picture
 from tools.loops.solid import Triangles, arm_bodies, cell_bodies, draw, moved
 

@@ -14,8 +14,8 @@ import numpy as np
 from PIL import Image
 
 import holdfast as hf
-from holdfast.motion import GradientProjection
-from holdfast.report.palette import INK, ORANGE
+from holdfast.interface.report.palette import INK, ORANGE
+from holdfast.kinematics.path_following import GradientProjection
 from tools.loops.film import SIZE, TICK, Shot, caption
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
@@ -43,7 +43,7 @@ def climb(arm: hf.Arm, index: hf.indices.Index, q: np.ndarray, count: int) -> np
 
 def shots(count: int = 32) -> Iterator[Shot]:
     """Locked, sliding, locked again, and back."""
-    from holdfast.studio import State, serve
+    from holdfast.interface.studio import State, serve
 
     arm = hf.arms.load("panda")
     index = hf.indices.relative_manipulability(arm, "position")

@@ -25,7 +25,7 @@ def shots() -> Iterator[Shot]:
     slowly = hf.Degraded(arm, speeds=dict.fromkeys(arm.joint_names, SHARE))
     cell, goal = hf.Cell([TABLE], margin=0.01), arm.forward_kinematics(END)
     asked = {"goal": goal, "cell": cell, "samples": 0, "accelerations": ACCELERATION}
-    planned, borne = (hf.keep.upright(np.deg2rad(angle)) for angle in (PLANNED, BORNE))
+    planned, borne = (hf.tool_constraints.upright(np.deg2rad(angle)) for angle in (PLANNED, BORNE))
     way = hf.recover(arm, slowly, START, keep=planned, **asked).require_ok().timed
     done = {"goal": goal, "cell": cell, "keep": borne}
     first = hf.execute(arm, way.q, way.time, locked=[JOINT], lock_time=WHEN * way.time[-1], notice=NOTICE, **done)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import holdfast as hf
-from holdfast.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
+from holdfast.interface.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
 from tools.loops.film import Shot, caption, figure, picture
 
 START, TARGET, JOINT = np.deg2rad([-70.0, 40.0, 24.0]), (0.70, 0.53), "joint3"

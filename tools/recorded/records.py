@@ -35,7 +35,7 @@ VARIES = tuple(
         (r"(>Computed on</th><td class=\"\">)[^;<]*", r"\1<machine>"),
         (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
         (r"\bkey=[\w-]+", "key=<key>"),
-        # What holdfast.notice says, of a record that was made with it.
+        # What holdfast.core.progress says, of a record that was made with it.
         (r"^holdfast: (?!nothing|missing)[a-z]+ing\b(.*, (about \d+ (s|min)|so far \d).*|[^,;:]*)\n", ""),
         (r"^\d+ of \d+ chunks, about .*\n", ""),  # only of what takes half a minute
         (r" at 0x[0-9a-f]+", ""),

@@ -19,7 +19,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast import arms, control, teleop
-from holdfast.assessment import structures
+from holdfast.studies.assessment import structures
 from holdfast.teleop.analysis import analyse
 
 INPUTS = Path(__file__).parent

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import holdfast as hf
-from holdfast.assessment import structure
+from holdfast.studies.assessment import structure
 
 figure, both = plt.subplots(1, 2, figsize=(8, 3.8), sharey=True)
 for axes, name in zip(both, ("pa10-7dof", "panda"), strict=True):

@@ -12,7 +12,7 @@ simulated scan); the rest is drawn. Every piece of the route is proved clear.
 import numpy as np
 
 import holdfast as hf
-from holdfast.cell import Box, Capsule, Cylinder, HalfSpace, Points, Sphere
+from holdfast.model.cell import Box, Capsule, Cylinder, HalfSpace, Points, Sphere
 
 pipe, along, around = np.random.default_rng(1).uniform(0, [[5], [1.6], [2 * np.pi]], (3, 60_000))
 axes = np.array([[0.8, 0.1], [0.8, 0.4], [0.8, 0.7], [0.7, 0.95], [0.4, 1.1]])[pipe.astype(int)]

@@ -13,8 +13,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import holdfast as hf
-from holdfast import studies
-from holdfast.engine import Study, ThreadRunner
+from holdfast.core.sweeps import Study, ThreadRunner
+from holdfast.studies import study_files
 
 ASKED = """
 seed: 1
@@ -27,7 +27,7 @@ figure, panels = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True)
 with tempfile.TemporaryDirectory() as folder:
     file, out = Path(folder, "arms.yaml"), Path(folder, "arms")
     file.write_text(ASKED)
-    asked = studies.read_study_file(file)
+    asked = study_files.read_study_file(file)
     study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
     study.run(asked.cells, ThreadRunner(2))
     for number in range(len(study.cells)):

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import holdfast as hf
-from holdfast.equilibria import orbit
+from holdfast.control.equilibria import orbit
 
 arm = hf.arms.load("planar-3r")
 law = hf.control.pseudoinverse(arm, task="planar")

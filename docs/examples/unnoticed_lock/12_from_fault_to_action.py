@@ -7,7 +7,7 @@ brakes it and leaves it out of the law, and the task goes on. Simulated, of cour
 """
 
 import holdfast as hf
-from holdfast.faults import FaultEvent
+from holdfast.response.faults import FaultEvent
 
 panda = hf.arms.load("panda")
 law = hf.control.damped(panda, 0.02, task="position", gain=2.0, speed_limit=0.25)

@@ -4,7 +4,7 @@ A learned policy when a joint locks
 
 A small network pushes an object to its goal in Gymnasium's Pusher. Then a joint locks after a
 second; nobody tells the policy. Simulated, of course. How it was trained, and how often it
-finishes under each kind of fault, is in `papers/faults/POLICY.md` of the repository.
+finishes under each kind of fault, is in `measurements/faults/POLICY.md` of the repository.
 """
 
 import sys
@@ -16,7 +16,7 @@ from holdfast import faults
 
 repository = Path.cwd().parents[2]
 sys.path.insert(0, str(repository))
-from papers.faults.policy import network, task
+from measurements.faults.policy import network, task
 
 policy = network.load(repository / "papers" / "faults" / "policy" / "healthy.npz")
 figure, panels = plt.subplots(1, 3, figsize=(10, 4.2), sharex=True, sharey=True)

@@ -1,4 +1,4 @@
-/** What a view is given: the JSON that holdfast/report/viewer.py writes beside its canvas. */
+/** What a view is given: the JSON that holdfast/interface/report/viewer.py writes beside its canvas. */
 
 export type Vector = [number, number, number];
 /** A pose: the upper three rows, row by row. */

@@ -10,13 +10,13 @@ from importlib.util import find_spec
 from pathlib import Path
 from time import monotonic
 
-from holdfast.arguments import check_arguments
-from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.documents import require_same_arm
-from holdfast.errors import HoldfastError, InputError
-from holdfast.notice import reports_progress
-from holdfast.result import Result
+from holdfast.core.errors import HoldfastError, InputError
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.model import Arm
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,13 +10,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import check_arguments, require_real_numbers
-from holdfast.arm.model import Arm
 from holdfast.certificates.kinds import Claim
-from holdfast.errors import InputError
-from holdfast.failures.sets import FailureSpec, single_joints
-from holdfast.grammar import TASK_SIZES
-from holdfast.typing import FloatArray
+from holdfast.core.errors import InputError
+from holdfast.core.labels import TASK_SIZES
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.model.arm.model import Arm
+from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
 TASK_ROWS = {
     "planar": [0, 1],

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import __version__
-from holdfast.arm.model import Arm
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion
@@ -24,12 +23,13 @@ from holdfast.certificates.target_boxes.jobs import TargetBoxResult
 from holdfast.certificates.taylor import CENTER_UNIT, CertificateChain
 from holdfast.certificates.tool_paths import cells
 from holdfast.certificates.tool_paths.claims import PathClaim
+from holdfast.certificates.tool_paths.loop_closure import make_closure_exclusion
 from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tool_paths.rings import make_closure_exclusion
 from holdfast.certificates.tree import PROVED_TOKEN
-from holdfast.certificates.verified import paths
-from holdfast.certificates.verified.tree import Cell
-from holdfast.errors import InputError
+from holdfast.certificates.verifier_parts import paths
+from holdfast.certificates.verifier_parts.tree import Cell
+from holdfast.core.errors import InputError
+from holdfast.model.arm.model import Arm
 
 Document = dict[str, Any]
 TargetClaim: TypeAlias = ReachClaim | TolerantClaim | OutOfReachClaim

@@ -8,16 +8,16 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm import kinematics
-from holdfast.arm.model import Arm
-from holdfast.caching import cached_property
-from holdfast.grammar import TASK_SIZES
+from holdfast.core.caching import cached_property
+from holdfast.core.labels import TASK_SIZES
+from holdfast.core.typing import FloatArray
+from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.linalg import Cholesky, damped_least_norm
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kernels.recall import cached_kernel
-from holdfast.linalg import Cholesky, damped_least_norm
-from holdfast.typing import FloatArray
+from holdfast.model.arm import kinematics
+from holdfast.model.arm.model import Arm
 
 CELL_WIDTH_PARTS = 16  # of a cell's width: how much of it is proved is told in these
 ROUNDS_PER_STEP = 5  # rounds

@@ -9,13 +9,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import check_arguments
-from holdfast.arm.model import Arm
 from holdfast.certificates.claims import narrow_limits, require_planar, require_revolute, validate_interval
 from holdfast.certificates.kinds import Claim
-from holdfast.errors import InputError
-from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
-from holdfast.typing import FloatArray
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.model import Arm
+from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
 _TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 

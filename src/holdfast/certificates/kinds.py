@@ -1,7 +1,7 @@
 """Kinds of claims: how a claim of each kind is searched for and written.
 
 A claim names its kind. Registered are the :class:`ClaimKind` objects of the modules from which the stub of the package exports;
-nothing else lists them. The verifier has its own table, ``verified/kinds.py``, because it must work without holdfast.
+nothing else lists them. The verifier has its own table, ``verifier_parts/kinds.py``, because it must work without holdfast.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 
 if TYPE_CHECKING:
-    from holdfast.arm.model import Arm
-    from holdfast.certificates.crew import SearchBudget
+    from holdfast.certificates.search_pool import SearchBudget
+    from holdfast.model.arm.model import Arm
 
 
 class Claim:
@@ -51,7 +51,7 @@ class ClaimKind:
     Attributes:
         name: Name in certificates; the verifier's table has an entry of the same name.
         search: Function of a claim, the largest number of halvings of each axis, a seed, and a
-            :class:`~holdfast.certificates.crew.SearchBudget`; it returns a result with the certificate.
+            :class:`~holdfast.certificates.search_pool.SearchBudget`; it returns a result with the certificate.
         fields: Function of a claim that returns the fields of the certificate which define the claim, except arm and task.
         halvings: Default number of halvings; 0 if the search bisects nothing, so that a store has nothing to remember.
     """

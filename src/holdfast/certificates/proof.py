@@ -11,15 +11,15 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from holdfast.caching import cached_property
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import ReachClaim, TolerantClaim
-from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.kinds import ClaimKind
+from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
 from holdfast.certificates.tree import compute_undecided
-from holdfast.files.output import make_folder, replace_file
-from holdfast.result import Result
+from holdfast.core.caching import cached_property
+from holdfast.core.files.output import make_folder, replace_file
+from holdfast.core.result import Result
 
 CERTIFICATE_SUFFIX = ".certificate"
 

@@ -8,22 +8,22 @@ from typing import Any, TypedDict, Unpack, overload
 
 import numpy as np
 
-from holdfast.arguments import check_arguments
 from holdfast.certificates import documents
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
-from holdfast.certificates.crew import SearchBudget, StopCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
 from holdfast.certificates.kinds import Claim, find_claim_kind
 from holdfast.certificates.proof import Proof, TolerantProof
+from holdfast.certificates.search_pool import SearchBudget, StopCheck
 from holdfast.certificates.structure import StructuralZero
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.tree import SearchState, StateCallback
-from holdfast.engine.memory import SearchMemory
-from holdfast.errors import InputError
-from holdfast.notice import Progress, reports_progress
+from holdfast.core.errors import InputError
+from holdfast.core.progress import Progress, reports_progress
+from holdfast.core.sweeps.memory import SearchMemory
+from holdfast.core.validation import check_arguments
 
 _PROGRESS_STEPS = 10_000  # of which progress is told: ten thousandths of all parts
 

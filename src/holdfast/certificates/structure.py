@@ -20,9 +20,9 @@ from holdfast.certificates.joint_claims import StructuralZeroClaim
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import write_document
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.errors import InputError
-from holdfast.result import Result
-from holdfast.typing import FloatArray
+from holdfast.core.errors import InputError
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
 
 _QUARTER_TURN_TOLERANCE_RAD = 1e-4  # rad, of a rotation from quarter turns
 _POINT_DIGITS = 9  # of points on axes, m

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm
 from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
-from holdfast.typing import BoolArray, FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.model.arm.model import Arm
 
 CENTER_UNIT = 2.0**-24  # rad: centres are written in multiples of it
 _MAX_TEST_STEPS = 40  # of tests, each of several rounds

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.typing import FloatArray, IndexArray
+from holdfast.core.typing import FloatArray, IndexArray
 
 # PROVED_TOKEN, UNDECIDED_TOKEN and SPLIT_TOKEN: tokens of the tree
 PROVED_TOKEN = 0

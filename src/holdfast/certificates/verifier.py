@@ -28,20 +28,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING or __package__:
-    from holdfast.certificates.verified import (
-        balls,
-        bounds,
-        distances,
-        files,
-        forms,
-        kinds,
-        motions,
-        paths,
-        tree,
-        zeros,
-    )
+    from holdfast.certificates.verifier_parts import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
 else:  # run as a file: the folder lies beside it
-    from verified import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
+    from verifier_parts import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
 
 CertificateRejected = forms.CertificateRejected
 require = forms.require

@@ -2,6 +2,6 @@
 knowledge of robots.
 """
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

@@ -1,4 +1,7 @@
 from holdfast.kernels.compiled import wait_for_compiler as wait_for_compiler
+from holdfast.kernels.control_step import ControlStep as ControlStep
+from holdfast.kernels.disk_cache import cached_json as cached_json
+from holdfast.kernels.disk_cache import cached_kernel as cached_kernel
 from holdfast.kernels.kernel import BACKEND_NAMES as BACKEND_NAMES
 from holdfast.kernels.kernel import Kernel as Kernel
 from holdfast.kernels.kernel import SingleRowKernel as SingleRowKernel
@@ -8,9 +11,6 @@ from holdfast.kernels.loop import Loop as Loop
 from holdfast.kernels.loop import LoopResult as LoopResult
 from holdfast.kernels.program import SX as SX
 from holdfast.kernels.program import Program as Program
-from holdfast.kernels.recall import cached_json as cached_json
-from holdfast.kernels.recall import cached_kernel as cached_kernel
-from holdfast.kernels.step import ControlStep as ControlStep
 from holdfast.kernels.threads import in_pool as in_pool
 from holdfast.kernels.threads import set_threads as set_threads
 from holdfast.kernels.threads import shared_pool as shared_pool

@@ -16,14 +16,14 @@ from contextvars import ContextVar
 from ctypes import c_int64, c_void_p
 from typing import Any
 
-from holdfast import notice
-from holdfast.caching import cached_property
+from holdfast.core import progress
+from holdfast.core.caching import cached_property
+from holdfast.core.typing import FloatArray
 from holdfast.kernels import cache
 from holdfast.kernels.llvm import machine_code
 from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
-from holdfast.typing import FloatArray
 
 MAX_IMMEDIATE_OPERATIONS = 100  # operations that level 1 compiles in some 15 ms, hardly longer than level 0
 MAX_TWO_REGISTER_OPERATIONS = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
@@ -139,7 +139,7 @@ class CompiledProgram:
     def _compile_code(self, level: int, lanes: int | None = None, in_background: bool = False) -> machine_code.MachineCode:
         lanes = lanes or self._lanes_of_level(level)
         program, machine = self._program, TargetMachine(lanes, machine_code.detect_host().machine.fused)
-        with notice.long_task(
+        with progress.long_task(
             f"compiling '{program.name}'",
             0 if in_background else program.size * machine_code.COMPILE_SECONDS_PER_OPERATION[level],
         ):

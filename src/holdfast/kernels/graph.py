@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 from holdfast.kernels.program import OP_NAMES, Program
 
 # OP_SELECT, OP_INPUT, OP_CONST and OP_OUTPUT: beside the operations of CasADi

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.errors import InputError, KernelError
-from holdfast.grammar import is_count
+from holdfast.core.errors import InputError, KernelError
+from holdfast.core.labels import is_count
+from holdfast.core.typing import FloatArray
 from holdfast.kernels import casadi_backend
 from holdfast.kernels.compiled import CompiledProgram
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
-from holdfast.typing import FloatArray
 
 _SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
 BACKEND_NAMES = ("llvm", "casadi", "cuda")

@@ -10,11 +10,11 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.core.progress import ProgressCount, ignore_count
+from holdfast.core.typing import FloatArray
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
-from holdfast.notice import ProgressCount, ignore_count
-from holdfast.typing import FloatArray
 
 Tell = Callable[[int], None]
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import casadi as ca
 
-from holdfast.caching import cached_property
+from holdfast.core.caching import cached_property
 
 SX = Any  # CasADi ships no type information
 

@@ -6,7 +6,7 @@ import os
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from holdfast.grammar import is_count
+from holdfast.core.labels import is_count
 
 _THREAD_PREFIX = "holdfast-pool"
 _lock = threading.Lock()
@@ -30,7 +30,7 @@ def set_threads(count: int | None) -> None:
     """Use ``count`` threads from now on (None: the default again). Results do not depend on it."""
     global _pool, _count
     if count is not None and count < 1:
-        from holdfast.errors import InputError
+        from holdfast.core.errors import InputError
 
         raise InputError(f"number of threads is {count}; it must be 1 or more")
     with _lock:

@@ -1,5 +1,9 @@
-"""Studies from a study file: assessments, convergence maps, workspaces, and task banks."""
+"""Larger computations over regions, designs, and laws: assessments, designs, study files, and a benchmark of planners.
 
-from holdfast._lazy import offer
+A module belongs here if it combines many results of other wings into one answer. The names of ``study_files`` are offered
+here, too.
+"""
+
+from holdfast.core._lazy import offer
 
 offer(__name__)

@@ -5,6 +5,6 @@ The statistics are in :mod:`holdfast.teleop.analysis`, which needs statsmodels a
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003.
 """
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.engine.folder import describe_difference, lock_folder
-from holdfast.errors import InputError, StoreError
-from holdfast.files import reading
-from holdfast.notice import reports_progress, warn_now
+from holdfast.core.errors import InputError, StoreError
+from holdfast.core.files import reading
+from holdfast.core.progress import reports_progress, warn_now
+from holdfast.core.sweeps.folder import describe_difference, lock_folder
+from holdfast.core.typing import IndexArray
 from holdfast.teleop.bank.tasks import drive_tasks
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Subject, SubjectKind, SubjectState, TrialKind
@@ -22,7 +23,6 @@ from holdfast.teleop.records.session import completion_times, find_training_scen
 from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfort, sample_people
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import PointTasks
-from holdfast.typing import IndexArray
 
 OPERATORS_PER_BATCH = 64  # their trials are driven together and held in memory
 

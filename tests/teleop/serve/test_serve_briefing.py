@@ -8,8 +8,8 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.arm.task import as_task
-from holdfast.registry import LAW_REGISTRY
+from holdfast.core.registry import LAW_REGISTRY
+from holdfast.model.arm.task import as_task
 from holdfast.teleop.protocol.printed_arm import number_laws, print_arm_module
 from holdfast.teleop.protocol.protocol import read_protocol
 from holdfast.teleop.serve import texts

@@ -22,7 +22,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from conftest import PROGRAM, dump
-from holdfast.errors import HoldfastError, InputError
+from holdfast.core.errors import HoldfastError, InputError
 from holdfast.teleop.records import tables
 from holdfast.teleop.records.entries import SubjectKind, SubjectState, TrialKind
 from holdfast.teleop.records.records import Records

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.joint_boxes.halving import BoxTest, require_capacity
 from holdfast.certificates.joint_boxes.jobs import bisect_box, summarize_tree
 from holdfast.certificates.joint_boxes.kernels import FloorTest
@@ -17,10 +16,11 @@ from holdfast.certificates.joint_boxes.wrenches import CeilingTest
 from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
+from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tree import UNDECIDED_TOKEN
-from holdfast.indices import relative_manipulability
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.indices import relative_manipulability
 
 _SAMPLE_COUNT = 20_000
 _LOCAL_SEARCH_COUNT = 64

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, Index, require_capacity
 from holdfast.certificates.joint_boxes.jobs import bisect_box
 from holdfast.certificates.joint_boxes.rows import TaskErrorBound
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain, ReachSolver
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
 _MAX_LEMMAS = 12

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN
-from holdfast.certificates.verified.tree import MAX_LEAVES
-from holdfast.errors import InputError
-from holdfast.typing import FloatArray
+from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 
 Index = NDArray[np.int64]
 BoxTest = Callable[[FloatArray, FloatArray], tuple[Index, FloatArray]]

@@ -13,12 +13,12 @@ from time import perf_counter
 
 import numpy as np
 
-from holdfast.certificates.crew import SearchBudget, StopCheck
 from holdfast.certificates.joint_boxes.halving import DEFERRED_TOKEN, BoxTest, Halving
+from holdfast.certificates.search_pool import SearchBudget, StopCheck
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState
-from holdfast.certificates.verified.tree import MAX_LEAVES
-from holdfast.engine.memory import Parts
-from holdfast.typing import FloatArray, IndexArray
+from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
+from holdfast.core.sweeps.memory import Parts
+from holdfast.core.typing import FloatArray, IndexArray
 
 BoxBatch = tuple[FloatArray, IndexArray]
 

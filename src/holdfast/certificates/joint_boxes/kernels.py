@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Index
 from holdfast.certificates.joint_boxes.screws import ScrewModel
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 _BOUND_MARGIN = 1e-9
 _SECTION_ROUNDS = 12

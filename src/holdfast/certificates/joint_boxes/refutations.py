@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.joint_boxes.exclusion import search_exclusion
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
+from holdfast.certificates.search_pool import SearchBudget
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,7 +12,7 @@ import numpy as np
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.segments import curvature_costs
 from holdfast.certificates.taylor import ReachSolver
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 
 class TaskErrorBound:

@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.certificates.joint_boxes.segments import ChainSegment
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 
 class ScrewModel:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 _ON_AXIS_TOLERANCE_M = 1e-9  # m, of a point from an axis that it lies on
 

@@ -15,7 +15,7 @@ import numpy as np
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Index
 from holdfast.certificates.joint_boxes.screws import ScrewModel
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 FIRST_LOCK_TOKEN = 128  # token of a box in which joint 0 costs enough
 _BOUND_MARGIN = 1e-9

@@ -14,14 +14,14 @@ import numpy as np
 
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import ReachClaim
-from holdfast.certificates.crew import StopCheck
+from holdfast.certificates.search_pool import StopCheck
 from holdfast.certificates.target_boxes.search import TargetBoxSearch
 from holdfast.certificates.taylor import ReachSolver
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState, compute_undecided
-from holdfast.engine.memory import Parts
-from holdfast.errors import InputError
-from holdfast.typing import FloatArray, IndexArray
-from holdfast.words import format_duration
+from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_duration
+from holdfast.core.sweeps.memory import Parts
+from holdfast.core.typing import FloatArray, IndexArray
 
 _WARN_UNREACHED_FRACTION = 0.1  # of the targets drawn first: where no configuration is found of so many, it is said
 # _SPLIT_ABOVE_CELLS and _CELLS_PER_JOB: cells: of a part that is cut, and of each job of it

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.taylor import ReachSolver, TaylorForm
-from holdfast.typing import FloatArray, IndexArray
+from holdfast.core.typing import FloatArray, IndexArray
 
 # _INITIAL_TARGETS, _MAX_TARGETS and _RANDOM_STARTS: targets at first and at most, and random starts of each
 _INITIAL_TARGETS = 250

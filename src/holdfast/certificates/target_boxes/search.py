@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from holdfast.certificates.target_boxes.pool import ConfigurationPool, step_self_motion
 from holdfast.certificates.taylor import CENTER_UNIT, ReachSolver, TaylorForm
 from holdfast.certificates.tree import BisectionTree, CellBatch
-from holdfast.typing import BoolArray, FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 FractionCallback = Callable[[float], None]
 

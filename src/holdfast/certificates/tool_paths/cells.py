@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 
 Ints = NDArray[np.int64]
 

@@ -9,14 +9,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import check_arguments, require_real_numbers
-from holdfast.arm.model import Arm
 from holdfast.certificates.claims import TASK_ROWS, require_planar
 from holdfast.certificates.kinds import Claim
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
-from holdfast.errors import InputError
-from holdfast.failures.sets import FailureSpec, require_redundant, single_joints
-from holdfast.typing import FloatArray
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.model.arm.model import Arm
+from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
 _MAX_SEGMENTS = 256
 _MAX_TUBE = 0.1  # m and rad, of a tube

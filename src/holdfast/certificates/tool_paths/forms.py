@@ -14,7 +14,7 @@ import numpy as np
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
-from holdfast.certificates.tool_paths.tools import (
+from holdfast.certificates.tool_paths.tool_derivatives import (
     axial_map,
     axial_vector,
     axis_jacobian,
@@ -23,7 +23,7 @@ from holdfast.certificates.tool_paths.tools import (
     solve_regularized,
     transverse_axes,
 )
-from holdfast.typing import BoolArray, FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 # _SECTION_ROUNDS and _TIGHTENING_ROUNDS: of the section box: wider until it does, then narrower
 _SECTION_ROUNDS = 30

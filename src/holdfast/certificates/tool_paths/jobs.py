@@ -15,16 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import TASK_ROWS
-from holdfast.certificates.crew import StopCheck
+from holdfast.certificates.search_pool import StopCheck
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
+from holdfast.certificates.tool_paths.loop_closure import RefutedInterval, make_closure_exclusion
 from holdfast.certificates.tool_paths.march import SlabMarch
-from holdfast.certificates.tool_paths.rings import RefutedInterval, make_closure_exclusion
 from holdfast.certificates.tool_paths.slabs import Slab
 from holdfast.certificates.tree import SearchState
-from holdfast.engine.memory import Parts
+from holdfast.core.sweeps.memory import Parts
 
 _CELLS_PER_JOB = 1 << 12  # cells that a job looks at
 _MAX_CHILD_JOBS = 8  # jobs that it leaves

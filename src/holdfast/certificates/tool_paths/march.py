@@ -12,9 +12,9 @@ import numpy as np
 
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.certificates.tool_paths.rings import ClosureExclusion, RefutedInterval
+from holdfast.certificates.tool_paths.loop_closure import ClosureExclusion, RefutedInterval
+from holdfast.certificates.tool_paths.singular_cells import MIN_SINGULAR_HALVINGS, march_through_singularity
 from holdfast.certificates.tool_paths.slabs import Slab
-from holdfast.certificates.tool_paths.turned import MIN_SINGULAR_HALVINGS, march_through_singularity
 
 _MAX_ACTIVE_SLABS = 64  # slabs that march side by side
 

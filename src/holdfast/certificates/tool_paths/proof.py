@@ -12,13 +12,13 @@ import numpy as np
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import TASK_ROWS
-from holdfast.certificates.crew import SearchBudget
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import CompositeResult, format_early_stop, write_document
+from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.jobs import ToolPathJob
 from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.verified import paths
+from holdfast.certificates.verifier_parts import paths
 
 Span = tuple[int, int]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, PathFormBatch
-from holdfast.typing import IndexArray
+from holdfast.core.typing import IndexArray
 
 _MIN_CELL_INSTANTS = SEGMENT_INSTANTS >> 7  # of cells, or a quarter of their slab
 

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.kernels.gpu.driver import LEGACY_STREAM, Device, DeviceMemory
-from holdfast.typing import FloatArray
 
 _CUDA_DEVICE_TYPE = 2  # kDLCUDA
 _CAPSULE_NAME = b"dltensor"

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 
 LEGACY_STREAM = 1  # the stream that waits for all others: the handle of the driver, and the number in DLPack
 _BLOCK_THREADS = 128  # threads: enough blocks for every multiprocessor from some ten thousand rows on

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.caching import cached_property
-from holdfast.errors import InputError
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.kernels.gpu.arrays import BorrowedArray, DeviceArray
 from holdfast.kernels.gpu.driver import LEGACY_STREAM, DeviceMemory, get_device
 from holdfast.kernels.gpu.ptx import make_ptx
 from holdfast.kernels.llvm.translation import FUNCTION_NAME
 from holdfast.kernels.program import Program
-from holdfast.typing import FloatArray
 
 _MAX_BATCH_BYTES = 1 << 30  # of inputs and results on the device at once, for arrays that come from the host
 _STEPS_PER_LAUNCH = 1000  # steps of a launch: between two of them Ctrl-C is heard and progress told

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 from holdfast.kernels import cache
 from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.llvm.translation import FUNCTION_NAME, Emitter

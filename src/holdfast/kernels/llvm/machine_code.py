@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.llvm.translation import FUNCTION_NAME, emit
 from holdfast.kernels.program import Program

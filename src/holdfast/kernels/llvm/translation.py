@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import casadi as ca
 
-from holdfast.errors import KernelError
+from holdfast.core.errors import KernelError
 from holdfast.kernels.llvm.arithmetic import Arithmetic, TargetMachine, emit_sine_and_cosine
 from holdfast.kernels.llvm.functions import EMITTED_FUNCTIONS
 from holdfast.kernels.program import OP_NAMES, Program

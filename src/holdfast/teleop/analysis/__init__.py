@@ -5,6 +5,6 @@ Needs statsmodels: ``pip install holdfast-arms[stats]``.
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 7.
 """
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from holdfast.errors import HoldfastError, InputError
-from holdfast.notice import reports_progress
+from holdfast.core.errors import HoldfastError, InputError
+from holdfast.core.progress import reports_progress
 from holdfast.teleop.analysis import sample_sizes as sufficient
 from holdfast.teleop.analysis import tables
 from holdfast.teleop.analysis.correlations import Correlation, correlate

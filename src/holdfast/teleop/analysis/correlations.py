@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

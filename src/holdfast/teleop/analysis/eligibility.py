@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 from holdfast.teleop.records.entries import SubjectKind, SubjectState
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.tables import computer_table, trial_table

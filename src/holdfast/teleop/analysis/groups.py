@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.teleop.analysis.observations import TrialTable
-from holdfast.typing import FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES, compute_cpm
 from holdfast.teleop.trials.recordings import End
-from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame

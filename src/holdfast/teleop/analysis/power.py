@@ -11,9 +11,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.analysis.variance import degrees_of_freedom, sums_of_squares
-from holdfast.typing import FloatArray
 
 MAX_SUBJECTS = 10_000
 _MAX_BLOCK_VALUES = 2_000_000  # values resampled at once

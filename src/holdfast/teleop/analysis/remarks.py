@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from holdfast.core.formatting import format_count
 from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.observations import TrialTable
-from holdfast.words import format_count
 
 
 def write_notes(

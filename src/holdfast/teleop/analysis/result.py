@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from holdfast.errors import InputError
-from holdfast.result import Result
+from holdfast.core.errors import InputError
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.mixed_model import MixedModel
 from holdfast.teleop.analysis.observations import Condition, TrialTable
 from holdfast.teleop.analysis.variance import Anova
-from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.analysis.comparisons import compare_pairs, correct_by_holm
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.observations import CAUSE_SENTENCES, MEASURE_NAMES, TrialTable
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES
-from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame

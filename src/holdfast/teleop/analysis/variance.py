@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.errors import InputError
-from holdfast.typing import FloatArray
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 
 if TYPE_CHECKING:
     from pandas import DataFrame

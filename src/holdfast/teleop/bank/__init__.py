@@ -1,5 +1,5 @@
 """Bank of tasks, and the choice of tasks for an experiment."""
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

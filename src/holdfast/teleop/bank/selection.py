@@ -11,17 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, as_task
-from holdfast.errors import InputError
-from holdfast.result import Result
+from holdfast.core.errors import InputError
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
 from holdfast.teleop.bank.tasks import TaskBank
 from holdfast.teleop.trials.driving import EndRules, Operator, drive_trials
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
 from holdfast.teleop.trials.stick import Joystick
-from holdfast.typing import FloatArray, IndexArray
 
 _LEVEL_COUNT = 5  # a selection should hold equally many tasks of each fifth of each measure
 

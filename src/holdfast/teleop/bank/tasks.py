@@ -8,19 +8,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.configurations import finite_limits
-from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, as_task
-from holdfast.errors import InputError
-from holdfast.notice import reports_progress
-from holdfast.solvers.inverse_kinematics import InverseKinematics, solver
+from holdfast.core.errors import InputError
+from holdfast.core.progress import reports_progress
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.solvers.inverse_kinematics import InverseKinematics, solver
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules, Operator, drive_trials
 from holdfast.teleop.trials.performance import RECORDED_MEASURES, compute_cpm, compute_measures
 from holdfast.teleop.trials.plant import JoystickPlant, check_joystick_task
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import SCENARIO_NAMES, PointTasks, Scenario
 from holdfast.teleop.trials.stick import Joystick
-from holdfast.typing import FloatArray
 
 TASK_DISTANCE_M = 2.0  # m
 _MAX_TARGETS_PER_START = 200  # targets tried from one start configuration

@@ -1,5 +1,5 @@
 """Plan of an experiment: conditions, order, texts, and the arm on the page."""
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

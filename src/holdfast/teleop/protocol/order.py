@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from holdfast.errors import InputError
-from holdfast.typing import IndexArray
+from holdfast.core.errors import InputError
+from holdfast.core.typing import IndexArray
 
 
 def williams_square(n: int) -> IndexArray:

@@ -13,12 +13,12 @@ import json
 import casadi as ca
 import numpy as np
 
-from holdfast.arm import kinematics
-from holdfast.arm.model import Arm
-from holdfast.control.law import Law
+from holdfast.control.laws.law import Law
+from holdfast.kernels.disk_cache import cached_json
 from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.program import SX, Program
-from holdfast.kernels.recall import cached_json
+from holdfast.model.arm import kinematics
+from holdfast.model.arm.model import Arm
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.trials.plant import check_joystick_task, make_substep
 

@@ -35,20 +35,20 @@ import numpy as np
 import yaml
 from pydantic import Field, ValidationError
 
-from holdfast import arms
-from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, as_task
-from holdfast.caching import cached_property
-from holdfast.errors import HoldfastError, InputError, StoreError
-from holdfast.files import reading
-from holdfast.files.output import replace_file
-from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import HoldfastError, InputError, StoreError
+from holdfast.core.files import reading
+from holdfast.core.files.output import replace_file
+from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.typing import IndexArray
+from holdfast.model import arms
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
 from holdfast.teleop.protocol.order import shuffle_scenarios, williams_square
 from holdfast.teleop.trials.driving import EndRules
 from holdfast.teleop.trials.plant import SUBSTEPS_PER_CYCLE, JoystickPlant
 from holdfast.teleop.trials.scenarios import PointTasks, Scenario
 from holdfast.teleop.trials.stick import Joystick
-from holdfast.typing import IndexArray
 
 PAPER_PROTOCOL = "goel2003"
 SMOOTH_PROTOCOL = "goel2003-smooth"

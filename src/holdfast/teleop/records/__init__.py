@@ -1,5 +1,5 @@
 """Records of an experiment: trials with digests, tables, and copies."""
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

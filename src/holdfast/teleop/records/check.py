@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.notice import reports_progress
-from holdfast.result import Result
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.records.entries import TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import Trials
-from holdfast.typing import FloatArray
 
 REPLAY_TOLERANCE = 1e-6  # rad and m; a browser, or a computer of another kind, rounds differently, by less
 

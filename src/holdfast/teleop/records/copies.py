@@ -8,7 +8,7 @@ import sqlite3
 from contextlib import closing
 from pathlib import Path
 
-from holdfast.errors import StoreError
+from holdfast.core.errors import StoreError
 from holdfast.teleop.records.file import RECORDS_FILE, list_protocol_files
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.verification import VerificationReport, verify_records

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.trials.recordings import End
-from holdfast.typing import FloatArray
 
 # The columns that the readers below take, in their order.
 SUBJECT_COLUMNS = "code, number, row, kind, state, since, answers, note"

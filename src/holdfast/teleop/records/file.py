@@ -9,9 +9,9 @@ from contextlib import ExitStack, closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
-from holdfast.errors import StoreError
-from holdfast.files import reading
-from holdfast.provenance import versions
+from holdfast.core.errors import StoreError
+from holdfast.core.files import reading
+from holdfast.core.provenance import versions
 from holdfast.teleop.protocol import protocol as protocols
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.digests import RECORDS_FORMAT, DigestChain
@@ -201,7 +201,7 @@ def lock_records_folder(folder: Path) -> Iterator[None]:
     Raises:
         StoreError: A server has it, or it cannot be written.
     """
-    from holdfast.engine.folder import lock_folder
+    from holdfast.core.sweeps.folder import lock_folder
 
     with ExitStack() as locks:
         try:

@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.errors import InputError, StoreError
+from holdfast.core.errors import InputError, StoreError
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.protocol.order import choose_next_row
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.digests import DigestChain
@@ -44,7 +45,6 @@ from holdfast.teleop.records.file import (
 )
 from holdfast.teleop.trials.recordings import End, RecordedCycles, Trials
 from holdfast.teleop.trials.scenarios import PointTasks
-from holdfast.typing import FloatArray
 
 _OUTER_TRANSACTION = ("BEGIN IMMEDIATE", "COMMIT", "ROLLBACK")
 _NESTED_TRANSACTION = ("SAVEPOINT part", "RELEASE part", "ROLLBACK TO part", "RELEASE part")

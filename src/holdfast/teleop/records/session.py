@@ -7,13 +7,13 @@ from functools import lru_cache
 
 import numpy as np
 
+from holdfast.core.typing import IndexArray
 from holdfast.teleop.bank.tasks import sample_tasks
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import SubjectState, TrialKind, TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
-from holdfast.typing import IndexArray
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

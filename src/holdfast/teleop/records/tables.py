@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.errors import HoldfastError
-from holdfast.files.output import guard_writing, make_folder, replace_file
-from holdfast.files.spreadsheet import write_csv_text
-from holdfast.notice import reports_progress
+from holdfast.core.errors import HoldfastError
+from holdfast.core.files.output import guard_writing, make_folder, replace_file
+from holdfast.core.files.spreadsheet import write_csv_text
+from holdfast.core.progress import reports_progress
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.bank.tasks import TaskBank, drive_in_every_scenario
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Subject, SubjectKind, TrialKind, TrialRecord
@@ -22,12 +23,11 @@ from holdfast.teleop.records.verification import refuse_damage
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES, compute_measures
 from holdfast.teleop.trials.recordings import End, Trials
-from holdfast.typing import FloatArray
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from holdfast.arm.model import Arm
+    from holdfast.model.arm.model import Arm
     from holdfast.teleop.bank.selection import Binning
 
 

@@ -10,8 +10,8 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from holdfast.errors import HoldfastError, StoreError
-from holdfast.notice import reports_progress
+from holdfast.core.errors import HoldfastError, StoreError
+from holdfast.core.progress import reports_progress
 from holdfast.teleop.records import digests
 from holdfast.teleop.records.file import RECORDS_FILE, open_database
 from holdfast.teleop.records.records import Records

@@ -18,7 +18,7 @@ from starlette.responses import Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
-from holdfast.errors import InputError, StoreError
+from holdfast.core.errors import InputError, StoreError
 from holdfast.teleop.protocol.protocol import Protocol, read_protocol
 from holdfast.teleop.records.file import RECORDS_FILE, lock_records_folder
 from holdfast.teleop.records.records import Records

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.session import find_training_scenario
 from holdfast.teleop.serve.texts import Texts
-from holdfast.typing import FloatArray
 
 EXPERIMENT_FORMAT = 1
 _PARALLEL_TOLERANCE = 1e-9

@@ -9,7 +9,7 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.core.errors import HoldfastError, InputError, StoreError
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import RateLimiter

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 from holdfast.teleop.records.check import REPLAY_TOLERANCE, replay_trials
 from holdfast.teleop.records.entries import SubjectState, TrialKind, TrialRecord
 from holdfast.teleop.records.records import Records

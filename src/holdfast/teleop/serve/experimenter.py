@@ -18,7 +18,7 @@ from starlette.responses import FileResponse, HTMLResponse, JSONResponse, PlainT
 from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from holdfast.errors import HoldfastError, InputError
+from holdfast.core.errors import HoldfastError, InputError
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import SubjectKind
 from holdfast.teleop.records.session import training_tasks

@@ -16,8 +16,8 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from holdfast.errors import InputError
-from holdfast.files import hosts
+from holdfast.core.errors import InputError
+from holdfast.core.files import hosts
 
 _TOKEN_PATTERN = re.compile("[A-Za-z0-9_-]{12,128}")
 _GUESSABLE_WORDS = ("password", "passwort", "qwerty", "letmein", "holdfast", "secret", "token", "study", "admin")

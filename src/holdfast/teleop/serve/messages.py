@@ -13,7 +13,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 
 MESSAGE_FORMAT = 1
 MOST_CYCLES = 256  # in one message

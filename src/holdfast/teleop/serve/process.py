@@ -15,7 +15,7 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
-from holdfast.errors import HoldfastError, InputError
+from holdfast.core.errors import HoldfastError, InputError
 from holdfast.teleop.records.records import Records
 
 _REFUSED_EXIT_CODE = 3  # exit code: what was printed is a sentence for people

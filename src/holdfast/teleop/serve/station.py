@@ -11,7 +11,7 @@ from functools import singledispatchmethod
 
 import numpy as np
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import SubjectKind, SubjectState, TrialKind, TrialRecord
 from holdfast.teleop.records.file import format_utc_now

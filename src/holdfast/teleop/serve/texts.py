@@ -25,10 +25,10 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
-from holdfast.errors import InputError, StoreError
-from holdfast.files import reading
-from holdfast.files.output import replace_file
-from holdfast.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.errors import InputError, StoreError
+from holdfast.core.files import reading
+from holdfast.core.files.output import replace_file
+from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
 from holdfast.teleop.serve.messages import Name
 
 ENGLISH_FILE = Path(__file__).with_name("texts") / "en.yaml"

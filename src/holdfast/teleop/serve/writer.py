@@ -18,9 +18,9 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from holdfast.errors import HoldfastError, StoreError
+from holdfast.core.errors import HoldfastError, StoreError
+from holdfast.core.typing import T
 from holdfast.teleop.records.records import Records
-from holdfast.typing import T
 
 _GATHER_TIME_S = 0.008  # s that the first change of a transaction waits for others
 _MAX_TRANSACTION_JOBS = 512  # changes in one transaction

@@ -1,5 +1,5 @@
 """One trial: joystick, plant, operator, and measures."""
 
-from holdfast._lazy import offer
+from holdfast.core._lazy import offer
 
 offer(__name__)

@@ -9,11 +9,11 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.stick import Joystick
-from holdfast.typing import FloatArray, IndexArray
 
 _NOT_OVER = 255
 

@@ -11,10 +11,10 @@ from dataclasses import KW_ONLY, dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.teleop.trials.driving import Operator
 from holdfast.teleop.trials.stick import Joystick
-from holdfast.typing import FloatArray, IndexArray
 
 # _STOP_RADIUS_FRACTION and _RESTART_RADIUS_FRACTION: of the circle's radius: where the stick is released, and where it is used
 # again

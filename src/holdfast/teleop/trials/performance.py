@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.errors import InputError
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.teleop.trials.recordings import Trials
-from holdfast.typing import FloatArray
 
 
 @dataclass(frozen=True)

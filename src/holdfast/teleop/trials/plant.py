@@ -7,14 +7,14 @@ from functools import lru_cache
 import casadi as ca
 import numpy as np
 
-from holdfast.arm import kinematics
-from holdfast.arm.task import Task
-from holdfast.caching import cached_property
-from holdfast.control.law import Law
-from holdfast.errors import InputError, TaskError
+from holdfast.control.laws.law import Law
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError, TaskError
+from holdfast.core.typing import FloatArray
+from holdfast.kernels.disk_cache import cached_json, cached_kernel
 from holdfast.kernels.kernel import Kernel, SingleRowKernel
-from holdfast.kernels.recall import cached_json, cached_kernel
-from holdfast.typing import FloatArray
+from holdfast.model.arm import kinematics
+from holdfast.model.arm.task import Task
 
 SUBSTEPS_PER_CYCLE = 10
 _MAX_UNROLLED_OPERATIONS = 40_000  # operations in one call, about

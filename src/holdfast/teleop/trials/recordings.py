@@ -9,7 +9,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.typing import FloatArray
+from holdfast.core.typing import FloatArray
 
 
 class End(IntEnum):

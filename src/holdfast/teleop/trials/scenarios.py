@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
-from holdfast.control.law import Law, by_name
-from holdfast.typing import FloatArray
+from holdfast.control.laws.law import Law, by_name
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
 
 
 @dataclass(frozen=True)

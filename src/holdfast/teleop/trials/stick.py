@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.errors import InputError
-from holdfast.typing import FloatArray
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 
 
 @dataclass(frozen=True)

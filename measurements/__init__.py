@@ -1,0 +1,1 @@
+"""Measurements of holdfast that no paper contains: one package for each subject."""

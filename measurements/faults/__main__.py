@@ -1,0 +1,69 @@
+"""The tables of sections 4, 6 and 9 of the specification on one arm, at sizes that one chooses: RECORDS-ARM.md."""
+
+from __future__ import annotations
+
+import argparse
+from datetime import datetime
+from importlib.metadata import version
+from pathlib import Path
+
+import holdfast as hf
+from measurements.faults import blind, fitting, healthy, probes, pushes, records
+from measurements.faults.store import CALIBRATED, Store
+
+HERE = Path(__file__).parent
+SIZES = {  # and what they are when nothing else is asked for
+    "robots": (20, "robots that bounds are calibrated on"),
+    "plants": (20, "other robots that are watched in healthy motion"),
+    "hours": (0.1, "of healthy motion that is watched; 0: none"),
+    "count": (20, "faults of each kind of the body"),
+    "sensors": (20, "of each kind of sensors, and clutches"),
+    "pushes": (21, "pushes, the links in turn"),
+    "blind": (4, "files of logs for the command line; 0: none"),
+    "probes": (5, "configurations of self-motions; 0: none"),
+    "fitted": (0, "robots whose masses are fitted; 0: none"),
+}
+
+
+def main() -> None:
+    """Make the tables and write them; what a run before has found is taken from the store."""
+    parser = argparse.ArgumentParser(prog="python -m measurements.faults", description=__doc__)
+    parser.add_argument("--arm", default="panda")
+    for name, (usual, what) in SIZES.items():
+        parser.add_argument(f"--{name}", type=type(usual), default=usual, help=what)
+    parser.add_argument("--store", type=Path, help="folder of what was found: resumed, and added to")
+    chosen = parser.parse_args()
+    store = Store(chosen.store, hf.arms.load(chosen.arm))
+    arm, bounds = store.arm, store.bounds(chosen.robots)
+    made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
+    options = " ".join(f"--{name} {getattr(chosen, name):g}" for name in SIZES)
+    lines = [
+        f"# Faults in simulated records, {arm.title}",
+        "",
+        f"Written by `python -m measurements.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d}; "
+        f"{made}. Everything "
+        "is **simulated**.",
+        "",
+        "Each record is of a robot of its own, whose masses and friction are up to 20 % off the model; joints swing to and fro "
+        f"at 0.25 to 0.5 rad/s, {records.LENGTH:g} s, 1000 samples a second, the tool's pose at 100 Hz (0.5 mm, 1 mrad). "
+        f"Bounds: the largest residuals of {chosen.robots} other robots, {CALIBRATED:g} s each, times {bounds.factor:g}. In "
+        f"brackets: exact 95 % intervals (Clopper and Pearson). Seeds: calibration from 0, faults {records.DRAWS} (draws) and "
+        f"from {records.SEEDS} (robots), pushes from {pushes.SEEDS}, healthy motion from {healthy.SEEDS}.",
+        "",
+        *records.table(store, bounds, chosen.robots, count=chosen.count, sensors=chosen.sensors),
+        *pushes.table(store, bounds, chosen.robots, chosen.pushes),
+    ]
+    if chosen.hours:
+        lines += healthy.section(store, bounds, chosen.robots, plants=chosen.plants, hours=chosen.hours)
+    if chosen.blind:
+        lines += blind.table(store, chosen.blind)
+    if chosen.probes:
+        lines += probes.table(store, chosen.probes)
+    if chosen.fitted:
+        lines += fitting.table(store, bounds, chosen.robots, chosen.fitted)
+    (HERE / f"RECORDS-{chosen.arm}.md").write_text("\n".join(lines), encoding="utf-8")
+    print("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

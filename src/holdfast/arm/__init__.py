@@ -1,7 +1,0 @@
-"""Model of a serial arm: joints, links, limits, tool, and gravity, with symbolic kinematics, statics, and dynamics; arms come
-from DH tables, URDF or MJCF files, or are built in.
-"""
-
-from holdfast._lazy import offer
-
-offer(__name__)

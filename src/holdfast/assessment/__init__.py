@@ -1,5 +1,0 @@
-"""Fault tolerance over a region: sample poses, solve, evaluate, and compute probabilities."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,0 +1,296 @@
+"""Jobs of a search, run one after the other or in several processes, with finished results stored on disk."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import wait as wait_for
+from threading import Thread
+from time import monotonic
+from typing import Any, Protocol
+
+import numpy as np
+
+from holdfast.certificates.tree import SearchState, StateCallback
+from holdfast.core.errors import HoldfastError
+from holdfast.core.progress import warn_now
+from holdfast.core.sweeps.memory import Parts, SearchMemory
+
+_START_TIME_DIVISOR = 4  # of the time limit, to begin with
+_TIME_SLICE_S = 2.0  # s on a part, then on the next, so that a search that is stopped has something of each
+_POLL_INTERVAL_S = 0.2  # s between looks at what other processes tell
+StopCheck = Callable[[], bool]
+
+
+class JobResult(Protocol):
+    """Result of a search job."""
+
+    @property
+    def finished(self) -> bool:
+        """True if nothing is open except the parts deferred to child jobs."""
+
+    @property
+    def state(self) -> SearchState:
+        """Proved and undecided fractions of this job itself; the parts deferred to child jobs count as neither."""
+
+    def to_arrays(self) -> Parts:
+        """Return the result as arrays for the search memory."""
+
+    def require_capacity(self) -> None:
+        """Raise an error if the job would take too many cells."""
+
+
+class RunningJob(Protocol):
+    """A started search job."""
+
+    @property
+    def job(self) -> SearchJob:
+        """The job that runs."""
+
+    @property
+    def finished(self) -> bool:
+        """True if nothing is open except the parts deferred to child jobs."""
+
+    @property
+    def state(self) -> SearchState:
+        """Current progress of the job."""
+
+    def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
+        """Continue the search until the monotonic time ``deadline``, or until ``should_stop()`` is true."""
+
+    def result(self) -> JobResult:
+        """Return the result so far."""
+
+
+class SearchJob(Protocol):
+    """A piece of a search. Its result depends on the job alone, not on the number of processes or on earlier results."""
+
+    @property
+    def name(self) -> str:
+        """Name in the search memory."""
+
+    @property
+    def claim_fraction(self) -> float:
+        """Fraction of its claim part that this job covers; weights its progress."""
+
+    def start(self, deadline: float) -> RunningJob:
+        """Start the job, with time for the setup until the monotonic time ``deadline``."""
+
+    def empty_result(self) -> JobResult:
+        """Return the result of a job that never ran."""
+
+    def from_arrays(self, arrays: Parts) -> JobResult:
+        """Rebuild a finished result from its stored arrays."""
+
+    def child_jobs(self, result: Any) -> Sequence[SearchJob]:
+        """Return the child jobs to which a result defers open parts."""
+
+    def merge(self, result: Any, child_results: Sequence[Any]) -> Any:
+        """Merge the results of the child jobs into this job's result."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SearchBudget:
+    """Time limit, processes, callbacks and memory of a search.
+
+    Attributes:
+        deadline: Until when (``monotonic``).
+        should_stop: Asked now and then; once it says True the rest is left.
+        report_state: Is told how far all is.
+        workers: Processes.
+        memory: Of a folder, or None.
+    """
+
+    deadline: float = np.inf
+    should_stop: StopCheck = lambda: False
+    report_state: StateCallback = lambda now: None
+    workers: int = 1
+    memory: SearchMemory | None = None
+
+    def run_jobs(self, jobs: Sequence[SearchJob], max_nodes: float = np.inf) -> list[Any]:
+        """Run jobs and their child jobs and return one result each; stop after ``max_nodes`` examined cells."""
+        search_pool = SearchPool(jobs, memory=self.memory, report_state=self.report_state)
+
+        def is_exhausted() -> bool:
+            return search_pool.nodes > max_nodes or self.should_stop()
+
+        if self.workers == 1:
+            search_pool.run_serial(self.deadline, is_exhausted)
+        else:
+            search_pool.run_parallel(self.workers, self.deadline, is_exhausted)
+        return [search_pool.collect_result(job) for job in jobs]
+
+
+class SearchPool:
+    """The jobs of a search and their results.
+
+    Args:
+        jobs: One for each part of it; they may leave some of it to others.
+        memory: Of a folder, or None.
+        report_state: Is told how far all is.
+
+    Attributes:
+        nodes: Cells that were looked at.
+    """
+
+    def __init__(self, jobs: Sequence[SearchJob], *, memory: SearchMemory | None = None, report_state: StateCallback) -> None:
+        self._report_state, self._memory, self._job_count = report_state, memory, len(jobs)
+        self._results, self._states = dict[str, JobResult](), dict[str, tuple[float, SearchState]]()
+        self._open_jobs, self.nodes, self._shown_warnings = list[SearchJob](), 0, set[str]()
+        for job in jobs:
+            self._enqueue_job(job)
+
+    def _enqueue_job(self, job: SearchJob) -> None:
+        """Queue a job, or reuse its result from the memory."""
+        stored = None if self._memory is None else self._memory.recall(job.name)
+        if stored is None:
+            self._open_jobs.append(job)
+        else:
+            self._record_result(job, job.from_arrays(stored))
+
+    def _record_result(self, job: SearchJob, result: JobResult) -> None:
+        """Record the result of a job and queue its child jobs."""
+        self._results[job.name] = result
+        if self._memory is not None and result.finished and self._memory.recall(job.name) is None:
+            self._memory.store(job.name, result.to_arrays())
+        self._update_state(job, result.state)
+        for child in job.child_jobs(result):
+            self._enqueue_job(child)
+
+    def _update_running(self, running: RunningJob) -> None:
+        self._update_state(running.job, running.state)
+
+    def _update_state(self, job: SearchJob, state: SearchState) -> None:
+        self._states[job.name] = job.claim_fraction, state
+        if state.warning and state.warning not in self._shown_warnings:
+            self._shown_warnings.add(state.warning)
+            warn_now(state.warning)
+        keys = ("proved", "refuted", "undecided")
+        states = self._states.values()
+        fractions = {
+            key: sum(weight * getattr(job_state, key) for weight, job_state in states) / self._job_count for key in keys
+        }
+        self.nodes = sum(job_state.nodes for _, job_state in states)
+        self._report_state(SearchState(**fractions, open=max(1 - sum(fractions.values()), 0.0), nodes=self.nodes))
+
+    def collect_result(self, job: SearchJob) -> Any:
+        """Return the result of a job merged with its child jobs; parts that were never examined are undecided."""
+        result = self._results.get(job.name)
+        return (
+            job.empty_result()
+            if result is None
+            else job.merge(result, [self.collect_result(child) for child in job.child_jobs(result)])
+        )
+
+    def run_serial(self, deadline: float, should_stop: StopCheck) -> None:
+        """Run the jobs in this process until a monotonic time or a stop request."""
+        start_deadline, running = monotonic() + (deadline - monotonic()) / _START_TIME_DIVISOR, list[RunningJob]()
+        jobs, self._open_jobs = self._open_jobs, []
+        for remaining, job in zip(range(len(jobs), 0, -1), jobs, strict=True):
+            now = monotonic()
+            started = job.start(now if should_stop() else now + (start_deadline - now) / remaining)
+            started.result().require_capacity()
+            self._update_running(started)
+            if started.finished:
+                self._record_result(job, started.result())
+            else:
+                running.append(started)
+        # What is remembered is done one after the other, so that a search that is killed has something to resume from.
+        time_slice = np.inf if self._memory is not None and np.isinf(deadline) else _TIME_SLICE_S
+        while (running or self._open_jobs) and monotonic() < deadline and not should_stop():
+            waiting, self._open_jobs = self._open_jobs, []
+            continuations: list[Callable[[float], RunningJob]] = [
+                *(partial(_return_running, running_job) for running_job in running),
+                *(job.start for job in waiting),
+            ]
+            running = []
+            for remaining, resume in zip(range(len(continuations), 0, -1), continuations, strict=True):
+                now = monotonic()
+                duration = (deadline - now) / remaining
+                work = resume(now + duration / 2)  # beginnings are whole unless time is short: what they find counts
+                work.run(min(now + duration, monotonic() + time_slice), should_stop, partial(self._update_running, work))
+                if work.finished:
+                    self._record_result(work.job, work.result())
+                else:
+                    running.append(work)
+        for running_job in running:
+            self._record_result(running_job.job, running_job.result())
+
+    def run_parallel(self, workers: int, deadline: float, should_stop: StopCheck) -> None:
+        """Run the jobs in ``workers`` other processes until a monotonic time or a stop request.
+
+        Raises:
+            InputError: A part would take too many cells.
+            HoldfastError: A process ended, perhaps for want of memory.
+        """
+        context = get_context("spawn")
+        messages, stop_event = context.SimpleQueue(), context.Event()
+        jobs_by_name = dict[str, SearchJob]()
+        with ProcessPoolExecutor(workers, context, _init_worker, (messages, stop_event)) as executor:
+            futures = dict[Future[JobResult], SearchJob]()
+            try:
+                while self._open_jobs or futures:
+                    while self._open_jobs and len(futures) < workers and not stop_event.is_set():
+                        now, job = monotonic(), self._open_jobs.pop(0)
+                        job_deadline = min(deadline, now + (deadline - now) * workers / (1 + len(self._open_jobs)))
+                        jobs_by_name[job.name], futures[executor.submit(_run_job, job, job_deadline)] = job, job
+                    if should_stop() or monotonic() > deadline:
+                        stop_event.set()
+                        self._open_jobs.clear()
+                    for future in wait(futures, _POLL_INTERVAL_S, FIRST_COMPLETED).done:
+                        result = future.result()
+                        result.require_capacity()
+                        self._record_result(futures.pop(future), result)
+                    while not messages.empty():
+                        name, state = messages.get()
+                        if name not in self._results:
+                            self._update_state(jobs_by_name[name], state)
+            except BrokenProcessPool as error:
+                raise HoldfastError(
+                    "a process of the search ended, perhaps for want of memory; what is done is kept with a store, and fewer "
+                    "workers need less"
+                ) from error
+            finally:
+                stop_event.set()
+
+
+def _return_running(running: RunningJob, deadline: float) -> RunningJob:
+    return running
+
+
+# ---- in the other processes ----------------------------------------------------------------------------------------------
+
+_worker_state: dict[str, Any] = {}
+
+
+def _init_worker(messages: Any, stop_event: Any) -> None:
+    """Set up a worker process that ignores Ctrl-C and exits when its parent process exits."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _worker_state.update(news=messages, halt=stop_event)
+    parent = parent_process()
+    if parent is not None:
+
+        def exit_with_parent() -> None:
+            wait_for([parent.sentinel])
+            os._exit(1)
+
+        Thread(target=exit_with_parent, daemon=True).start()
+
+
+def _run_job(job: SearchJob, deadline: float) -> JobResult:
+    running, last_report = job.start(deadline), [monotonic()]
+
+    def report_progress() -> None:
+        if monotonic() > last_report[0] + _POLL_INTERVAL_S:
+            last_report[0] = monotonic()
+            _worker_state["news"].put((job.name, running.state))
+
+    if not running.finished:
+        running.run(deadline, _worker_state["halt"].is_set, report_progress)
+    return running.result()

@@ -1,0 +1,300 @@
+"""Exclusion of lock instants after which no configuration has the tool at a later path position, by closed loops over boxes of
+joints.
+
+With the tool given, base, joints, tool and base again are a ring. Two points of links are as far from each other by the joints
+between them as by the others, on the way round; points on axes make these distances depend on few joints: of an arm with a
+spherical shoulder and wrist, that of the two on the elbow alone. Everything here may be wrong: the verifier decides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import combinations_with_replacement
+
+import numpy as np
+
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, Index
+from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.taylor import CertificateChain
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, Ints
+from holdfast.certificates.tool_paths.claims import PathClaim
+from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
+from holdfast.core.typing import BoolArray, FloatArray
+
+Point = tuple[int, FloatArray]  # link, and where in its frame, m
+
+_DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
+_MAX_PAIRS = 12  # pairs of points
+_MAX_SIMILAR_PAIRS = 2  # of those whose distances depend on the same joints
+# _MAX_TREE_NODES and _MAX_HALVINGS: boxes of a tree, and how often each joint is halved
+_MAX_TREE_NODES = 4000
+_MAX_HALVINGS = 16
+_PATH_SAMPLES = 8  # on the path, where the tool is looked for
+# _RANDOM_STARTS, _NEWTON_STEPS and _TARGET_TOLERANCE: of Newton's method; m and rad
+_RANDOM_STARTS = 40
+_NEWTON_STEPS = 25
+_TARGET_TOLERANCE = 1e-8
+_RANDOM_SEED = 15
+
+
+@dataclass(frozen=True, eq=False)
+class RefutedInterval:
+    """A refuted interval of lock instants.
+
+    Attributes:
+        begin, stop: From when to when, in one segment.
+        path_instant: Where on the path, as an instant, no configuration has the tool.
+        tree: Of boxes of the joints, each with the pair of points that excludes it.
+    """
+
+    begin: int
+    stop: int
+    path_instant: int
+    tree: bytes
+
+
+@dataclass(frozen=True, eq=False)
+class _LoopBranch:
+    """A branch of a loop: from one point to another through some joints.
+
+    Attributes:
+        segment: The joints, and the point behind them.
+        joints: Which of the arm's.
+        start: (3,) m, the point before them.
+        moves: Which of them move one away from the other.
+    """
+
+    segment: ChainSegment
+    joints: Ints
+    start: FloatArray
+    moves: BoolArray
+
+    @classmethod
+    def from_loop(cls, loop: CertificateChain, first: int, last: int, start: FloatArray, end: FloatArray) -> _LoopBranch:
+        """Cut successive joints out of a loop."""
+        segment = ChainSegment.from_chain(loop, first, last, end)
+        return cls(
+            segment,
+            np.arange(first, last) % (len(loop.lengths) // 2),
+            start,
+            np.arange(last - first) >= segment.count_axes_through(start),
+        )
+
+    def bound_distance(self, middle: FloatArray, half: FloatArray, farthest: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Bound the least or greatest distance over boxes of all joints; return the bound, the distance of the middles, and
+        each joint's cost (N, n).
+        """
+        count, joint_costs = len(middle), np.zeros(middle.shape)
+        if not len(self.joints):
+            distance = np.full(count, np.linalg.norm(self.segment.end - self.start))
+            return distance, distance, joint_costs
+        q, half_range = middle[:, self.joints], half[:, self.joints] * self.moves
+        starts, zeros = np.broadcast_to(self.start, (count, 3)), np.zeros((count, 3))
+        bound, center_distance, costs = (self.segment.bound_distance_above if farthest else self.segment.bound_distance_below)(
+            q, half_range, starts, zeros
+        )
+        if farthest:
+            costs = costs / np.maximum(center_distance, 1e-9)[:, None]
+        joint_costs[:, self.joints] = costs[:, : len(self.joints)]
+        return bound, center_distance, joint_costs
+
+
+class ClosureExclusion:
+    """The search for refuted lock instants of one joint.
+
+    Args:
+        enclosure: The arm with this joint locked, all others free.
+        uses_rotation: Whether the rotation of the tool is given as well.
+        planar: Whether all of it happens in the plane.
+    """
+
+    def __init__(self, enclosure: LockedTrackingEnclosure, uses_rotation: bool, planar: bool) -> None:
+        self._enclosure, self._uses_rotation, chain = enclosure, uses_rotation, enclosure.chain
+        self._chain = replace(chain, origins=chain.origins * np.array([1, 1, not planar]))
+        self._joint, self._limits, half_turn = enclosure.driven[0], enclosure.limits.copy(), np.nextafter(np.pi, 4)
+        self._limits[~chain.slides & (self._limits[:, 1] - self._limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
+        self._path_end, self._plane_mask = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS, np.array([1, 1, not planar])
+        self._rng = np.random.default_rng(_RANDOM_SEED)
+        self.points, self.pairs = self._choose_pairs()
+        self._last_position = self._path_end
+
+    def _choose_pairs(self) -> tuple[list[Point], list[tuple[int, int]]]:
+        """Choose points of links, and pairs of them whose distances depend on few joints."""
+        chain, n = self._chain, self._enclosure.n
+        axis_points = find_axis_points(chain, self._limits, self._rng)
+        scale = float(chain.lengths.mean())
+        points = (
+            [*axis_points, *((link, position + scale * chain.rotations[link][:, 2]) for link, position in axis_points)]
+            if self._uses_rotation
+            else axis_points
+        )
+        points = [*sorted(points, key=lambda point: point[0]), (n, chain.origins[-1])]
+        q = self._rng.uniform(self._limits[:, 0], self._limits[:, 1], (8, n))
+        candidates = list[tuple[int, bytes, tuple[int, int]]]()
+        for i, j in combinations_with_replacement(range(len(points)), 2):
+            if not self._uses_rotation and j + 1 < len(points):
+                continue
+            branches, depends_on = self._split_loop(self._path_end, points, (i, j)), np.zeros(n, dtype=bool)
+            for branch in branches:
+                tip, _, columns = branch.segment.differentiate_point(q[:, branch.joints])
+                changes = np.abs(np.einsum("na,nka->nk", tip - branch.start, columns)).max(axis=0) > 1e-9
+                depends_on[branch.joints] |= changes | ((i == j) & (np.abs(columns).max(axis=(0, 2)) > 1e-9))
+            if depends_on.any():
+                candidates.append((int(depends_on.sum()), depends_on.tobytes(), (i, j)))
+        pairs, seen = list[tuple[int, int]](), list[bytes]()
+        for _, signature, pair in sorted(candidates, key=lambda candidate: (candidate[0], candidate[1])):
+            if seen.count(signature) < _MAX_SIMILAR_PAIRS and len(pairs) < _MAX_PAIRS:
+                seen.append(signature)
+                pairs.append(pair)
+        return points, pairs
+
+    def _split_loop(self, path_instant: int, points: list[Point], pair: tuple[int, int]) -> tuple[_LoopBranch, _LoopBranch]:
+        """Return the branch of the joints between two points, and the branch through the tool, which is fixed at a path
+        instant.
+        """
+        chain, n, ((first, a), (last, b)) = self._chain, self._enclosure.n, (points[index] for index in pair)
+        position, rotation = (
+            values[0]
+            for values in self._enclosure.compute_tool_state(
+                self._enclosure.interpolate_healthy(np.array([2 * path_instant]), np.array([path_instant]))[0]
+            )[:2]
+        )
+        base_rotation = chain.rotations[n] @ rotation.T
+        base_origin = chain.origins[n] - base_rotation @ (position * self._plane_mask)
+        rotations = np.concatenate([chain.rotations[:n], [base_rotation @ chain.rotations[0]], chain.rotations[1:]])
+        origins = np.concatenate([chain.origins[:n], [base_origin + base_rotation @ chain.origins[0]], chain.origins[1:]])
+        loop = CertificateChain(rotations, origins, np.tile(chain.lengths, 2), np.tile(chain.slides, 2))
+        return _LoopBranch.from_loop(loop, first, last, a, b), _LoopBranch.from_loop(
+            loop, last, n + first, b, a if first else base_origin + base_rotation @ a
+        )
+
+    def refute_instants(self, begin: int, stop: int) -> tuple[RefutedInterval | None, bool, int]:
+        """Try to refute the lock instants of one segment; return the interval or None, whether parts of it may be refuted, and
+        the number of examined boxes.
+        """
+        locks, may_split = np.array([begin, (begin + stop) // 2, stop]), False
+        for path_instant in dict.fromkeys(
+            [
+                self._last_position,
+                *np.linspace(self._path_end, -(-stop // SEGMENT_INSTANTS) * SEGMENT_INSTANTS, _PATH_SAMPLES, dtype=np.int64),
+            ]
+        ):
+            position = int(path_instant) // SEGMENT_INSTANTS * SEGMENT_INSTANTS
+            if position < stop:
+                continue
+            has_solution = self._find_solvable(locks, position)
+            may_split |= not has_solution.all()
+            if not has_solution.any():
+                self._last_position = position
+                halving, is_excluded = self._exclude_joints(begin, stop, position)
+                return (
+                    (RefutedInterval(begin, stop, position, halving.to_preorder()) if is_excluded else None),
+                    True,
+                    halving.tested,
+                )
+        return None, may_split, 0
+
+    def _find_solvable(self, locks: Ints, path_instant: int) -> BoolArray:
+        """Return a mask of locks for which Newton's method finds configurations within the limits with the tool at a path
+        instant.
+        """
+        enclosure, (lower, upper), count = self._enclosure, self._limits.T, len(locks)
+        lock_q, goal_q = (
+            enclosure.interpolate_healthy(2 * instants, np.maximum(instants, 1))[0]
+            for instants in (locks, np.array([path_instant]))
+        )
+        q = self._rng.uniform(lower, upper, (count, _RANDOM_STARTS, enclosure.n))
+        q[:, 0], q[:, 1] = lock_q, goal_q
+        q[:, :, self._joint] = lock_q[:, [self._joint]]
+        q, target = q.reshape(-1, enclosure.n), enclosure.compute_tool_state(goal_q)
+        for _ in range(_NEWTON_STEPS):
+            error, jacobian = enclosure.compute_tracking_error(enclosure.compute_tool_state(q), target)
+            free_jacobian = jacobian[:, :, enclosure.free]
+            gram = free_jacobian @ free_jacobian.transpose(0, 2, 1) + 1e-9 * np.eye(enclosure.m)
+            q[:, enclosure.free] -= np.clip(
+                (free_jacobian.transpose(0, 2, 1) @ np.linalg.solve(gram, error[:, :, None]))[:, :, 0], -0.4, 0.4
+            )
+        # Nearest to the middles of the limits, of all that are the same.
+        q -= (
+            2
+            * np.pi
+            * np.round((q - (lower + upper) / 2) / (2 * np.pi))
+            * ([joint in enclosure.free for joint in range(enclosure.n)] & ~enclosure.slides)
+        )
+        tool_state = enclosure.compute_tool_state(q)
+        is_solved = (np.abs(enclosure.compute_tracking_error(tool_state, target)[0]) < _TARGET_TOLERANCE).all(axis=1) & (
+            (q >= lower) & (q <= upper)
+        )[:, enclosure.free].all(axis=1)
+        if enclosure.uses_rotation:
+            is_solved &= enclosure.compute_rotation_trace(tool_state, target) > 1
+        return np.asarray(is_solved.reshape(count, -1).any(axis=1))
+
+    def _exclude_joints(self, begin: int, stop: int, path_instant: int) -> tuple[Halving, bool]:
+        """Bisect the ranges of all joints, the locked one between two instants; return the bisection and whether each box is
+        excluded.
+        """
+        box = self._limits.copy()
+        box[self._joint] = np.sort(
+            self._enclosure.interpolate_healthy(np.array([2 * begin, 2 * stop]), np.array([stop]))[0][:, self._joint]
+        )
+        halving = Halving(box, _MAX_HALVINGS)
+        test = _LoopExclusionTest([self._split_loop(path_instant, self.points, pair) for pair in self.pairs])
+        return halving, halving.run(test, max_nodes=_MAX_TREE_NODES) and halving.undecided == 0
+
+
+def make_closure_exclusion(claim: PathClaim, joint: int) -> ClosureExclusion | None:
+    """Make the loop closure test for a joint; None for an arm with unlimited slides, or one that leaves the plane
+    of its task.
+    """
+    chain, limits = CertificateChain.from_arm(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
+    planar = claim.task.startswith("planar")
+    endless = claim.arm.prismatic & ~np.isfinite(limits).all(axis=1)
+    in_plane = not chain.slides.any() and (np.abs(chain.rotations[:, 2, 2]) == 1).all()
+    if endless.any() or (planar and not in_plane):
+        return None
+    enclosure = LockedTrackingEnclosure(
+        chain, claim.knots, claim.task, driven=[joint], tube=np.empty(0), limits=limits, slides=claim.arm.prismatic
+    )
+    return ClosureExclusion(enclosure, "pose" in claim.task, planar)
+
+
+class _LoopExclusionTest:
+    """Test that excludes boxes of joints by a pair of points whose two branches cannot close the loop."""
+
+    def __init__(self, pairs: list[tuple[_LoopBranch, _LoopBranch]]) -> None:
+        self._pairs = pairs
+
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
+        """Return the tokens of boxes and the gain of halving each joint."""
+        tokens, best_ratios, gain = (
+            np.full(len(middle), OPEN_TOKEN, dtype=np.int64),
+            np.full(len(middle), -np.inf),
+            np.zeros(half.shape),
+        )
+        for token, branches in enumerate(self._pairs):
+            rows = np.flatnonzero(tokens == OPEN_TOKEN)
+            if not rows.size:
+                break
+            distances = [
+                np.linalg.norm(branch.segment.differentiate_point(middle[rows][:, branch.joints])[0] - branch.start, axis=1)
+                for branch in branches
+            ]
+            for longer, shorter, mask in ((0, 1, distances[0] >= distances[1]), (1, 0, distances[0] < distances[1])):
+                chosen = rows[mask]
+                if not chosen.size:
+                    continue
+                lower, longer_center, longer_costs = branches[longer].bound_distance(
+                    middle[chosen], half[chosen], farthest=False
+                )
+                upper, shorter_center, shorter_costs = branches[shorter].bound_distance(
+                    middle[chosen], half[chosen], farthest=True
+                )
+                margins, center_margins = lower - upper, longer_center - shorter_center
+                tokens[chosen[margins > _DISTANCE_MARGIN_M]] = token
+                ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
+                improved = ratios > best_ratios[chosen]
+                best_ratios[chosen[improved]], gain[chosen[improved]] = (
+                    ratios[improved],
+                    (longer_costs + shorter_costs)[improved],
+                )
+        return tokens, gain

@@ -1,0 +1,172 @@
+"""Choice of the control law that reaches the target most often after a failure: several laws on the same failures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.control.convergence.maps import ConvergenceMap, average_fraction, convergence_map
+from holdfast.control.convergence.places import Places
+from holdfast.control.laws.law import Law
+from holdfast.core.errors import InputError
+from holdfast.core.probability.intervals import Difference, Interval, check_confidence
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+
+
+@dataclass(frozen=True, eq=False)
+class LawChoice(Result):
+    """Laws on the same failures: the same starts, targets and locked joints.
+
+    Attributes:
+        names: Of the laws.
+        maps: What happened, a :class:`holdfast.ConvergenceMap` each.
+    """
+
+    names: tuple[str, ...]
+    maps: tuple[ConvergenceMap, ...]
+
+    def map_of(self, name: str) -> ConvergenceMap:
+        """Return the convergence map of one law.
+
+        Raises:
+            InputError: No such law.
+        """
+        if name not in self.names:
+            raise InputError(f"there is no law '{name}'; there are {', '.join(self.names)}")
+        return self.maps[self.names.index(name)]
+
+    def share(
+        self, name: str, joint: str | int | None = None, confidence: float = 0.95, *, outcome: str = "converged"
+    ) -> Interval:
+        """Return the fraction of the failures after which the arm converges under a law, for one joint or for all joints alike.
+
+        Args:
+            name: Of the law.
+            joint: By name or index from 0; None: all alike.
+            confidence: Of the interval.
+            outcome: Another one of :meth:`holdfast.ConvergenceMap.has_outcome`; in a cell ``touched``: something is touched on
+                the way.
+
+        Raises:
+            InputError: No such law, joint or outcome.
+        """
+        check_confidence(confidence)
+        law_map = self.map_of(name)
+        motion_count = int(law_map.has_configuration.sum(axis=1).max(initial=0)) * (law_map.law.arm.n if joint is None else 1)
+        return average_fraction(self._fractions_by_place(name, joint, outcome), motion_count, confidence)
+
+    def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
+        """Return how much more often one law converges than another, on the same failures.
+
+        The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
+        (:meth:`holdfast.core.probability.Difference.of_fractions`).
+
+        Raises:
+            InputError: No such law or joint, or no place with a motion.
+        """
+        check_confidence(confidence)
+        differences = self._fractions_by_place(name, joint) - self._fractions_by_place(other, joint)
+        differences = differences[~np.isnan(differences)]
+        if not differences.size:
+            raise InputError("no place has a motion; choose places within reach")
+        return Difference.of_fractions(differences, confidence)
+
+    @property
+    def ranking(self) -> list[str]:
+        """Names of the laws by the fraction of failures after which the target is reached, the largest first."""
+        return sorted(self.names, key=lambda name: -float(np.nanmean(self._fractions_by_place(name, None))))
+
+    @property
+    def best(self) -> str:
+        """The first of the ranking; :meth:`difference` returns its certainty."""
+        return self.ranking[0]
+
+    def describe(self) -> list[str]:
+        """Return the ranking of the laws in a few sentences."""
+        first_map, best = self.maps[0], self.best
+        lines = [
+            f"{len(self.names)} laws on {first_map.law.arm.title}, task {first_map.law.task.describe()}: the same "
+            f"{int(first_map.has_configuration.sum()) * first_map.law.arm.n} failures, "
+            f"{int(first_map.has_configuration.any(axis=1).sum())} "
+            f"{first_map.over}"
+        ]
+        for name in self.ranking:
+            converged = self.share(name)
+            line = (
+                f"{name}: converges after {100 * converged.value:.1f} % of the failures ({100 * converged.low:.1f} to "
+                f"{100 * converged.high:.1f} %)"
+            )
+            if name != best:
+                difference = self.difference(name, best)
+                line += (
+                    f", {100 * difference.value:+.1f} points against the best ({100 * difference.low:+.1f} to "
+                    f"{100 * difference.high:+.1f})"
+                )
+            if first_map.touched is not None:
+                line += f"; something is touched on the way in {100 * self.share(name, outcome='touched').value:.1f} % at most"
+            lines.append(line)
+        return lines
+
+    def _fractions_by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> FloatArray:
+        law_map = self.map_of(name)
+        values = law_map.values(outcome)[:, :-1]
+        return values.mean(axis=1) if joint is None else values[:, law_map.law.arm.joint_index(joint)]
+
+
+@check_arguments
+@reports_progress("simulating failures")
+def best_law(
+    laws: Mapping[str, Law] | Sequence[Law],
+    targets: ArrayLike | str | int | Places,
+    starts: ArrayLike | str | int | Places = 300,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> LawChoice:
+    """Choose the law that most often reaches the target with a locked joint of which the controller has no information.
+
+    Every law meets the same failures: :func:`holdfast.convergence_map` with the same places, configurations and seed. To
+    find the best pre-failure error, give the failure-tolerant law with several.
+
+    Args:
+        laws: Two or more of one arm and task, by name; a sequence is named by :meth:`holdfast.control.laws.Law.phrase`, without
+            the task.
+        targets: As for :func:`holdfast.convergence_map`.
+        starts: Likewise.
+        progress: Called with (runs done, runs in all).
+        options: Everything else that :func:`holdfast.convergence_map` takes; with ``cell`` it is said how often each law leads
+            into something, which does not change the ranking.
+
+    Raises:
+        InputError: Fewer than two laws, laws of different arms or tasks, or as :func:`holdfast.convergence_map`.
+    """
+    law_by_name = dict(laws) if isinstance(laws, Mapping) else {_label_law(law): law for law in laws}
+    if len(law_by_name) < 2 or len(law_by_name) != len(laws):
+        raise InputError(
+            f"there are {len(law_by_name)} different laws; give two or more, or name them yourself: {{'a': law, ...}}"
+        )
+    first_law = next(iter(law_by_name.values()))
+    for name, law in law_by_name.items():
+        if law.arm.fingerprint != first_law.arm.fingerprint or not law.task.same_rows(first_law.task):
+            raise InputError(f"the law '{name}' has another arm or task than the first; compare laws of one arm and task")
+
+    maps = []
+    for number, law in enumerate(law_by_name.values()):
+        law_progress = None if progress is None else _shift_progress(progress, number, len(law_by_name))
+        maps.append(convergence_map(law, targets, starts, progress=law_progress, **options))
+    return LawChoice(tuple(law_by_name), tuple(maps))
+
+
+def _label_law(law: Law) -> str:
+    return law.phrase().replace(f", task {law.task.describe()}", "")
+
+
+def _shift_progress(progress: Callable[[int, int], None], number: int, law_count: int) -> Callable[[int, int], None]:
+    return lambda done, total: progress(number * total + done, law_count * total)

@@ -1,0 +1,353 @@
+"""Maps of the outcomes of failed arms, by sampling, for any arm and task, over the positions of starts or of targets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.control.convergence.places import Places, pick_configurations, read_places
+from holdfast.control.laws.law import Law
+from holdfast.control.simulation.closed_loop import simulate
+from holdfast.control.simulation.runs import UNDECIDED_REASONS, Reason, RunOutcome
+from holdfast.core.errors import InputError
+from holdfast.core.probability.intervals import Interval, check_confidence
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.kinematics.solvers.inverse_kinematics import solver
+from holdfast.model.arm.configurations import as_configurations
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Over = Literal["starts", "targets"]
+Progress = Callable[[int, int], None]
+
+TIME_CONSTANTS = 500.0  # 1/Ke
+RUN_TOLERANCE = 1e-8
+NO_CONFIGURATION = 255  # no configuration was found there
+REACH_RESTARTS = 20  # starts that look for the target with the joint locked
+REACH_TOLERANCE = 1e-4  # m and rad
+_SLICE_RUNS = 1 << 16  # runs side by side; no result depends on it
+_BY_LOCK = ("code", "reason", "in_reach", "limits_passed")
+_OUTCOME_BY_NAME = {o.name.lower(): o for o in RunOutcome}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ConvergenceMap(Result):
+    """Outcomes of P x C motions with each joint locked from the start, and with none locked in the last column.
+
+    Attributes:
+        law: The law of the controller.
+        places: The P places of the map, a :class:`holdfast.control.convergence.Places`.
+        over: Whether these are the ``starts`` or the ``targets`` of the motions.
+        q0: (P, C, n) configurations at the start, rad and m; NaN where none was found.
+        target: (P, C, 4, 4) tool poses.
+        code: (P, C, n + 1) :class:`holdfast.control.simulation.RunOutcome`, 255 where there was no configuration.
+        reason: (P, C, n + 1) :class:`holdfast.control.simulation.Reason`: why a run is undecided.
+        in_reach: (P, C, n + 1) True where the end effector reached the target, or could within the limits with the joint locked
+            as it does: a configuration was found.
+        limits_passed: (P, C, n + 1) True where a joint left its limits on the way; the motion does not heed them.
+        seed: Of places, configurations and targets.
+        clearance: What the runs were looked at for touching, or None: nobody looked. It changes no run.
+        touched: (P, C, n + 1) True where the arm touches something on the way, at most: distances are bounds; None if nobody
+            looked.
+    """
+
+    law: Law
+    places: Places
+    over: Over
+    q0: FloatArray
+    target: FloatArray
+    code: NDArray[np.uint8]
+    reason: NDArray[np.uint8]
+    in_reach: BoolArray
+    limits_passed: BoolArray
+    seed: int
+    clearance: Clearance | None = None
+    touched: BoolArray | None = None
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Locked joints by name, and ``none``."""
+        return (*self.law.arm.joint_names, "none")
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Words that :meth:`has_outcome` accepts: ``converged`` and so on."""
+        return (*_OUTCOME_BY_NAME, "in_reach", "trapped", *(() if self.touched is None else ("touched",)))
+
+    @property
+    def has_configuration(self) -> BoolArray:
+        """(P, C) array that is True where there was a configuration to start from."""
+        return np.asarray(self.code[..., 0] != NO_CONFIGURATION)
+
+    def has_outcome(self, outcome: str) -> BoolArray:
+        """Return (P, C, n + 1) True where a run ended so.
+
+        Args:
+            outcome: ``converged``, ``stuck``, ``moving`` or ``count_undecided``; ``in_reach``: it converged, or could have;
+                ``trapped``: it did not converge although the target was in reach; or, where somebody looked, ``touched``.
+
+        Raises:
+            InputError: Another word.
+        """
+        if outcome == "touched" and self.touched is not None:
+            return self.touched
+        if outcome == "trapped":
+            return np.asarray(self.has_configuration[..., None] & (self.code != RunOutcome.CONVERGED) & self.in_reach)
+        if outcome == "in_reach":
+            return self.in_reach
+        if outcome not in _OUTCOME_BY_NAME:
+            raise InputError(f"outcome '{outcome}' is not known; use {', '.join(self.words)}")
+        return np.asarray(self.code == _OUTCOME_BY_NAME[outcome])
+
+    def values(self, outcome: str = "converged") -> FloatArray:
+        """Return (P, n + 1) the fraction of the motions of each place that ended so; NaN where there are none."""
+        motion_counts = self.has_configuration.sum(axis=1)
+        with np.errstate(invalid="ignore"):
+            return np.asarray(
+                self.has_outcome(outcome).sum(axis=1) / np.where(motion_counts > 0, motion_counts, np.nan)[:, None]
+            )
+
+    def shares(self, outcome: str = "converged", confidence: float = 0.95) -> dict[str, Interval]:
+        """Return the fraction of the places' motions that ended so, for each locked joint by name and for ``none``.
+
+        Every place counts alike. The motions of one place resemble each other, so the unit is the place: with one motion each
+        the interval is that of a share (:meth:`holdfast.core.probability.Interval.from_counts`), with several that of a mean of
+        fractions (:meth:`holdfast.core.probability.Interval.of_fractions`). Both always cover, for places that are a random
+        sample.
+        """
+        check_confidence(confidence)
+        values, motions_per_place = self.values(outcome), int(self.has_configuration.sum(axis=1).max(initial=0))
+        return {
+            name: average_fraction(values[:, column], motions_per_place, confidence) for column, name in enumerate(self.columns)
+        }
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the start, the target, and the outcome with each joint locked of each motion from or to each place."""
+        dimensions = ("place", "motion")
+        names = (*_BY_LOCK, *(() if self.touched is None else ("touched",)))
+        values: dict[str, Any] = {name: ((*dimensions, "locked"), getattr(self, name)) for name in names}
+        values |= {"q0": ((*dimensions, "joint"), self.q0), "target": ((*dimensions, "row", "column"), self.target)}
+        return self.places.dataset(values, locked=self.columns, joint=self.law.arm.joint_names)
+
+    def describe(self) -> list[str]:
+        """Return the outcomes of the motions in a few sentences."""
+        runs = int(self.has_configuration.sum())
+        lines = [
+            f"{self.law.describe()} on {self.law.arm.title}: {int(self.has_configuration.any(axis=1).sum())} of "
+            f"{len(self.places)} "
+            f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
+        ]
+        if runs:
+            converged, trapped = self.shares("converged"), self.shares("trapped")
+            worst_joint = min(self.columns[:-1], key=lambda worst_joint: converged[worst_joint].value)
+            worst = converged[worst_joint]
+            lines.append(
+                f"with {worst_joint} locked fewest converge: {100 * worst.value:.1f} % (95 % interval {100 * worst.low:.1f} to "
+                f"{100 * worst.high:.1f} %); {100 * trapped[worst_joint].value:.1f} % do not, though the target is in reach"
+            )
+        counts = self.count_undecided()
+        if sum(counts.values()):
+            count_text = ", ".join(f"{count} {worst_joint.replace('_', ' ')}" for worst_joint, count in counts.items() if count)
+            lines.append(f"undecided runs: {count_text}")
+        return lines
+
+    def count_undecided(self) -> dict[str, int]:
+        """Return the number of undecided runs, by the name of the :class:`holdfast.control.simulation.Reason` in lower case."""
+        return {cause.name.lower(): int((self.reason == cause).sum()) for cause in UNDECIDED_REASONS}
+
+
+def average_fraction(values: FloatArray, motions_per_place: int, confidence: float) -> Interval:
+    """Return the mean of the fractions (P,) of independent places, NaN excluded, with its interval; of one or several motions
+    each.
+
+    Raises:
+        InputError: No place has a share.
+    """
+    values = values[~np.isnan(values)]
+    if not values.size:
+        raise InputError("no configuration was found at any place, so there are no shares; choose places within reach")
+    if motions_per_place == 1:
+        return Interval.from_counts(int(values.sum()), values.size, confidence)
+    return Interval.of_fractions(values, confidence)
+
+
+@check_arguments
+@reports_progress("simulating failures")
+def convergence_map(
+    law: Law,
+    targets: ArrayLike | str | int | Places,
+    starts: ArrayLike | str | int | Places = 1000,
+    *,
+    configurations: int = 20,
+    over: Over = "starts",
+    q0: ArrayLike | None = None,
+    time_limit: float | None = None,
+    tolerance: float = RUN_TOLERANCE,
+    seed: int = 0,
+    progress: Progress | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+) -> ConvergenceMap:
+    """Map the outcomes of motions with each joint locked from the start, of which the controller has no information.
+
+    Over ``starts``: from every place the arm starts in ``configurations`` configurations (with one degree of redundancy
+    picked at random from points equally far apart on its self-motion, else random ones), towards the target, or one of the
+    targets at random. Over ``targets``: towards every place it starts from ``configurations`` configurations picked at
+    random from those of the starts, or from ``q0`` (all of them where they are fewer). Each motion is simulated with each
+    joint locked, and with none.
+
+    Args:
+        law: The control law; of any arm, task and redundancy.
+        targets: Where the end effector should go: one position (m,) or pose (4, 4), several, a number of random ones (the end
+            effector's places at random configurations within the limits), or ``"grid:52"``, see :func:`holdfast.workspace`.
+        starts: Where the end effector is when the joint locks, in the same forms.
+        configurations: Motions for each place.
+        over: Which of the two is the map.
+        q0: (n,) or (Q, n) configurations to start from, in place of ``starts``; only over targets.
+        time_limit: s; 500/Ke if not given.
+        tolerance: Of the simulation's steps, rad.
+        seed: Of everything random.
+        progress: Called with (runs done, runs in all).
+        clearance: As for :func:`holdfast.control.simulation.simulate`, and so ``cell``: every run is looked at, one after the
+            other, for what it touches; that changes none, and takes longer than the runs themselves.
+        cell: Objects around the arm, or their file.
+
+    Raises:
+        InputError: Wrong shapes or options.
+        TaskError: A lattice for a task that has none.
+
+    Source: the question is that of Goel, Maciejewski, Balakrishnan 2005; maps by sampling are ours.
+    """
+    if over not in ("starts", "targets"):
+        raise InputError(f"over '{over}' is not known; use starts or targets")
+    if configurations < 1:
+        raise InputError(f"configurations is {configurations}; it must be 1 or more")
+    if q0 is not None and over == "starts":
+        raise InputError("q0 are fixed starts, so the map is one over='targets'; or leave out q0")
+    arm, task = law.arm, law.task
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    target_generator, start_generator, choice_generator = (
+        np.random.default_rng(child_seed) for child_seed in np.random.SeedSequence(seed).spawn(3)
+    )
+    goals = read_places(arm, task, targets, target_generator)
+    if over == "starts":
+        places = read_places(arm, task, starts, start_generator)
+        q = _pick_configurations(law, places, configurations, seed, choice_generator)
+        target = goals.poses[choice_generator.integers(0, len(goals), q.shape[:2])]
+    else:
+        places = goals
+        if q0 is None:
+            start_places = read_places(arm, task, starts, start_generator)
+            start_pool = _pick_configurations(law, start_places, configurations, seed, choice_generator).reshape(-1, arm.n)
+            start_pool = start_pool[np.isfinite(start_pool).all(axis=1)]
+        else:
+            start_pool = as_configurations(arm, q0)[0]
+        if not len(start_pool) or not np.isfinite(start_pool).all():
+            raise InputError("there is no configuration to start from; choose starts within reach, or finite q0")
+        # Few are all used, and none twice.
+        motion_count = min(configurations, len(start_pool))
+        chosen_rows = np.argsort(choice_generator.random((len(places), len(start_pool))), axis=1)[:, :motion_count]
+        q = start_pool[chosen_rows]
+        target = np.broadcast_to(places.poses[:, None], (*q.shape[:2], 4, 4))
+    code, reason, in_reach, limits_passed, touched = _simulate_motions(
+        law, q, target, time_limit, tolerance, seed, progress, checked_clearance
+    )
+    return ConvergenceMap(
+        law=law,
+        places=places,
+        over=over,
+        q0=q,
+        target=np.asarray(target),
+        code=code,
+        reason=reason,
+        in_reach=in_reach,
+        limits_passed=limits_passed,
+        seed=seed,
+        clearance=checked_clearance,
+        touched=None if checked_clearance is None else touched,
+    )
+
+
+def _pick_configurations(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> FloatArray:
+    """Return (P, count, n) configurations of places, NaN where there are none."""
+    q = np.full((len(places), count, law.arm.n), np.nan)
+    owner, rank, configurations = pick_configurations(law.arm, law.task, places.poses, count, seed, generator)
+    q[owner, rank] = configurations
+    return q
+
+
+def _simulate_motions(
+    law: Law,
+    q: FloatArray,
+    target: FloatArray,
+    time_limit: float | None,
+    tolerance: float,
+    seed: int,
+    progress: Progress | None,
+    clearance: Clearance | None,
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], BoolArray, BoolArray, BoolArray]:
+    """Return codes, reasons, and whether the target was in reach, limits were passed, and contacts occurred, (P, C, n + 1)
+    each.
+    """
+    n = law.arm.n
+    run_limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
+    is_known = np.isfinite(q).all(axis=-1)
+    start, pose = np.repeat(q[is_known], n + 1, axis=0), np.repeat(target[is_known], n + 1, axis=0)
+    locked = np.tile([*range(n), -1], int(is_known.sum()))
+    code, reason = (np.zeros(len(locked), dtype=np.uint8) for _ in range(2))
+    passed, in_reach, touched = (np.zeros(len(locked), dtype=bool) for _ in range(3))
+    for first in range(0, len(locked), _SLICE_RUNS):
+        rows = slice(first, first + _SLICE_RUNS)
+        options: dict[str, Any] = {"time_limit": run_limit, "tolerance": tolerance, "clearance": clearance}
+        runs = simulate(law, start[rows], pose[rows], locked=locked[rows], **options)
+        touched[rows] = [contact is not None for contact in runs.first_contacts]
+        code[rows], reason[rows], passed[rows] = runs.code, runs.reason, runs.limits_passed.any(axis=1)
+        in_reach[rows] = _is_in_reach(law, runs.code, start[rows], pose[rows], locked[rows], seed)
+        if progress is not None:
+            progress(min(first + _SLICE_RUNS, len(locked)), len(locked))
+    shape = (*is_known.shape, n + 1)
+    results: list[Any] = []
+    for values, fill_value in (
+        (code, NO_CONFIGURATION),
+        (reason, Reason.NONE),
+        (in_reach, False),
+        (passed, False),
+        (touched, False),
+    ):
+        result = np.full(shape, fill_value, dtype=values.dtype)
+        result[is_known] = values.reshape(-1, n + 1)
+        results.append(result)
+    return results[0], results[1], results[2], results[3], results[4]
+
+
+def _is_in_reach(
+    law: Law, code: NDArray[np.uint8], q: FloatArray, pose: FloatArray, locked: NDArray[np.int64], seed: int
+) -> BoolArray:
+    """Return (N,) True where the target was reached, or a configuration on it is found with the joint locked."""
+    is_found = np.asarray(code == RunOutcome.CONVERGED)
+    engine = solver(law.arm.without_idle_limits, law.task)
+    open_rows = np.flatnonzero(~is_found)
+    locked_rows = open_rows[locked[open_rows] >= 0]
+    joints = locked[locked_rows]
+    if locked_rows.size:
+        angles = q[locked_rows, joints]
+        source = np.random.SeedSequence([seed, 1])
+        is_found[locked_rows] = engine.reaches_locked(
+            pose[locked_rows], joints, angles, source, REACH_RESTARTS, REACH_TOLERANCE
+        )
+    healthy = open_rows[locked[open_rows] < 0]
+    if healthy.size:
+        is_found[healthy] = engine.solve(
+            pose[healthy], np.random.SeedSequence([seed, 2]), REACH_RESTARTS, REACH_TOLERANCE
+        ).success
+    return is_found

@@ -1,0 +1,226 @@
+"""Tool positions from which, or to which, an arm moves: lattices, lists, and random ones; and configurations there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.core.errors import InputError, TaskError
+from holdfast.core.labels import is_count
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.curve_tracing import CURVE_TOLERANCE, Component
+from holdfast.kinematics.solvers.inverse_kinematics import solver
+from holdfast.kinematics.solvers.self_motions import fibres
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import check_poses
+from holdfast.model.arm.task import Task
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from holdfast.kinematics.solvers.self_motions import SelfMotion
+
+Index = NDArray[np.intp]
+
+LATTICE_POINTS = 52  # points along an edge: 2032 inside the circle
+# _CURVE_SPACING_RAD and _SEED_STARTS: of traced self-motions, rad, and starts of inverse kinematics for each place
+_CURVE_SPACING_RAD = 0.1
+_SEED_STARTS = 48
+_TRIES_PER_CONFIGURATION = 8  # random starts of inverse kinematics for each configuration that is wanted
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Poses of the tool from which, or to which, an arm moves.
+
+    Attributes:
+        poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
+        cells: (P, 2) column and row of each place in a lattice, from 0; None if they are not a lattice.
+        axes: Coordinates (C,) of the columns and rows of the lattice along the task's two rows, m; None likewise.
+    """
+
+    poses: FloatArray
+    cells: Index | None = None
+    axes: tuple[FloatArray, FloatArray] | None = None
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    @property
+    def points(self) -> FloatArray:
+        """(P, 3) tool points in the world, m."""
+        return self.poses[:, :3, 3]
+
+    def dataset(self, values: Mapping[str, Any], **names: Sequence[str]) -> xr.Dataset:
+        """Return values over the dimension ``place``, with the tool points as coordinates x, y, and z, m, and names
+        of others.
+        """
+        import xarray as xr
+
+        points = {axis: ("place", values_m, {"units": "m"}) for axis, values_m in zip("xyz", self.points.T, strict=True)}
+        return xr.Dataset(values, {**points, **{name: list(labels) for name, labels in names.items()}})
+
+
+def is_planar_position(task: Task) -> bool:
+    """Return True if the task is the position in a plane, for which places may be a lattice."""
+    return task.m == 2 and not task.angular and task.frame == "base"
+
+
+def make_lattice(arm: Arm, task: Task, count: int = LATTICE_POINTS) -> Places:
+    """Return a square lattice over the disc that a planar arm could reach without limits, ``count`` points along its edge.
+
+    With 52 points along the edge of the square about the circle there are exactly 2032 inside it, as in the paper.
+
+    Raises:
+        TaskError: The task is not the position in a plane.
+        InputError: Fewer than 2 points.
+    """
+    if not is_planar_position(task):
+        raise TaskError(f"task '{task.name}' is not the position in a plane, so there is no lattice; give places or a number")
+    if count < 2:
+        raise InputError(f"a lattice cannot have {count} points along its edge; give 2 or more")
+    reach = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
+    center = arm.frames_at_zero[0, :3, 3]
+    coordinates = np.linspace(-reach, reach, count)
+    row, column = (grid.ravel() for grid in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
+    inside = np.hypot(coordinates[column], coordinates[row]) <= reach * (1 + 1e-12)
+    row, column = row[inside], column[inside]
+    rows = task.rows[:, :3]
+    points = center + np.stack([coordinates[column], coordinates[row]], axis=1) @ rows
+    x_axis, y_axis = (coordinates + float(center @ component) for component in rows)
+    return Places(_make_poses(points), np.stack([column, row], axis=1), (x_axis, y_axis))
+
+
+def sample_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
+    """Sample the tool poses at ``count`` random configurations, uniform within the joint limits."""
+    from holdfast.model.arm.configurations import finite_limits
+
+    lower, upper = finite_limits(arm)
+    return Places(arm.forward_kinematics(generator.uniform(lower, upper, (count, arm.n))))
+
+
+def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, generator: np.random.Generator) -> Places:
+    """Read places in any accepted form: ``"grid:52"``, a number of random ones, (P, m) positions, or (P, 4, 4) poses.
+
+    Raises:
+        InputError: None of these.
+        TaskError: A lattice for a task that has none.
+    """
+    if isinstance(given, Places):
+        return given
+    if isinstance(given, str):
+        kind, _, count = given.partition(":")
+        if kind != "grid" or not is_count(count or "0"):
+            raise InputError(f"places '{given}' are not known; give grid, grid:52, a number, or an array of positions or poses")
+        return make_lattice(arm, task, int(count or LATTICE_POINTS))
+    if isinstance(given, (int, np.integer)):
+        if given < 1:
+            raise InputError(f"there cannot be {given} places; give 1 or more")
+        return sample_places(arm, int(given), generator)
+    values = np.asarray(given, dtype=np.float64)
+    if values.ndim in (2, 3) and values.shape[-2:] == (4, 4):
+        poses = check_poses(values)
+    elif task.angular or task.frame != "base" or values.ndim not in (1, 2) or values.shape[-1] != task.m:
+        required_shape = "(P, 4, 4)" if task.angular or task.frame != "base" else f"(P, {task.m}) or (P, 4, 4)"
+        raise InputError(f"places have shape {values.shape}; task '{task.name}' takes {required_shape}")
+    else:
+        poses = _make_poses(np.atleast_2d(values) @ task.rows[:, :3])
+    if not len(poses):
+        raise InputError("there are no places; give 1 or more")
+    if not np.isfinite(poses).all():
+        index = int(np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))[0])
+        raise InputError(f"place {index} holds NaN or infinity; give finite numbers")
+    return Places(poses)
+
+
+def _make_poses(points: FloatArray) -> FloatArray:
+    poses = np.tile(np.eye(4), (len(points), 1, 1))
+    poses[:, :3, 3] = points
+    return poses
+
+
+# ---- configurations there ----------------------------------------------------------------------------------------
+
+
+def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, seed: int) -> tuple[Index, FloatArray]:
+    """Return configurations of places (P, 4, 4): the place of each (R,), and the configurations (R, n), in order of places.
+
+    With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
+    joint space; else up to ``count`` random ones of each place. Places out of reach have none.
+
+    Args:
+        arm: The arm; limits of joints that may make a whole turn do not count.
+        task: What of a place matters.
+        places: (P, 4, 4) poses of the end effector in the base frame.
+        count: Configurations of a curve, or at most of a place.
+        seed: Of the random starts.
+
+    Source: Goel et al. 2005, section on the analysis of a workspace.
+    """
+    arm = arm.without_idle_limits
+    if arm.n - task.m == 1:
+        owner, guess = sample_curves(
+            arm, fibres(arm, places, task, spacing=_CURVE_SPACING_RAD, seed=seed, starts=_SEED_STARTS), count
+        )
+        q, is_solved = solver(arm, task).attempt(guess, places[owner], CURVE_TOLERANCE)
+        return owner[is_solved], q[is_solved]
+    ik_solver = solver(arm, task)
+    generator = np.random.default_rng(seed)
+    random_starts = ik_solver.sample_starts(len(places) * count * _TRIES_PER_CONFIGURATION, generator).reshape(
+        len(places), count * _TRIES_PER_CONFIGURATION, arm.n
+    )
+    owner, solutions = np.empty(0, dtype=np.intp), np.empty((0, arm.n))
+    used_starts, missing = 0, np.full(len(places), count)
+    while used_starts < count * _TRIES_PER_CONFIGURATION and missing.any():
+        open_places = np.flatnonzero(missing)
+        wave_size = min(count, count * _TRIES_PER_CONFIGURATION - used_starts)
+        place_rows = np.repeat(open_places, wave_size)
+        q, is_solved = ik_solver.attempt(
+            random_starts[open_places, used_starts : used_starts + wave_size].reshape(-1, arm.n),
+            places[place_rows],
+            CURVE_TOLERANCE,
+        )
+        is_solved &= np.cumsum(is_solved.reshape(-1, wave_size), axis=1).ravel() <= missing[place_rows]
+        owner, solutions = np.concatenate([owner, place_rows[is_solved]]), np.concatenate([solutions, q[is_solved]])
+        missing -= np.bincount(place_rows[is_solved], minlength=len(places))
+        used_starts += wave_size
+    order = np.argsort(owner, kind="stable")
+    return owner[order], joint_space.wrap_joints(arm, solutions[order])
+
+
+def sample_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, FloatArray]:
+    """Return points at the middle of ``count`` equal parts of each curve: the motion of each (R,), and the points (R, n)."""
+    owner = [number for number, motion in enumerate(motions) for _ in motion.components]
+    points = [_space_evenly(arm, component, count) for motion in motions for component in motion.components]
+    return np.repeat(np.array(owner, dtype=np.intp), count), np.concatenate([np.empty((0, arm.n)), *points])
+
+
+def _space_evenly(arm: Arm, curve: Component, count: int) -> FloatArray:
+    q = curve.q
+    if curve.closed:
+        q = np.concatenate([q, q[-1:] + joint_space.joint_difference(arm, q[:1], q[-1:])])
+    path_lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
+    sample_lengths = (np.arange(count) + 0.5) / count * path_lengths[-1]
+    return np.stack([np.interp(sample_lengths, path_lengths, column) for column in q.T], axis=1)
+
+
+def pick_configurations(
+    arm: Arm, task: Task, places: FloatArray, count: int, seed: int, generator: np.random.Generator
+) -> tuple[Index, Index, FloatArray]:
+    """Pick at random at most ``count`` configurations of each of the places (P, 4, 4) from :func:`configurations_at`.
+
+    Returns:
+        Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
+    """
+    owner, configurations = configurations_at(arm, task, places, count=count, seed=seed)
+    # Of several curves some points of each: a random choice of all.
+    order = np.lexsort([generator.random(len(owner)), owner])
+    owner, configurations = owner[order], configurations[order]
+    rank = np.arange(len(owner)) - np.searchsorted(owner, owner)
+    is_picked = rank < count
+    return owner[is_picked], rank[is_picked], configurations[is_picked]

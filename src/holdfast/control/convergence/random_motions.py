@@ -1,0 +1,144 @@
+"""Random point-to-point motions: start configurations and target poses of the end effector."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.kinematics.solvers.inverse_kinematics import solver
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
+from holdfast.model.failure_modes import FailureSpec, single_joints
+
+_BLOCK_MOTIONS = 256  # motions drawn at a time: the first ones of a seed do not depend on how many are asked for
+_MAX_BLOCKS = 400  # blocks without enough motions before giving up
+REACH_TOLERANCE = 1e-6  # m and rad, of the inverse kinematics that say whether a target is still reached
+
+
+@dataclass(frozen=True, eq=False)
+class PointToPoint:
+    """N motions of one arm from a configuration to a pose of the tool.
+
+    Attributes:
+        arm: The arm.
+        q0: (N, n) configurations at the start, within the limits, rad and m.
+        target: (N, 4, 4) tool poses in the world, each that of ``q_target``.
+        q_target: (N, n) a configuration at the target, within the limits, rad and m.
+        drawn: How many motions were drawn to find these.
+        constraints: What was asked of them, a phrase for people.
+    """
+
+    arm: Arm
+    q0: FloatArray
+    target: FloatArray
+    _: KW_ONLY
+    q_target: FloatArray
+    drawn: int
+    constraints: str
+
+    def __len__(self) -> int:
+        return len(self.q0)
+
+    @property
+    def distance(self) -> FloatArray:
+        """(N,) distances from the tool at the start to the tool at the target, m."""
+        start_points = self.arm.forward_kinematics(self.q0)[:, :3, 3]
+        return np.asarray(np.linalg.norm(self.target[:, :3, 3] - start_points, axis=1))
+
+    def describe(self) -> str:
+        """One phrase for people."""
+        return f"{len(self)} motions of {self.arm.title}, {self.constraints}; {self.drawn} were drawn"
+
+
+@check_arguments
+def point_to_point(
+    arm: Arm,
+    count: int,
+    seed: int = 0,
+    *,
+    distance: tuple[float, float] | None = None,
+    failures: FailureSpec | None = None,
+    task: str | Task | Sequence[str] = "pose",
+    restarts: int = 30,
+) -> PointToPoint:
+    """Sample random motions: start and target are uniform configurations within the limits, the target as the tool's pose.
+
+    Where a joint has no limits it is drawn from one turn, or 1 m to either side.
+
+    Args:
+        arm: The arm.
+        count: How many motions.
+        seed: The same seed gives the same motions, and more of them begin with the same ones.
+        distance: Least and greatest distance of the tool from start to target, m; any if not given.
+        failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0: only motions whose target can be
+            reached, within the limits, also with any one of them locked where it starts. Decided by inverse kinematics as
+            :func:`holdfast.solve_ik` does, so a target that is hard to reach may be taken for one that is not.
+        task: Rows of the target that must be reached then; nothing else depends on it.
+        restarts: Random starts of that inverse kinematics.
+
+    Raises:
+        InputError: Options out of range; or so few motions meet the wishes that the search was given up.
+        TaskError: A task that the arm does not have, or failures that are not of one joint each.
+    """
+    if count < 1:
+        raise InputError(f"count is {count}; it must be 1 or more")
+    if restarts < 1:
+        raise InputError(f"restarts is {restarts}; it must be 1 or more")
+    nearest, farthest = (0.0, np.inf) if distance is None else distance
+    if not 0 <= nearest < farthest:
+        raise InputError(f"distance is {nearest:g} to {farthest:g} m; the first must be 0 or more and below the second")
+    joints = single_joints(arm, failures)
+    chosen = as_task(arm, task)
+    constraints = [] if distance is None else [f"{nearest:g} to {farthest:g} m long"]
+    if joints:
+        joint_text = "any one joint" if len(joints) == arm.n else " or ".join(arm.joint_names[joint] for joint in joints)
+        constraints.append(f"target still within reach (task {chosen.name}) with {joint_text} locked at the start")
+    constraint_text = ", ".join(constraints) or "drawn within the limits"
+    lower, upper = finite_limits(arm)
+    seeds = np.random.SeedSequence(seed)
+    blocks: list[PointToPoint] = []
+    found_count = sampled_count = 0
+    while found_count < count:
+        if len(blocks) == _MAX_BLOCKS:
+            raise InputError(
+                f"only {found_count} of {sampled_count} motions of '{arm.name}' are as asked for ({constraint_text}), too "
+                f"few for {count}; ask for "
+                "fewer motions, or for less of each"
+            )
+        block_seed, solving = seeds.spawn(2)
+        q0, q1 = np.random.default_rng(block_seed).uniform(lower, upper, (2, _BLOCK_MOTIONS, arm.n))
+        block = PointToPoint(
+            arm, q0, arm.forward_kinematics(q1), q_target=q1, drawn=_BLOCK_MOTIONS, constraints=constraint_text
+        )
+        block = _select_motions(block, (block.distance >= nearest) & (block.distance <= farthest))
+        for joint in joints:
+            block = _select_motions(block, _is_still_reachable(block, chosen, joint, solving, restarts))
+        blocks.append(block)
+        found_count += len(block)
+        sampled_count += _BLOCK_MOTIONS
+    q0, target, q_target = (
+        np.concatenate([getattr(motions, field_name) for motions in blocks])[:count]
+        for field_name in ("q0", "target", "q_target")
+    )
+    return PointToPoint(arm, q0, target, q_target=q_target, drawn=sampled_count, constraints=constraint_text)
+
+
+def _is_still_reachable(
+    motions: PointToPoint, task: Task, joint: int, seed: np.random.SeedSequence, restarts: int
+) -> NDArray[np.bool_]:
+    if not len(motions):
+        return np.zeros(0, dtype=bool)
+    locked = np.full(len(motions), joint)
+    ik_solver = solver(motions.arm, task)
+    return ik_solver.reaches_locked(motions.target, locked, motions.q0[:, joint], seed, restarts, REACH_TOLERANCE)
+
+
+def _select_motions(motions: PointToPoint, selection: NDArray[np.bool_]) -> PointToPoint:
+    return replace(motions, q0=motions.q0[selection], target=motions.target[selection], q_target=motions.q_target[selection])

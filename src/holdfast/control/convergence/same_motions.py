@@ -1,0 +1,166 @@
+"""Runs of several control laws on the same motions, which a comparison consists of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.control.convergence.healthy_cost import measure_healthy_cost
+from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison, rest_error
+from holdfast.control.laws.law import Law
+from holdfast.control.simulation.closed_loop import DEFAULT_TOLERANCE, TARGET_RADIUS_M, simulate
+from holdfast.control.simulation.runs import RunOutcome, Runs
+from holdfast.control.simulation.system import prescribed_offset
+from holdfast.core.errors import InputError
+from holdfast.core.progress import report_work
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.model.arm.configurations import as_configurations
+from holdfast.model.arm.poses import check_poses
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+from holdfast.model.failure_modes import FailureSpec, single_joints
+
+
+@check_arguments
+def compare_laws(
+    laws: Sequence[Law] | Mapping[str, Law],
+    q0: ArrayLike,
+    target: ArrayLike,
+    *,
+    failures: FailureSpec | None = "single",
+    cycles: bool = False,
+    time_limit: float | None = None,
+    tolerance: float = DEFAULT_TOLERANCE,
+    radius: float = TARGET_RADIUS_M,
+    restarts: int = 24,
+    seed: int = 0,
+    about: str = "",
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+) -> LawComparison:
+    """Simulate the same motions under several control laws, without a failure and with each joint locked from the start.
+
+    Nobody tells the laws: see :func:`holdfast.control.simulation.simulate`, which this is one call of for each law.
+
+    Args:
+        laws: Laws of one arm and task, the first being the one that the others are compared with; or a
+            dictionary of them by name. Without names they are called by their labels.
+        q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`.
+        target: As :func:`holdfast.control.simulation.simulate` takes it, one or N.
+        failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0, each of which locks alone; None:
+            no failures.
+        cycles: As for :func:`holdfast.control.simulation.simulate`, and so the next three.
+        time_limit: s or cycles.
+        tolerance: Of the adaptive method.
+        radius: Of the target in cycles, m (and rad).
+        restarts: Random starts of the search for the least error that a failed arm can have.
+        seed: Of these.
+        about: What the motions are, a phrase for the report.
+        clearance: As for :func:`holdfast.control.simulation.simulate`, and so ``cell``: every run is looked at, one after the
+            other, for what it touches first; that changes none.
+        cell: Objects around the arm, or their file.
+
+    Raises:
+        InputError: Wrong shapes or options; laws of different arms or tasks.
+        TaskError: Failures that are not of one joint each.
+    """
+    law_by_name = dict(laws) if isinstance(laws, Mapping) else _index_by_label(laws)
+    all_laws = tuple(law_by_name.values())
+    if not all_laws:
+        raise InputError("there is no law to compare; give one or more, for example hf.control.pseudoinverse(arm)")
+    arm, task = all_laws[0].arm, all_laws[0].task
+    for name, law in law_by_name.items():
+        if law.arm is not arm or not law.task.same_rows(task):
+            raise InputError(f"law '{name}' is of another arm or task than '{next(iter(law_by_name))}'; make both of the same")
+    joints = single_joints(arm, failures)
+    starts, _ = as_configurations(arm, q0)
+    targets = require_real_numbers(target, "target")
+    if not targets.ndim:
+        raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")
+    single = 2 if targets.shape[-2:] == (4, 4) else 1
+    targets = targets[None] if targets.ndim == single else targets
+    count = max(len(starts), len(targets)) if min(len(starts), len(targets)) else 0
+    if not count or {len(starts), len(targets)} - {1, count}:
+        raise InputError(f"q0 has {len(starts)} rows and target {len(targets)}; give the same number of each, or one for all")
+    starts = np.broadcast_to(starts, (count, arm.n))
+    targets = np.broadcast_to(targets, (count, *targets.shape[1:]))
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    locked_joints = np.repeat(np.array([-1, *joints]), count)
+    case_count = len(joints) + 1
+    runs, costs = [], []
+    with report_work("comparing control laws") as report_progress:
+        for number, law in enumerate(all_laws):
+            every_start, every_goal = np.tile(starts, (case_count, 1)), np.tile(targets, (case_count, *[1] * single))
+            runs.append(
+                simulate(
+                    law,
+                    every_start,
+                    every_goal,
+                    locked=locked_joints,
+                    cycles=cycles,
+                    time_limit=time_limit,
+                    tolerance=tolerance,
+                    radius=radius,
+                    clearance=checked_clearance,
+                )
+            )
+            poses = _to_poses(law, targets)
+            costs.append(measure_healthy_cost(law, starts, poses, cycles, radius))
+            report_progress(number + 1, len(all_laws) + 1)
+        least_errors = _find_least_errors(runs, radius if cycles else rest_error(all_laws[0]), restarts, seed).reshape(
+            case_count, count
+        )
+    failure_names = (HEALTHY_CASE, *[arm.joint_names[number] for number in joints])
+    offsets = prescribed_offset(all_laws[0], arm.forward_kinematics(starts), poses)
+    return LawComparison(
+        laws=all_laws,
+        names=tuple(law_by_name),
+        failures=failure_names,
+        runs=tuple(runs),
+        least_error=least_errors,
+        way=np.linalg.norm(offsets, axis=1),
+        healthy=tuple(costs),
+        about=about,
+    )
+
+
+def _index_by_label(laws: Sequence[Law]) -> dict[str, Law]:
+    law_by_label: dict[str, Law] = {}
+    for law in laws:
+        if law.label in law_by_label:
+            raise InputError(f"two laws are called '{law.label}'; give a dictionary with names of your own")
+        law_by_label[law.label] = law
+    return law_by_label
+
+
+def _to_poses(law: Law, targets: FloatArray) -> FloatArray:
+    """Return targets as tool poses (N, 4, 4); the orientation of targets given as task components does not matter."""
+    if targets.shape[-2:] == (4, 4):
+        return check_poses(targets)
+    poses = np.tile(np.eye(4), (len(targets), 1, 1))
+    poses[:, :3, 3] = targets @ law.task.rows[:, :3]
+    return poses
+
+
+def _find_least_errors(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> FloatArray:
+    """Return (F N,) least errors over all laws, which share them because joints are locked where they started."""
+    least_errors = np.full(len(runs[0]), np.inf)
+    for law_runs in runs:
+        least_errors = np.fmin(least_errors, np.where(law_runs.code == RunOutcome.CONVERGED, law_runs.error, np.inf))
+    for number, law_runs in enumerate(runs):
+        open_rows = np.flatnonzero((least_errors > accuracy) & np.isfinite(law_runs.q_final).all(axis=1))
+        if open_rows.size:
+            # From the ends of every law, but from random configurations once.
+            errors = _select_runs(law_runs, open_rows).least_error(restarts if number == 0 else 0, seed)
+            least_errors[open_rows] = np.fmin(least_errors[open_rows], errors)
+    return np.where(np.isfinite(least_errors), least_errors, np.nan)
+
+
+def _select_runs(runs: Runs, rows: NDArray[np.int64]) -> Runs:
+    arrays: dict[str, Any] = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
+    return replace(runs, **arrays)

@@ -1,0 +1,334 @@
+"""The starts in a workspace from which a target is still reached after an undetected lock on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.control.convergence.analysis import (
+    END_ARRIVING,
+    END_NO_SINK,
+    FAILURE_ENDS,
+    PATH_CELLS,
+    RUN_TOLERANCE,
+    Method,
+    RelativeTo,
+    StartConfigurations,
+    TargetAnalysis,
+    choose_method,
+    prepare_analysis,
+)
+from holdfast.control.convergence.measures import FINISH_NAMES, MEASURE_NAMES, REACH_NAMES, Arcs, Measures
+from holdfast.control.convergence.places import Places, read_places
+from holdfast.control.laws.law import Law
+from holdfast.control.simulation.runs import RunOutcome
+from holdfast.core.errors import InputError
+from holdfast.core.probability.intervals import Interval, check_confidence
+from holdfast.core.progress import reports_progress
+from holdfast.core.registry import LAW_REGISTRY
+from holdfast.core.result import Result
+from holdfast.core.sweeps.store import Store
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Progress = Callable[[int, int], None]
+
+LATTICE_DEFAULTS: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
+SAMPLE_DEFAULTS: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
+_CHUNK_STARTS = 128  # starts analysed together and stored as one; no result depends on it
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Workspace(Result):
+    """Measures of the paper for P starts; the last column of each (P, n + 1) array is for an arbitrary joint.
+
+    Attributes:
+        law: The law of the controller.
+        target: (4, 4) tool pose; only the rows of the task count.
+        places: Where the end effector starts, a :class:`holdfast.control.convergence.Places`.
+        bounds: Of each joint the arcs (lower, upper), rad, in which it may lock and the target stays in reach.
+        method: ``brute``, ``procedure`` or ``sampled``.
+        relative_to: What ``finish`` is a share of: the part of a motion ``inside`` the bounds, or the ``whole``.
+        configurations: (P,) starting configurations that were looked at; 0 where the place is out of reach.
+        lost: (P,) of them, those whose healthy motion ran into a singular configuration; left out of everything.
+        reach: R100, Ravg, Rsens: of the share of a motion from which the target stays in reach, percent.
+        finish: F100, Favg, Fsens: of the share of it from which the failed arm reaches the target, percent; undecided runs left
+            out.
+        ends: (P, 6) how the failures ended: converged, stuck, moving, undecided; arriving, which is undecided at the time
+            limit but next to a solution that attracts; and not simulated because the joint locked where there is no sink.
+    """
+
+    law: Law
+    target: FloatArray
+    places: Places
+    bounds: tuple[tuple[tuple[float, float], ...], ...]
+    method: Method
+    relative_to: RelativeTo
+    configurations: NDArray[np.int64]
+    lost: NDArray[np.int64]
+    reach: Measures
+    finish: Measures
+    ends: NDArray[np.int64]
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Columns of the measures: the joints by name, and ``any``, an arbitrary one."""
+        return (*self.law.arm.joint_names, "any")
+
+    @property
+    def measures(self) -> dict[str, FloatArray]:
+        """R100, Ravg, Rsens, F100, Favg and Fsens by name, (P, n + 1) each, percent."""
+        return dict(zip(MEASURE_NAMES, (*self.reach.parts, *self.finish.parts), strict=True))
+
+    @property
+    def simulated_count(self) -> int:
+        """Number of failures that were simulated."""
+        return int(self.ends[:, :END_NO_SINK].sum())
+
+    @property
+    def undecided_fraction(self) -> float:
+        """Fraction of the simulated failures that were undecided at the time limit; NaN if there is none."""
+        return (
+            float(self.ends[:, [RunOutcome.UNDECIDED, END_ARRIVING]].sum() / self.simulated_count)
+            if self.simulated_count
+            else float("nan")
+        )
+
+    @property
+    def skipped_fraction(self) -> float:
+        """Fraction of the failures that did not have to be simulated, because the joint locked where there is no sink."""
+        total = int(self.ends.sum())
+        return float(self.ends[:, END_NO_SINK].sum() / total) if total else float("nan")
+
+    def means(self) -> dict[str, FloatArray]:
+        """Return the mean of every measure over the starts that have it, (n + 1,) each, percent."""
+        return {name: mean_over(values, 0) for name, values in self.measures.items()}
+
+    def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
+        """Return the intervals of the means for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
+
+        The unit is the start: configurations and failures of one start are alike, and however many there are, they only
+        make its own value more exact. The intervals always cover, and are wide for few starts
+        (:meth:`holdfast.core.probability.Interval.of_fractions`). NaN where no start has a value.
+        """
+        check_confidence(confidence)
+        return {name: mean_intervals(values, confidence) for name, values in self.measures.items()}
+
+    def throughout(self, name: str = "R100", confidence: float = 0.95) -> tuple[Interval, ...]:
+        """Return the fraction of the starts, for each column, at which R100 (or F100) is 100 for all configurations.
+
+        Only the configurations that were looked at are known, so that this is an upper bound of the share of starts at which
+        it holds for every configuration of the self-motion. The interval is exact; NaN where no start has the measure.
+
+        Raises:
+            InputError: Another name.
+        """
+        check_confidence(confidence)
+        if name not in (REACH_NAMES[0], FINISH_NAMES[0]):
+            raise InputError(f"'{name}' is not known; use R100 or F100")
+        values = self.measures[name]
+        known_counts = (~np.isnan(values)).sum(axis=0).tolist()
+        hit_counts = (values >= 100 - 1e-9).sum(axis=0).tolist()
+        no_interval = Interval(value=np.nan, low=np.nan, high=np.nan, confidence=confidence)
+        return tuple(
+            Interval.from_counts(hit_count, count, confidence) if count else no_interval
+            for hit_count, count in zip(hit_counts, known_counts, strict=True)
+        )
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the measures, percent, by start and joint (the last is ``any``), and the position and counts of each start."""
+        values: dict[str, Any] = {
+            name: (("place", "joint"), columns, {"units": "percent"}) for name, columns in self.measures.items()
+        }
+        values |= {"configurations": ("place", self.configurations), "lost": ("place", self.lost)}
+        values["ends"] = (("place", "ending"), self.ends)
+        return self.places.dataset(values, joint=self.columns, ending=FAILURE_ENDS)
+
+    def describe(self) -> list[str]:
+        """Return the analysis of the workspace in a few sentences."""
+        reached = int((self.configurations > 0).sum())
+        lines = [
+            f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
+            f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
+        ]
+        end_counts = dict(zip(FAILURE_ENDS, self.ends.sum(axis=0).tolist(), strict=True))
+        if self.ends.sum():
+            end_text = ", ".join(f"{end_counts[name]} {name}" for name in FAILURE_ENDS[:3])
+            fraction_text = f" ({100 * self.undecided_fraction:.2f} %)" if self.simulated_count else ""
+            lines.append(
+                f"{self.simulated_count} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
+                f"undecided at the time "
+                f"limit{fraction_text}, of which {end_counts['arriving']} next to a solution that attracts, counted "
+                f"as converged"
+            )
+        if self.method == "procedure":
+            lines.append(
+                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint "
+                f"locked away from "
+                f"every sink, "
+                "which makes convergence very likely but does not prove it"
+            )
+        return lines
+
+
+@check_arguments
+@reports_progress("simulating failures")
+def workspace(
+    law: Law,
+    target: ArrayLike,
+    starts: ArrayLike | str | int | Places | None = None,
+    *,
+    configurations: int | None = None,
+    points: int | None = None,
+    method: Method | None = None,
+    cells: int = PATH_CELLS,
+    time_limit: float | None = None,
+    tolerance: float = RUN_TOLERANCE,
+    relative_to: RelativeTo = "inside",
+    sinks: Mapping[int, Arcs] | None = None,
+    seed: int = 0,
+    store: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Workspace:
+    """Compute from which starts a target is still reached when a joint locks on the way and is not detected.
+
+    From every start the arm moves to the target from configurations equally far apart along its self-motion, in joint
+    space; the way is cut into ``cells`` of equal length of the end effector's path, looked at in their middle. A joint that
+    locks where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in
+    reach: R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens
+    its greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
+    (:func:`holdfast.control.simulation.simulate`): F100, Favg and Fsens are the same of the share of that part from which the
+    failed arm reaches the target. *Any* joint: all joints must be inside, and the arm must reach the target whichever fails.
+
+    Near the very ends of a range the arm converges ever more slowly. A failure that is undecided at the time limit
+    counts as converged if it is next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
+    counted in ``ends``.
+
+    Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
+    in proportion; both are weighted by their lengths.
+
+    **By sampling** (``method="sampled"``), for any redundant arm and task: of every start up to
+    ``configurations`` random configurations, with one degree of redundancy from points equally far apart on its curves, with
+    more those at which inverse kinematics converges from random starts, which are not spread evenly over the manifold. The
+    measures are the same, with the configurations that were drawn in place of all: Rsens and Fsens are then too small rather
+    than too great, R100 and F100 of a start are estimates of shares, and that they are 100 is necessary, not sufficient, for
+    every configuration to do (:meth:`holdfast.Workspace.throughout`). How sure the means over random starts are is told by
+    :meth:`holdfast.Workspace.intervals`.
+
+    Args:
+        law: The control law.
+        target: (m,) position, or (4, 4) pose, as in :func:`holdfast.control.simulation.simulate`.
+        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (tasks in a plane; 2032
+            places, as in the paper); a number of random places (where the end effector is at random configurations); or (P, m)
+            positions or (P, 4, 4) poses. If not given: the lattice, or 100 random ones where there is none.
+        configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
+            of redundancy. 36 on a lattice, else 8, if not given.
+        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given.
+        method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink; ``sampled`` every
+            failure of random configurations. If not given: ``brute`` for a task in a plane, else ``sampled``.
+        cells: Of the way.
+        time_limit: s; 2000/Ke if not given.
+        tolerance: Of the simulation's steps, rad.
+        relative_to: ``inside``: F of the part inside, as in the paper; configurations without any are left out. ``whole``:
+            of the whole way.
+        sinks: For the procedure, of joints (from 0), the arcs of locked values at which failures are simulated, rad. If not
+            given: where :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02 rad on
+            either side of Hopf points, beside which limit cycles live.
+        seed: Of the search for configurations, and of random starts.
+        store: A folder to keep the results in; a stopped analysis resumes there.
+        progress: Called with (starts done, starts in all).
+
+    Raises:
+        InputError: Wrong shapes or options, a target out of reach, or the procedure where stationary points form surfaces.
+        TaskError: An arm without redundancy for the task.
+        StoreError: A folder of another analysis, or one that cannot be written.
+
+    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the end
+    effector's
+    path: the paper does not define it. Sampling and its intervals are ours.
+    """
+    if store is not None:
+        LAW_REGISTRY.label(law)  # says so where there is none
+    chosen = choose_method(law) if method is None else method
+    defaults = LATTICE_DEFAULTS if choose_method(law) == "brute" else SAMPLE_DEFAULTS
+    configuration_count = defaults[1] if configurations is None else configurations
+    failures = defaults[2] if points is None else points
+    places = read_places(law.arm, law.task, defaults[0] if starts is None else starts, np.random.default_rng(seed))
+    job = prepare_analysis(
+        law, target, configuration_count, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed
+    )
+    if not job.is_reached:
+        position = ", ".join(f"{coordinate:g}" for coordinate in job.pose[:3, 3])
+        raise InputError(
+            f"no configuration of '{law.arm.name}' was found at the target ({position}) m; choose one within its reach"
+        )
+    return analyse_target(job, StartConfigurations(law, places, configuration_count, chosen, seed), store, progress)
+
+
+def analyse_target(
+    job: TargetAnalysis, starts: StartConfigurations, store: str | Path | None = None, progress: Progress | None = None
+) -> Workspace:
+    """Analyse one target, some starts at a time."""
+    places, count = starts.places, len(starts.places)
+    folder = None
+    if store is not None:
+        folder = Store.create(
+            store,
+            job.plan(places),
+            job.store_columns(),
+            rows=count,
+            chunk=_CHUNK_STARTS,
+            formerly=job.law.formerly(job.law.describe()),
+        )
+    chunks: list[dict[str, NDArray[Any]]] = []
+    for chunk, first in enumerate(range(0, count, _CHUNK_STARTS)):
+        stop = min(first + _CHUNK_STARTS, count)
+        if folder is not None and chunk in folder.committed_chunks:
+            results = folder.read_chunk(chunk, job.names)
+        else:
+            results = job.analyse(*starts.find_block(first, stop), stop - first)
+            if folder is not None:
+                with folder.lock_for_writing():
+                    folder.commit_chunk(chunk, results)
+        chunks.append(results)
+        if progress is not None:
+            progress(stop, count)
+    columns = {name: np.concatenate([results[name] for results in chunks]) for name in job.names}
+    return Workspace(
+        law=job.law,
+        target=job.pose,
+        places=places,
+        bounds=job.bounds,
+        method=job.method,
+        relative_to=job.relative_to,
+        configurations=columns["configurations"],
+        lost=columns["lost"],
+        reach=Measures(*(columns[name] for name in REACH_NAMES)),
+        finish=Measures(*(columns[name] for name in FINISH_NAMES)),
+        ends=columns["ends"],
+    )
+
+
+def mean_intervals(values: FloatArray, confidence: float) -> FloatArray:
+    """Return (C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
+    bounds = np.full((values.shape[1], 2), np.nan)
+    for index, column in enumerate(values.T):
+        if not np.isnan(column).all():
+            interval = Interval.of_fractions(np.clip(column[~np.isnan(column)] / 100, 0.0, 1.0), confidence)
+            bounds[index] = 100 * interval.low, 100 * interval.high
+    return bounds
+
+
+def mean_over(values: FloatArray, axis: int) -> FloatArray:
+    """Return the mean along an axis of the values that are not NaN; NaN where there is none."""
+    is_known = ~np.isnan(values)
+    count = is_known.sum(axis=axis)
+    return np.where(count > 0, np.where(is_known, values, 0.0).sum(axis=axis) / np.maximum(count, 1), np.nan)

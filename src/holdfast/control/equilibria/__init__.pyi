@@ -1,0 +1,17 @@
+from holdfast.control.equilibria.attraction import Basins as Basins
+from holdfast.control.equilibria.attraction import basins as basins
+from holdfast.control.equilibria.curves import Curves as Curves
+from holdfast.control.equilibria.curves import EquilibriumCurve as EquilibriumCurve
+from holdfast.control.equilibria.curves import Segment as Segment
+from holdfast.control.equilibria.limit_cycles import Orbit as Orbit
+from holdfast.control.equilibria.limit_cycles import orbit as orbit
+from holdfast.control.equilibria.points import StationaryPoints as StationaryPoints
+from holdfast.control.equilibria.search import stationary_points as stationary_points
+from holdfast.control.equilibria.stability import Kind as Kind
+from holdfast.control.equilibria.stability import Linearisation as Linearisation
+from holdfast.control.equilibria.stability import linearisation as linearisation
+from holdfast.control.equilibria.system import idle_joints as idle_joints
+from holdfast.control.equilibria.theorem import column_residual as column_residual
+from holdfast.control.equilibria.theorem import is_stuck as is_stuck
+from holdfast.control.equilibria.theorem import null_components as null_components
+from holdfast.control.equilibria.theorem import stuck_subspace as stuck_subspace

@@ -1,0 +1,218 @@
+"""The curves that stationary points form as the value of one locked joint changes, and the parts of them where the arm gets
+stuck.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.equilibria.stability import Kind, Kinds
+from holdfast.control.equilibria.system import RestSystem, wrap_angles
+from holdfast.control.laws.law import Law
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+
+if TYPE_CHECKING:
+    from holdfast.control.equilibria.points import StationaryPoints
+
+Indices = NDArray[np.intp]
+Arc = tuple[float, float]
+
+FULL_TURN_RAD = 2 * np.pi
+ARC_TOLERANCE = 3e-5  # rad (and m): arcs this far apart are one; where curves cross, ends are known to about 1e-5
+SAMPLE_RADIUS = 0.1  # rad (and m): sampled values this near are told as one range
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A section of a curve on which the kind does not change.
+
+    Attributes:
+        kind: Of all its points but its ends.
+        first, last: Its ends, as indices of points of the curve.
+    """
+
+    kind: Kind
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EquilibriumCurve:
+    """One curve of erroneous stationary points over the locked value.
+
+    Attributes:
+        q: (K, n) points in order, rad and m, continuous: joints may run beyond pi. The last point of a closed curve is its
+            first again, whole turns apart.
+        joint: The locked one, from 0.
+        kind: (K,) :class:`holdfast.control.equilibria.Kind`; ``SOLUTION`` where the curve passes the target.
+        eigenvalues: (K, h) of the healthy joints' linearised motion, by falling real part, in units of the gain Ke; NaN where J
+            loses rank.
+        error: (K,) norm of the task's error, m and rad.
+        closed: It comes back to its first point.
+        degenerate: The whole curve lies at one locked value: a continuum of stationary points, each with an eigenvalue 0.
+        folds: Indices of points where the locked value turns back.
+        branch_points: Of points where another curve crosses.
+        rank_losses: Of points where the Jacobian loses rank; the law has no answer there.
+        solutions: Of points where the target is reached.
+        hopf_points: Of points where a complex pair of eigenvalues crosses the imaginary axis.
+        segments: Stretches of one kind.
+    """
+
+    q: FloatArray
+    joint: int
+    kind: Kinds
+    eigenvalues: NDArray[np.complex128]
+    error: FloatArray
+    closed: bool
+    degenerate: bool
+    folds: Indices
+    branch_points: Indices
+    rank_losses: Indices
+    solutions: Indices
+    hopf_points: Indices
+    segments: tuple[Segment, ...]
+
+    @property
+    def locked_values(self) -> FloatArray:
+        """(K,) values of the locked joint, rad (or m)."""
+        return self.q[:, self.joint]
+
+    @property
+    def sinks(self) -> list[Arc]:
+        """Locked values at which the curve is a sink, ``(lower, upper)``, as they run along the curve."""
+        return self.arcs(Kind.SINK)
+
+    def arcs(self, kind: Kind) -> list[Arc]:
+        """Return the locked values of each segment of a kind, ``(lower, upper)``."""
+        arc_ends = [
+            sorted((float(self.locked_values[segment.first]), float(self.locked_values[segment.last])))
+            for segment in self.segments
+            if segment.kind == kind
+        ]
+        return [(lower, upper) for lower, upper in arc_ends]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Curves(Result):
+    """All curves of erroneous stationary points that were found for one locked joint.
+
+    Attributes:
+        law: The control law.
+        target: (4, 4) wanted tool pose; a task takes its rows of it.
+        joint: The locked one, from 0.
+        curves: The curves.
+        loose: Stationary points that lie on surfaces rather than curves, a sample, each with its own locked value; as of arms
+            with a spherical shoulder, which can turn without moving what is locked.
+        starts: Random starts that were used; curves that none converges to are missed.
+    """
+
+    law: Law
+    target: FloatArray
+    joint: int
+    curves: tuple[EquilibriumCurve, ...]
+    loose: StationaryPoints
+    starts: int
+    _system: RestSystem = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+    @property
+    def sink_arcs(self) -> list[Arc]:
+        """Locked values at which the arm can get stuck at a sink: disjoint ``(lower, upper)``, by lower end.
+
+        Of a revolute joint lower is in [-pi, pi), and upper, less than a turn above, may pass pi; ``[(-pi, pi)]`` is every
+        value. Outside no sink was found, which does not exclude limit cycles or slow motion beside degenerate values.
+        """
+        arcs = [arc for curve in self.curves if not curve.degenerate for arc in curve.sinks]
+        return merge_arcs(arcs, is_revolute=not self.law.arm.joints[self.joint].prismatic)
+
+    @property
+    def degenerate_angles(self) -> list[float]:
+        """Locked values, by size, of whole curves of stationary points; rad from -pi to pi (or m)."""
+        values = [np.median(curve.q, axis=0) for curve in self.curves if curve.degenerate]
+        if not values:
+            return []
+        angles = np.sort(wrap_angles(self.law.arm, np.array(values))[:, self.joint])
+        return [float(angle) for angle in angles[np.r_[True, np.diff(angles) > 1e-6]]]
+
+    def points_at(self, value: float) -> FloatArray:
+        """Return (P, n) the stationary points at one locked value, rad (or m), on the curves that are not degenerate."""
+        arm = self.law.arm
+        points = [np.empty((0, arm.n))]
+        for curve in self.curves:
+            if curve.degenerate:
+                continue
+            differences = curve.locked_values - value
+            if not arm.joints[self.joint].prismatic:
+                differences = (differences + np.pi) % FULL_TURN_RAD - np.pi
+            crossings = np.flatnonzero(
+                (differences[1:] * differences[:-1] <= 0) & (np.abs(np.diff(differences)) < 1.0) & (differences[:-1] != 0)
+            )
+            fraction = differences[crossings] / (differences[crossings] - differences[crossings + 1])
+            q = curve.q[crossings] + fraction[:, None] * (curve.q[crossings + 1] - curve.q[crossings])
+            q[:, self.joint] = value
+            points.append(self._system.refine_points(q))
+        return wrap_angles(arm, np.concatenate(points))
+
+    def describe(self) -> list[str]:
+        """Return the curves and their sinks in a few sentences."""
+        arm = self.law.arm
+        factor, unit = arm.joints[self.joint].display_unit
+        joint_name = arm.joint_names[self.joint]
+        lines = [
+            f"{arm.title} under {self.law.describe()}, {joint_name} locked at any value: {len(self)} curves, "
+            f"{self.starts} starts"
+        ]
+        arcs = ", ".join(f"{factor * lower:.3f} to {factor * upper:.3f}" for lower, upper in self.sink_arcs)
+        lines.append(f"sinks with {joint_name} at {arcs} {unit}" if arcs else "no sinks were found")
+        values = ", ".join(f"{factor * angle:.4f}" for angle in self.degenerate_angles)
+        lines += [f"whole curves of stationary points with {joint_name} at {values} {unit}"] if values else []
+        if len(self.loose):
+            is_attracting = self.loose.attracting
+            stuck_arcs = merge_arcs(
+                [
+                    (float(angle) - SAMPLE_RADIUS, float(angle) + SAMPLE_RADIUS)
+                    for angle in self.loose.q[is_attracting, self.joint]
+                ],
+                unit == "deg",
+            )
+            arcs = ", ".join(
+                f"{factor * (lower + SAMPLE_RADIUS):.0f} to {factor * (upper - SAMPLE_RADIUS):.0f}"
+                for lower, upper in stuck_arcs
+            )
+            arc_text = f", about {arcs} {unit}" if stuck_arcs else ""
+            lines.append(
+                f"{len(self.loose)} samples of surfaces of stationary points, {int(is_attracting.sum())} attracting{arc_text}"
+            )
+        return lines
+
+
+def merge_arcs(arcs: Sequence[Arc], is_revolute: bool) -> list[Arc]:
+    """Merge arcs ``(lower, upper)``; of a revolute joint modulo full turns, each with lower in [-pi, pi)."""
+    if not is_revolute:
+        return _join_overlapping(sorted(arcs))
+    starts = [((lower + np.pi) % FULL_TURN_RAD - np.pi, upper - lower) for lower, upper in arcs]
+    joined = _join_overlapping(sorted((lower, lower + length) for lower, length in starts))
+    # What reaches beyond pi comes round to the first arcs.
+    while len(joined) > 1 and joined[0][0] + FULL_TURN_RAD <= joined[-1][1] + ARC_TOLERANCE:
+        _, upper = joined.pop(0)
+        joined[-1] = (joined[-1][0], max(joined[-1][1], upper + FULL_TURN_RAD))
+    return [(-np.pi, np.pi)] if any(upper - lower >= FULL_TURN_RAD - ARC_TOLERANCE for lower, upper in joined) else joined
+
+
+def _join_overlapping(arcs: Sequence[Arc]) -> list[Arc]:
+    """Join sorted arcs on a line where they touch."""
+    joined: list[Arc] = []
+    for lower, upper in arcs:
+        if joined and lower <= joined[-1][1] + ARC_TOLERANCE:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], upper))
+        else:
+            joined.append((lower, upper))
+    return joined

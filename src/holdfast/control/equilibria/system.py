@@ -1,0 +1,174 @@
+"""One law, target, and set of locked joints, with the functions that describe its stationary points."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.equilibria.equations import RestEquations
+from holdfast.control.equilibria.solutions import SolutionSearch
+from holdfast.control.equilibria.stability import REACHED_ERROR, linearisation
+from holdfast.control.laws.law import Law
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.model.arm.model import Arm
+
+MAX_HEALTHY_FRACTION = 1e-7  # of all rates: healthy joints that move less are still
+VANISHED_COSINE = 1e-5  # of c: b is that short, per unit of error
+IDLE_COLUMN_FRACTION = 1e-12  # of the Jacobian: a joint with a smaller column does not move the task
+
+
+class RestSystem:
+    """The equations of rest and the linearisation of a failed arm.
+
+    Attributes:
+        law: The control law.
+        pose: (4, 4) target.
+        locked_joints: Locked joints, from 0.
+        idle: Joints that the task does not notice, from 0: they are at 0, and are left out of everything.
+        mask: (n,) 0 for locked joints, else 1.
+        healthy: (n,) neither locked nor idle.
+        active: Unknowns but for idle joints, as indices; one more than equations where one joint is locked.
+    """
+
+    def __init__(self, law: Law, pose: FloatArray, joints: tuple[int, ...]) -> None:
+        self.law, self.pose, self.locked_joints = law, pose, joints
+        self.idle = tuple(joint for joint in idle_joints(law) if joint not in joints)
+        self.mask = np.ones(law.arm.n)
+        self.mask[list(joints)] = 0.0
+        self.healthy: BoolArray = self.mask > 0
+        self.healthy[list(self.idle)] = False
+        self.equations = _compiled_equations(law, len(joints) == 1)
+        self.linear = linearisation(law)
+        self._free = np.ones(self.equations.size)
+        self._free[list(self.idle)] = 0.0
+        self.active = np.flatnonzero(self._free)
+        unlocked = np.flatnonzero(self.mask)
+        self._equation_rows = np.flatnonzero(~np.isin(np.r_[unlocked, np.full(law.task.m + 2, -1)], self.idle))
+
+    def __reduce__(self) -> tuple[type[RestSystem], tuple[Law, FloatArray, tuple[int, ...]]]:  # to another process
+        return RestSystem, (self.law, self.pose, self.locked_joints)
+
+    def sample_starts(self, count: int, generator: np.random.Generator) -> FloatArray:
+        """Sample random unknowns (count, size), with idle joints at 0."""
+        z = self.equations.sample_starts(count, generator)
+        z[:, list(self.idle)] = 0.0
+        return z
+
+    def find_seeds(self, count: int, generator: np.random.Generator) -> FloatArray:
+        """Find unknowns (N, size) of erroneous rest for any value of the locked joints."""
+        z, is_solved = self.equations.search(self.sample_starts(count, generator), self.pose, self.mask, self._free)
+        z = z[is_solved]
+        return z[self.is_stationary(z[:, : self.law.arm.n])]
+
+    def find_stuck(self, z: FloatArray) -> FloatArray:
+        """Find configurations (N, n) of erroneous rest from starts z, with the locked joints at their values."""
+        free_unknowns = self._free.copy()
+        free_unknowns[list(self.locked_joints)] = 0.0
+        unknowns, is_solved = self.equations.search(z, self.pose, self.mask, free_unknowns)
+        # Where b vanishes the equations hold with c = 0, but J has lost rank and the law no answer.
+        parts = self.equations.columns.view_parts(unknowns[is_solved])
+        q = parts["q"][np.abs(parts["c"][:, 0]) > VANISHED_COSINE]
+        _, _, scaled_error = self.linear.rates(q, self.pose)
+        return q[self.is_stationary(q) & (scaled_error > REACHED_ERROR)]
+
+    def find_solutions(self, z: FloatArray) -> FloatArray:
+        """Find configurations (N, n) that reach the target from starts z, with the locked joints at their values."""
+        q, converged = _compiled_solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
+        return q[converged]
+
+    def can_reach(self, values: FloatArray, generator: np.random.Generator) -> BoolArray:
+        """Return (N,) True where the target is reached from one random start with the locked joint at values (N,)."""
+        q = self.sample_starts(len(values), generator)[:, : self.law.arm.n]
+        q[:, self.locked_joints[0]] = values
+        return _compiled_solutions(self.law).search(q, self.pose, self.mask)[1]
+
+    def is_stationary(self, q: FloatArray) -> BoolArray:
+        """Return (N,) True where only locked joints are commanded at q (N, n)."""
+        rates, _, _ = self.linear.rates(q, self.pose)
+        return np.asarray(np.linalg.norm(rates[:, self.healthy], axis=1) < MAX_HEALTHY_FRACTION * np.linalg.norm(rates, axis=1))
+
+    def is_law_at_rest(self, z: FloatArray) -> bool:
+        """Return True if the law itself is at rest along z (N, size), where it is defined."""
+        q = z[:, : self.law.arm.n]
+        _, _, scaled_error = self.linear.rates(q, self.pose)
+        return bool(self.is_stationary(q)[scaled_error > 1e-3].mean() > 0.5)
+
+    def evaluate(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Evaluate the equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) by the active unknowns."""
+        values, jacobian = self.equations.evaluate(z, self.pose, self.mask)
+        return values[:, self._equation_rows], jacobian[:, self._equation_rows][:, :, self.active]
+
+    def sum_locked_rates(self, z: FloatArray) -> FloatArray:
+        """Return (N,) the values of :meth:`RestEquations.sum_locked_rates`."""
+        return self.equations.sum_locked_rates(z, self.pose, self.mask)
+
+    def eigenvalues(self, q: FloatArray) -> NDArray[np.complex128]:
+        """Return (N, h) the values of :meth:`Linearisation.eigenvalues`."""
+        return self.linear.eigenvalues(q, self.pose, self.healthy)
+
+    def refine_points(self, q: FloatArray) -> FloatArray:
+        """Return (N, n) the erroneous stationary points near q (N, n), locked joints at their values; NaN where
+        there is none.
+        """
+        n = self.law.arm.n
+        free_unknowns = self._free.copy()
+        free_unknowns[list(self.locked_joints)] = 0.0
+        unknowns, is_solved = self.equations.search(
+            self.equations.fit_unknowns(q, self.pose, self.mask), self.pose, self.mask, free_unknowns
+        )
+        return np.where(is_solved[:, None], unknowns[:, :n], np.nan)
+
+    def is_isolated(self, q: FloatArray) -> BoolArray:
+        """Return (N,) False where an eigenvalue is 0."""
+        if not len(q):
+            return np.zeros(0, dtype=bool)
+        magnitudes = np.abs(self.eigenvalues(q))
+        return np.asarray(magnitudes.min(axis=1) > 1e-6 * np.maximum(1.0, magnitudes.max(axis=1)))
+
+
+@lru_cache(maxsize=64)
+def idle_joints(law: Law) -> tuple[int, ...]:
+    """Return the joints that do not move the task of a law at any configuration, from 0; stationary points have them at 0."""
+    quadratic_form = law.quadratic()
+    if quadratic_form is not None and not np.array_equal(quadratic_form[0], np.diag(np.diag(quadratic_form[0]))):
+        return ()
+    q = np.random.default_rng(0).uniform(-np.pi, np.pi, (8, law.arm.n))
+    task_rows = law.task.rows
+    twists = law.arm.jacobian(q)
+    column_maxima = np.abs(task_rows @ twists if law.task.frame == "base" else twists).max(axis=(0, 1))
+    return tuple(int(joint) for joint in np.flatnonzero(column_maxima < IDLE_COLUMN_FRACTION * column_maxima.max()))
+
+
+def wrap_angles(arm: Arm, q: FloatArray) -> FloatArray:
+    """Return configurations (N, n) with revolute joints from -pi to pi, whatever their limits."""
+    return joint_space.wrap_joints(arm.without_limits, q)
+
+
+def select_distinct(arm: Arm, q: FloatArray, known_points: FloatArray, min_distance: float) -> FloatArray:
+    """Select those of q (N, n), in order, that are ``min_distance`` from the known points (P, n) and from those selected
+    before.
+    """
+    unlimited_arm = arm.without_limits
+    if len(known_points) and len(q):
+        q = q[joint_space.find_nearest(unlimited_arm, known_points, q)[0] > min_distance]
+    is_kept = np.ones(len(q), dtype=bool)
+    if len(q) > 1:
+        for first, second in joint_space.find_close_pairs(unlimited_arm, q, min_distance):
+            if is_kept[first]:
+                is_kept[second] = False
+    return q[is_kept]
+
+
+@lru_cache(maxsize=16)
+def _compiled_equations(law: Law, locks_one: bool) -> RestEquations:
+    """Return the compiled equations of a law."""
+    return RestEquations(law, locks_one)
+
+
+@lru_cache(maxsize=16)
+def _compiled_solutions(law: Law) -> SolutionSearch:
+    """Return the compiled search for configurations of a target with locked joints."""
+    return SolutionSearch(law)

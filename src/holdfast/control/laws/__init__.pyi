@@ -1,0 +1,16 @@
+from holdfast.control.laws.deviation import Deviations as Deviations
+from holdfast.control.laws.export import ExportedLaw as ExportedLaw
+from holdfast.control.laws.inverses import Damped as Damped
+from holdfast.control.laws.inverses import Pseudoinverse as Pseudoinverse
+from holdfast.control.laws.inverses import Weighted as Weighted
+from holdfast.control.laws.inverses import damped as damped
+from holdfast.control.laws.inverses import pseudoinverse as pseudoinverse
+from holdfast.control.laws.inverses import weighted as weighted
+from holdfast.control.laws.law import Law as Law
+from holdfast.control.laws.law import by_name as by_name
+from holdfast.control.laws.optimal_damping import FailureTolerant as FailureTolerant
+from holdfast.control.laws.optimal_damping import failure_tolerant as failure_tolerant
+from holdfast.control.laws.trade_offs import TradeOff as TradeOff
+from holdfast.control.laws.trade_offs import trade_off as trade_off
+from holdfast.control.laws.transpose import JacobianTranspose as JacobianTranspose
+from holdfast.control.laws.transpose import jacobian_transpose as jacobian_transpose

@@ -1,0 +1,106 @@
+"""A simulated robot that differs from its model: other masses, friction that the model does not state, and noisy sensors."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from typing import Any
+
+import numpy as np
+
+from holdfast.control.physics.model import build_mujoco_spec
+from holdfast.control.physics.servos import Servos
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_constructor
+from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.model import Arm
+
+
+@check_constructor
+@dataclass(frozen=True)
+class Body:
+    """Differences between a simulated robot and the model of its arm, and the noise of its sensors.
+
+    Attributes:
+        seed: Of what differs: one robot has one, whatever it does.
+        mismatch: Fraction by which masses, inertias and friction are off, at most, evenly drawn for each link and joint.
+        coulomb: Dry friction of every joint, N m and N.
+        viscous: Viscous friction, N m s/rad and N s/m.
+        rotor: Rotor inertia of joints whose model states none, kg m^2 and kg.
+        joint: Standard deviation of a joint sensor, rad and m.
+        torque: Of a recorded torque, N m and N.
+        position, angle: Of the measured tool point, m, and orientation, rad.
+
+    Raises:
+        InputError: A number below 0, or a mismatch of 1 or more.
+    """
+
+    seed: int = 0
+    _: KW_ONLY
+    mismatch: float = 0.2
+    coulomb: float = 0.5
+    viscous: float = 0.3
+    rotor: float = 0.1
+    joint: float = 2e-5
+    torque: float = 0.05
+    position: float = 0.5e-3
+    angle: float = 1e-3
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not 0 <= value < np.inf:
+                raise InputError(f"{name} of the body is {value:g}; it must be a finite number of 0 or more")
+        if self.mismatch >= 1:
+            raise InputError(f"mismatch of the body is {self.mismatch:g}; it must be below 1, or a mass would be 0")
+
+    def model(self, arm: Arm, servos: Servos) -> tuple[Any, FloatArray, FloatArray]:
+        """Build the robot as a MuJoCo model with a motor at every joint; ``qpos`` counts from 0.
+
+        A motor's torque is its control less the servo's damping times the joint's rate: a drive's velocity loop, which is much
+        faster than the control cycle.
+
+        Args:
+            arm: The arm, with inertial data.
+            servos: The servos; their gains suit the arm's model, and their rate gives the step.
+
+        Returns:
+            ``mujoco.MjModel``; stiffness and damping (n,) of the servos.
+
+        Raises:
+            ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+            HoldfastError: MuJoCo is not installed.
+        """
+        mujoco = import_mujoco()
+        model = _build_motor_model(arm, step=1 / (servos.rate * servos.substeps), rotor=self.rotor)
+        stiffness, damping = servos.gains(arm, mujoco, model, start=np.zeros(arm.n))
+        model.actuator_biastype[:], model.actuator_biasprm[:, 2] = mujoco.mjtBias.mjBIAS_AFFINE, -damping
+        generator = np.random.default_rng([1, self.seed])
+        model.body_mass[1:] *= (scale := 1 + generator.uniform(-self.mismatch, self.mismatch, model.nbody - 1))
+        model.body_inertia[1:] *= scale[:, None]
+        model.dof_frictionloss[:] = self.coulomb * (1 + generator.uniform(-self.mismatch, self.mismatch, model.nv))
+        model.dof_damping[:] = self.viscous * (1 + generator.uniform(-self.mismatch, self.mismatch, model.nv))
+        return model, stiffness, damping
+
+    def measure_poses(self, poses: FloatArray, rng: np.random.Generator) -> FloatArray:
+        """Return tool poses (N, 4, 4) as measured with noise."""
+        from scipy.spatial.transform import Rotation
+
+        measured_poses = poses.copy()
+        measured_poses[:, :3, 3] += rng.normal(0, self.position, (len(poses), 3))
+        noise_rotation = Rotation.from_rotvec(rng.normal(0, self.angle, (len(poses), 3)))
+        measured_poses[:, :3, :3] = noise_rotation.as_matrix() @ poses[:, :3, :3]
+        return measured_poses
+
+
+def _build_motor_model(arm: Arm, *, step: float, rotor: float) -> Any:
+    """Build the ``mujoco.MjModel`` of an arm with a motor, whose control is its torque, at every joint."""
+    mujoco = import_mujoco()
+    model_spec = build_mujoco_spec(arm, np.zeros(arm.n), range(arm.n), step=step)
+    model_spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    for joint in arm.joints:
+        motor = model_spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        if np.isfinite(joint.effort):
+            motor.forcelimited, motor.forcerange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
+    model = model_spec.compile()
+    model.dof_armature[:] = [joint.armature or rotor for joint in arm.joints]
+    return model

@@ -1,0 +1,255 @@
+"""A timed joint motion executed by servos in MuJoCo, with joints that lock on the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.control.physics.execution import Ended, Execution
+from holdfast.control.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
+from holdfast.control.physics.servos import Servos, reference_leads
+from holdfast.control.physics.surroundings import ContactLog
+from holdfast.core.errors import InputError
+from holdfast.core.progress import reports_progress, track
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.kinematics.tool_constraints.labels import KeepLike, anchor_constraints
+from holdfast.model.arm.mjcf import silence_mujoco
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import check_poses
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+from holdfast.model.failure_modes import Degraded, Locked, degraded_at, read_locks
+
+LOCK_POSITION_TOLERANCE = 1e-6  # rad and m: a joint this near to where it is said to be locked is there
+REST_SPEED = 1e-3  # rad/s and m/s
+MAX_DURATION_S = 3600.0  # s
+
+
+@check_arguments
+@silence_mujoco()
+@reports_progress("executing the motion")
+def execute(
+    arm: Arm,
+    q: ArrayLike,
+    time: ArrayLike,
+    *,
+    locked: Locked = (),
+    lock_time: ArrayLike = 0.0,
+    notice: float | None = None,
+    stop: float = 0.1,
+    goal: ArrayLike | None = None,
+    keep: KeepLike | None = None,
+    servos: Servos | None = None,
+    settle: float = 0.5,
+    error_limit: tuple[float, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+) -> Execution:
+    """Execute a timed joint motion in MuJoCo with servos, and evaluate it (needs ``holdfast-arms[physics]``).
+
+    Bodies, motors and locks are those of :func:`holdfast.simulate_physics`: a joint that locks while it moves stops at once,
+    and the jolt goes through the arm. The arm starts at rest where the motion begins. Until a lock is noticed the other joints
+    follow the motion as before; then it is run through ever more slowly, to a standstill, and ``at`` and ``degraded`` of the
+    result are what :func:`holdfast.recover` begins with. What it finds is carried out with ``locked=answer.degraded``. Joint
+    limits do not stop the arm; whether they were kept is in the result.
+
+    Args:
+        arm: The arm, with inertial data.
+        q: (S, n) configurations, rad and m, straight in joint space from each to the next.
+        time: (S,) when they are to be met, s, each after the one before.
+        locked: Joints that lock where they are, ``{joint: None}`` or the joints alone, by name or index from 0; or a
+            :class:`holdfast.Degraded`, whose ranges and speeds are looked at from the first lock on.
+        lock_time: When they lock, s from the start, each at the next control cycle: one time, or one for each of them.
+        notice: s from the first lock until the controller knows of it and slows down; None: never, which is
+            also right for a motion that was planned for the lock.
+        stop: s that slowing down takes; the references stay on the motion.
+        goal: (4, 4) pose, or (3,) place, of the tool at the end, m, world.
+        keep: What the tool should keep at every instant; see :func:`holdfast.recover`. "At the start" is where ``q`` begins.
+        servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
+        settle: s that are simulated after the end of the motion, or after the arm has been stopped.
+        error_limit: Largest allowed distance of a joint from the motion, rad and m; ``exceeded`` of the result contains the
+            first joint that is farther off.
+        clearance: The shape of the arm, with a cell or beside one.
+        cell: Objects around the arm, or their file, which it touches and pushes against.
+
+    Returns:
+        An :class:`holdfast.Execution`: where the tool got to, what was kept, and the motion as it was measured.
+
+    Raises:
+        InputError: Wrong shapes, joints or options, times that do not rise, a start within an object, or a cloud of points.
+        ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+        HoldfastError: MuJoCo is not installed.
+    """
+    waypoints, seconds = _check_motion(arm, q, time)
+    for joint_name, number in (("notice", notice or 0.0), ("stop", stop), ("settle", settle)):
+        if not 0 <= number <= MAX_DURATION_S:
+            raise InputError(f"{joint_name} is {number:g} s; it must be from 0 to {MAX_DURATION_S:g} s")
+    degraded = degraded_at(arm, locked, waypoints[0])
+    lock_order = (
+        [arm.joint_names[k] for k in read_locks(arm, locked)] if not isinstance(locked, Degraded) else list(locked.locked)
+    )
+    lock_times = _make_lock_times(arm, degraded, lock_order, lock_time, waypoints[0])
+    if error_limit is not None and not (len(error_limit) == 2 and all(limit > 0 for limit in error_limit)):
+        raise InputError(f"error_limit is {error_limit}; give two numbers above 0, in rad and m")
+    if notice is not None and not np.isfinite(lock_times).any():
+        raise InputError("notice has nothing to notice: no joint locks; give locked")
+    detection_time = np.inf if notice is None else float(lock_times.min()) + notice
+    chosen_servos = Servos() if servos is None else servos
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
+    plant = ServoPlant(arm, waypoints[0], np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen_servos, cell_clearance)
+    contact_log = ContactLog(cell_clearance)
+    contact_log.require_collision_free(plant.model)
+    stiffness, damping = chosen_servos.gains(arm, plant.mujoco, plant.model, start=waypoints[0])
+    references, reaches_end = _plan_references(waypoints, seconds, 1 / chosen_servos.rate, detection_time, stop, settle)
+    samples, is_stable = _drive_motion(plant, references, lock_times, stiffness, damping, contact_log)
+    is_at_rest = float(np.abs(samples.rates[-1]).max()) < REST_SPEED
+    outcome: Ended = "unstable" if not is_stable else "moving" if not is_at_rest else "finished" if reaches_end else "stopped"
+    if degraded is not None:
+        locked_positions = {joint_name: float(samples.q[-1, arm.joint_index(joint_name)]) for joint_name in degraded.locked}
+        degraded = replace(degraded, locked=locked_positions)
+    return Execution(
+        arm=arm,
+        degraded=degraded,
+        servos=chosen_servos,
+        stiffness=stiffness,
+        damping=damping,
+        lock_time=lock_times,
+        noticed=np.inf if reaches_end else detection_time,
+        outcome=outcome,
+        time=np.arange(len(samples.q)) / chosen_servos.rate,
+        q=samples.q,
+        rates=samples.rates,
+        reference=samples.reference,
+        planned=references[: len(samples.q)],
+        torque=samples.torque,
+        goal=_check_goal(goal),
+        keep=anchor_constraints(keep, arm.forward_kinematics(waypoints[0])),
+        contacts=contact_log.list_contacts(),
+        cell=None if cell_clearance is None else cell_clearance.cell,
+        error_limit=error_limit,
+    )
+
+
+def _check_motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Return the checked configurations (S, n), and their times (S,) from 0 on."""
+    waypoints = np.atleast_2d(arm.check_configurations(q))
+    seconds = require_real_numbers(time, "time", "a number for each configuration, s")
+    if seconds.shape != (len(waypoints),) or len(waypoints) < 2:
+        raise InputError(
+            f"time has shape {seconds.shape} and there are {len(waypoints)} configurations; give two or more, and a "
+            f"time for each"
+        )
+    if not (np.isfinite(waypoints).all() and np.isfinite(seconds).all()):
+        raise InputError("the motion holds NaN or infinity; give finite numbers")
+    if (np.diff(seconds) <= 0).any():
+        index = int((np.diff(seconds) <= 0).argmax()) + 1
+        raise InputError(
+            f"time {index} is {seconds[index]:g} s, after {seconds[index - 1]:g} s; every time must be after the one before"
+        )
+    if seconds[-1] - seconds[0] > MAX_DURATION_S:
+        raise InputError(f"the motion takes {seconds[-1] - seconds[0]:g} s; it must take {MAX_DURATION_S:g} s or less")
+    return waypoints, seconds - seconds[0]
+
+
+def _make_lock_times(
+    arm: Arm, degraded: Degraded | None, order: list[str], lock_time: ArrayLike, start: FloatArray
+) -> FloatArray:
+    """Return the lock time (n,) of each joint, s, from times in an order of names; infinite for healthy joints."""
+    lock_times = np.full(arm.n, np.inf)
+    if degraded is None:
+        return lock_times
+    for name, value in degraded.locked.items():
+        joint = arm.joint_index(name)
+        if value is not None and abs(value - start[joint]) > LOCK_POSITION_TOLERANCE:
+            raise InputError(
+                f"joint '{name}' is said to be locked at {value:.6g} and the motion begins with it at {start[joint]:.6g} "
+                f"{arm.joints[joint].unit}; a joint locks where it is"
+            )
+    times_in_order = require_real_numbers(lock_time, "lock_time", "one time, or one for each locked joint, s")
+    if (
+        times_in_order.shape not in ((), (len(degraded.locked),))
+        or not np.isfinite(times_in_order).all()
+        or (times_in_order < 0).any()
+    ):
+        raise InputError(
+            f"lock_time is {times_in_order.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for "
+            f"each joint "
+            "that locks"
+        )
+    for name, joint_time in zip(order, np.broadcast_to(times_in_order, len(degraded.locked)), strict=True):
+        lock_times[arm.joint_index(name)] = joint_time
+    return lock_times
+
+
+def _check_goal(goal: ArrayLike | None) -> FloatArray | None:
+    if goal is None:
+        return None
+    goal_array = require_real_numbers(goal, "goal", "a pose (4, 4) or a place (3,), m")
+    if goal_array.shape not in ((4, 4), (3,)) or not np.isfinite(goal_array).all():
+        raise InputError(f"goal has shape {goal_array.shape}; give a pose (4, 4) or a place (3,) of finite numbers, m")
+    return goal_array if goal_array.ndim == 1 else np.asarray(check_poses(goal_array)[0])
+
+
+def _plan_references(
+    waypoints: FloatArray,
+    seconds: FloatArray,
+    period: float,
+    detection_time: float,
+    stop_duration: float,
+    settle_duration: float,
+) -> tuple[FloatArray, bool]:
+    """Return (K + 1, n) the servo references at each control cycle, and whether they lead to the end of the motion."""
+    end_time = float(seconds[-1])
+    reaches_end = not detection_time + stop_duration / 2 < end_time  # slowing down takes it half as far as full speed
+    stop_end = end_time if detection_time >= end_time else detection_time + stop_duration
+    time = np.arange(int(np.ceil((stop_end + settle_duration) / period - 1e-9)) + 1) * period
+    slowing_time = np.clip(time - detection_time, 0.0, stop_duration)
+    lost_time = slowing_time**2 / (2 * stop_duration) if stop_duration else 0.0
+    clock = np.minimum(np.minimum(time, detection_time) + slowing_time - lost_time, end_time)
+    return np.stack([np.interp(clock, seconds, column) for column in waypoints.T], axis=1), reaches_end
+
+
+@dataclass(frozen=True)
+class _ExecutionSamples:
+    """Samples at each of T control cycles, (T, n), as in :class:`holdfast.Execution`."""
+
+    q: FloatArray
+    rates: FloatArray
+    reference: FloatArray
+    torque: FloatArray
+
+
+def _drive_motion(
+    plant: ServoPlant,
+    references: FloatArray,
+    lock_time: FloatArray,
+    stiffness: FloatArray,
+    damping: FloatArray,
+    contact_log: ContactLog,
+) -> tuple[_ExecutionSamples, bool]:
+    """Return the measured motion, and whether the physics stayed within bounds."""
+    period, rate_feed, max_leads = 1 / plant.servos.rate, damping / stiffness, reference_leads(plant.arm, stiffness)
+    healthy = np.ones(plant.arm.n, dtype=bool)
+    plant.set_gains(stiffness, damping)
+    cycles: list[tuple[FloatArray, FloatArray, FloatArray, FloatArray]] = []
+    for cycle in track("control cycles", range(len(references)), most=True, every=100):
+        still_healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
+        if not still_healthy.all() and (still_healthy != healthy).any():
+            healthy = still_healthy
+            plant = plant.lock_joints(healthy)
+            plant.set_gains(stiffness, damping)
+        q, rates = plant.q, plant.rates
+        next_reference = references[min(cycle + 1, len(references) - 1)]
+        reference = np.clip(next_reference, q - max_leads, q + max_leads)
+        cycles.append((q, rates, reference, plant.torque))
+        if not float(rates @ rates) < MAX_PHYSICAL_SPEED**2:
+            break
+        plant.step_towards(reference + rate_feed * (next_reference - references[cycle]) / period)
+        if plant.data.ncon > 0:
+            contact_log.record_contacts(plant.model, plant.data, (cycle + 1) * period)
+    samples = _ExecutionSamples(*(np.array(column) for column in zip(*cycles, strict=True)))
+    return samples, len(cycles) == len(references)

@@ -1,0 +1,113 @@
+"""An arm as a MuJoCo model: the same frames, bodies, friction, rotor inertia and gravity, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from holdfast.core.errors import ArmError
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.machine import Joint, Link
+from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.soundness import require_possible_inertia
+
+NO_LIMIT_RANGE = 1e9  # rad or m: a limit where there is none; MuJoCo's ranges are finite
+MIN_MOMENT_FRACTION = 1e-9  # of the largest principal moment
+MIN_MOMENT_KG_M2 = 1e-12  # kg m^2
+
+
+def compile_model(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
+    """Compile a spec of :func:`build_mujoco_spec` to a model with the joints' friction."""
+    model = spec.compile()
+    # In the compiled model, because a spec takes it as one number or as three, by the version of MuJoCo.
+    model.dof_damping[:] = [arm.joints[joint].friction for joint in sorted(free)]
+    return model
+
+
+def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
+    """Build the ``mujoco.MjSpec`` of an arm in which the joints ``free`` move and all others are welded at ``q``.
+
+    The model's ``qpos`` counts from ``q``: it is 0 there, in rad or m. Body k + 1 is the moving frame of joint k, joints have
+    the arm's names, the site ``tool`` is the tool, the world is the arm's. The payload is part of the last body. MuJoCo wants
+    principal moments above 0: those of rods and points are lifted to 1e-9 of the body's largest and at least 1e-12 kg m^2.
+
+    Args:
+        arm: Every link known; a link may be massless as long as those behind it are not.
+        q: (n,) rad or m.
+        free: Indices from 0 of the joints that move.
+        stops: Whether the arm's limits stop the free joints, without rebound.
+        step: s.
+
+    Raises:
+        ArmError: A link has no inertial data, or an inertia that no body can have, or a free joint carries no mass.
+        HoldfastError: MuJoCo is not installed.
+    """
+    mujoco = import_mujoco()
+    require_possible_inertia(arm)
+    _require_mass(arm, sorted(free))
+    spec = mujoco.MjSpec()
+    spec.compiler.degree = False
+    spec.option.gravity = arm.gravity
+    spec.option.timestep = step
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    body, frame = spec.worldbody, arm.base
+    for index, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
+        pose = frame @ joint.origin @ joint.motion(float(q[index]))
+        body = body.add_body(pos=pose[:3, 3], quat=to_quaternion(mujoco, pose[:3, :3]))
+        attached_links = [part for part in (link, arm.payload if index == arm.n - 1 else None) if part is not None]
+        _set_inertia(mujoco, body, Link.merge(attached_links))
+        if index in free:
+            _add_joint(mujoco, body, joint, float(q[index]), stops, step)
+        frame = np.eye(4)
+    body.add_site(name="tool", pos=arm.tool[:3, 3], quat=to_quaternion(mujoco, arm.tool[:3, :3]))
+    return spec
+
+
+def _require_mass(arm: Arm, free: Sequence[int]) -> None:
+    """Require that the links between a free joint and the next one have mass."""
+    masses = [0.0 if link is None else link.mass for link in arm.links]
+    masses[-1] += 0.0 if arm.payload is None else arm.payload.mass
+    for joint, next_joint in pairwise([*free, arm.n]):
+        if sum(masses[joint:next_joint]) <= 0:
+            raise ArmError(
+                f"arm '{arm.name}', joint '{arm.joint_names[joint]}': nothing that it carries has mass, so gravity has "
+                f"nothing to "
+                "move; give the links their masses"
+            )
+
+
+def to_quaternion(mujoco: ModuleType, rotation: FloatArray) -> FloatArray:
+    """Return the quaternion (4,), w, x, y, z, of a rotation (3, 3)."""
+    wxyz = np.zeros(4)
+    mujoco.mju_mat2Quat(wxyz, np.ascontiguousarray(rotation).ravel())
+    return wxyz
+
+
+def _set_inertia(mujoco: ModuleType, body: Any, link: Link) -> None:
+    moments, axes = np.linalg.eigh(link.inertia)
+    if np.linalg.det(axes) < 0:
+        axes[:, 0] = -axes[:, 0]
+    if link.mass > 0:
+        moments = np.maximum(moments, max(MIN_MOMENT_FRACTION * moments[2], MIN_MOMENT_KG_M2))
+        moments[0] = max(moments[0], moments[2] - moments[1])  # the triangle inequality, exactly
+    body.explicitinertial = True
+    body.mass, body.ipos = link.mass, link.com
+    body.inertia, body.iquat = moments, to_quaternion(mujoco, axes)
+
+
+def _add_joint(mujoco: ModuleType, body: Any, joint: Joint, position: float, stops: bool, step: float) -> None:
+    joint_type = mujoco.mjtJoint.mjJNT_SLIDE if joint.prismatic else mujoco.mjtJoint.mjJNT_HINGE
+    added_joint = body.add_joint(name=joint.name, type=joint_type, axis=joint.axis, armature=joint.armature)
+    added_joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
+    if stops and (np.isfinite(joint.lower) or np.isfinite(joint.upper)):
+        lower, upper = max(joint.lower - position, -NO_LIMIT_RANGE), min(joint.upper - position, NO_LIMIT_RANGE)
+        added_joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
+        added_joint.range = [lower, max(upper, lower + 1e-9)]
+        # As stiff as the step allows, critically damped: the joint stays where it hits.
+        added_joint.solref_limit = [2 * step, 1.0]
+        added_joint.solimp_limit = [0.99, 0.999, 1e-3, 0.5, 2.0]

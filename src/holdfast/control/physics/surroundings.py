@@ -1,0 +1,150 @@
+"""A cell in a MuJoCo model: fixed objects that an arm can touch and that do not add to its mass."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from holdfast.control.physics.model import to_quaternion
+from holdfast.core.errors import InputError
+from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.cell.cell import Cell
+from holdfast.model.cell.meshes import Mesh
+from holdfast.model.cell.solids import Box, HalfSpace, PrimitiveSolid, Solid, Sphere
+from holdfast.model.collision.capsules import BASE_LINK, LinkCapsule, link_name
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.contacts import Contact
+
+# _ARM_CONTACT_BIT and _CELL_CONTACT_BIT: bits of what touches what: the arm the cell, and nothing itself
+_ARM_CONTACT_BIT = 1
+_CELL_CONTACT_BIT = 2
+
+
+def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
+    """Add the objects of a cell, and massless capsules of the arm's links, to the spec of an arm.
+
+    Contacts are as stiff as the step allows, critically damped, with MuJoCo's own friction (a coefficient of 1). A mesh is its
+    convex hull here.
+
+    Args:
+        spec: Of :func:`holdfast.control.physics.model.build_mujoco_spec`, for the same arm.
+        clearance: With the cell. Links that are welded touch nothing, nor does the arm itself.
+        step: s.
+
+    Raises:
+        InputError: The cell holds a cloud of points.
+    """
+    mujoco, arm = import_mujoco(), clearance.arm
+    contact_options = {"solref": [2 * step, 1.0], "solimp": [0.99, 0.999, 1e-3, 0.5, 2.0], "mass": 0.0}
+    links = spec.bodies[1 : arm.n + 1]
+    for index, body in enumerate(links):
+        body.name = f"link {index}"
+    for number, capsule in enumerate(clearance.capsules):
+        if capsule.link != BASE_LINK:
+            capsule_size = _capsule_size(mujoco, capsule)
+            geom_name = f"part {number}"
+            links[capsule.link].add_geom(
+                name=geom_name, contype=_ARM_CONTACT_BIT, conaffinity=_CELL_CONTACT_BIT, **capsule_size, **contact_options
+            )
+    cell = clearance.cell or Cell(())
+    for number, solid in enumerate(cell):
+        body = spec.worldbody.add_body(
+            name=f"object {number}", pos=solid.pose[:3, 3], quat=to_quaternion(mujoco, solid.pose[:3, :3])
+        )
+        shape = _solid_geometry(mujoco, spec, solid, number)
+        body.add_geom(
+            name=f"object {number}", contype=_CELL_CONTACT_BIT, conaffinity=_ARM_CONTACT_BIT, **shape, **contact_options
+        )
+    object_names = [solid.name for solid in cell]
+    for object_name, link in cell.may_touch:
+        if link in arm.joint_names:
+            spec.add_exclude(
+                bodyname1=f"link {arm.joint_names.index(link)}", bodyname2=f"object {object_names.index(object_name)}"
+            )
+
+
+def _capsule_size(mujoco: Any, capsule: LinkCapsule) -> dict[str, Any]:
+    if capsule.length == 0:
+        return {"type": mujoco.mjtGeom.mjGEOM_SPHERE, "size": [capsule.radius, 0, 0], "pos": capsule.start}
+    return {"type": mujoco.mjtGeom.mjGEOM_CAPSULE, "size": [capsule.radius, 0, 0], "fromto": [*capsule.start, *capsule.end]}
+
+
+def _solid_geometry(mujoco: Any, spec: Any, solid: Solid, number: int) -> dict[str, Any]:
+    geom_types = mujoco.mjtGeom
+    if isinstance(solid, Mesh):
+        mesh = spec.add_mesh(name=f"mesh {number}")
+        mesh.uservert, mesh.userface = solid.surface.vertices.ravel(), solid.surface.faces.ravel()
+        return {"type": geom_types.mjGEOM_MESH, "meshname": mesh.name}
+    if not isinstance(solid, PrimitiveSolid):
+        raise InputError(
+            f"object '{solid.name}' is a cloud of points, for which MuJoCo has no body; for a physical run leave it out of the "
+            "cell, or put boxes or a mesh in its place"
+        )
+    if isinstance(solid, Box):
+        return {"type": geom_types.mjGEOM_BOX, "size": solid.size / 2}
+    if isinstance(solid, HalfSpace):
+        return {"type": geom_types.mjGEOM_PLANE, "size": [0, 0, 1]}
+    if isinstance(solid, Sphere):
+        return {"type": geom_types.mjGEOM_SPHERE, "size": [solid.radius, 0, 0]}
+    geom_type = getattr(geom_types, f"mjGEOM_{type(solid).__name__.upper()}")  # a cylinder or a capsule
+    return {"type": geom_type, "size": [solid.radius, solid.length / 2, 0]}  # type: ignore[attr-defined]
+
+
+class ContactLog:
+    """Contacts so far in a model of :func:`add_cell_objects`.
+
+    Args:
+        clearance: As for :func:`add_cell_objects`; None: nothing is looked at.
+    """
+
+    def __init__(self, clearance: Clearance | None) -> None:
+        self._clearance = clearance
+        self._contact_by_pair: dict[tuple[str, str], tuple[float, float]] = {}
+
+    def record_contacts(self, model: Any, data: Any, time: float) -> None:
+        """Record the contacts of a moment, at a time in s."""
+        for index in range(data.ncon):
+            contact = data.contact[index]
+            pair = self._identify_pair(model, contact)
+            first_time, depth = self._contact_by_pair.get(pair, (time, 0.0))
+            self._contact_by_pair[pair] = first_time, max(depth, -float(contact.dist))
+
+    def require_collision_free(self, model: Any) -> None:
+        """Reject a start within an object, from which the physics would throw the arm out.
+
+        Raises:
+            InputError: Which link is in what, and how deep.
+        """
+        mujoco = import_mujoco()
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        deepest = min((data.contact[index] for index in range(data.ncon)), key=lambda candidate: candidate.dist, default=None)
+        if deepest is not None and deepest.dist < 0:
+            touching_link, object_name = self._identify_pair(model, deepest)
+            raise InputError(
+                f"q puts {touching_link} {-deepest.dist:.3g} m into object '{object_name}' of the cell; start where the "
+                f"arm is clear of it"
+            )
+
+    def _identify_pair(self, model: Any, contact: Any) -> tuple[str, str]:
+        """Return the names of the link and of the object of a contact."""
+        assert self._clearance is not None
+        assert self._clearance.cell is not None
+        numbers = {}
+        for geom_id in contact.geom:
+            kind, number = model.geom(int(geom_id)).name.split()
+            numbers[kind] = int(number)
+        link_number = self._clearance.capsules.parts[numbers["part"]].link
+        return link_name(self._clearance.arm, link_number), self._clearance.cell.objects[numbers["object"]].name
+
+    def list_contacts(self) -> tuple[Contact, ...] | None:
+        """Return the first contact of each pair, in order of time; None if none were checked."""
+        if self._clearance is None:
+            return None
+        records = sorted(
+            (contact_time, link_text, object_name, contact_depth)
+            for (link_text, object_name), (contact_time, contact_depth) in self._contact_by_pair.items()
+        )
+        return tuple(
+            Contact(time=contact_time, link=link_text, object=object_name, depth=contact_depth)
+            for contact_time, link_text, object_name, contact_depth in records
+        )

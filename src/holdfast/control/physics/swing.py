@@ -1,0 +1,303 @@
+"""Free swing of a failed joint: it swings under gravity until friction stops it, with all others locked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.control.physics.fall import BrakedDrop, FreeSwing, Outcome
+from holdfast.control.physics.model import build_mujoco_spec, compile_model
+from holdfast.control.physics.surroundings import ContactLog, add_cell_objects
+from holdfast.core.errors import ArmError, InputError
+from holdfast.core.progress import reports_progress, track
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.machine import Joint
+from holdfast.model.arm.mjcf import import_mujoco, silence_mujoco
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+
+DEFAULT_BRAKE_TIMES_MS = (50.0, 100.0, 200.0)  # ms
+DEFAULT_DAMPING_RATIO = 0.1  # of critical damping, where the arm states no friction to speak of
+MIN_DAMPING_RATIO = 0.02  # of critical damping; files carry less as a placeholder, and the joint would swing for minutes
+REST_AMPLITUDE_RAD = 1e-4  # rad: amplitude of the oscillation that is left
+STOP_SPEED = 1e-4  # rad/s or m/s, against a stop
+BALANCED_TRAVEL = 1e-6  # rad or m: has not moved
+NEGLIGIBLE_FRACTION = 1e-9  # relative to mass, gravity and length of what swings
+CHECK_INTERVAL_STEPS = 20  # steps
+# MIN_DURATION_S and MAX_DURATION_S: s, of the time allowed when none is given
+MIN_DURATION_S = 60.0
+MAX_DURATION_S = 300.0
+MAX_STEP_S = 0.02  # s
+
+
+@check_arguments
+@silence_mujoco()
+@reports_progress("simulating the swing")
+def free_swing(
+    arm: Arm,
+    q: ArrayLike,
+    joint: str | int,
+    *,
+    damping: float | None = None,
+    duration: float | None = None,
+    brake_after: Sequence[float] = DEFAULT_BRAKE_TIMES_MS,
+    step: float = 1e-3,
+    limits: bool = False,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+) -> FreeSwing:
+    """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast-arms[physics]``).
+
+    The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
+    exactly. Nothing is in the way but the objects of a cell, and no limit unless ``limits``; a prismatic joint always falls to
+    its limit. A stop takes the impact without rebound; an object does nearly, and the capsules of the links that swing slide
+    along it (a coefficient of friction of 1; a mesh is its convex hull here). From exactly upright, rounding decides to which
+    side it falls, so its rest angle may have either sign.
+
+    Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
+    small oscillation about its rest position (less is a placeholder in many files, and the joint would swing for minutes); else
+    10 % of it, so that the joint swings widely (each swing loses about 27 % of its amplitude) and still stops; for a
+    prismatic joint its own, or none. It changes the peak and a little the drops, but neither the rest angle nor the initial
+    acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where friction is too stiff for that.
+
+    Args:
+        arm: With inertial data for every link; a link may be massless.
+        q: (n,) configuration at the failure, rad or m.
+        joint: Name, or index from 0, of the failed joint.
+        damping: Viscous friction, N m s/rad or N s/m.
+        duration: Longest time, s; it ends sooner where the joint has stopped (an amplitude below 1e-4 rad is left). If not
+            given, 60 s, and up to 300 s where it swings slowly.
+        brake_after: Times from the failure to the brakes, ms.
+        step: Time step, s.
+        limits: Whether the arm's limits stop the joint.
+        clearance: The shape of the arm, with a cell or beside one.
+        cell: Objects around the arm, or their file.
+
+    Raises:
+        InputError: A wrong joint, configuration or option, a start within an object, or a cloud of points.
+        ArmError: Inertial data are missing or impossible, nothing heavy hangs on the joint, or a prismatic joint has no limit
+            on the side to which it falls.
+        HoldfastError: MuJoCo is not installed.
+    """
+    joint_number = arm.joint_index(joint)
+    start = _check_start(arm, q)
+    _check_options(damping, duration, brake_after, step)
+    failed_joint = arm.joints[joint_number]
+    has_stops = limits or failed_joint.prismatic
+    if has_stops and not failed_joint.lower <= start[joint_number] <= failed_joint.upper:
+        raise InputError(
+            f"q puts joint '{failed_joint.name}' at {start[joint_number]:g} {failed_joint.unit}, outside its limits "
+            f"{failed_joint.lower:g} to "
+            f"{failed_joint.upper:g}; start inside them"
+        )
+    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
+    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
+    model_spec = build_mujoco_spec(arm, start, [joint_number], has_stops, step)
+    if cell_clearance is not None:
+        add_cell_objects(model_spec, cell_clearance, step)
+    contact_log = ContactLog(cell_clearance)
+    swing = _SwingModel(compile_model(model_spec, arm, [joint_number]), arm, joint_number, contact_log)
+    contact_log.require_collision_free(swing.model)
+    if failed_joint.prismatic and not swing.is_balanced:
+        _require_stop(failed_joint, swing.acceleration > 0)
+    friction = swing.choose_damping(damping, failed_joint)
+    brakes = [float(brake_time) for brake_time in brake_after]
+    last_brake = max(brakes, default=0.0) / 1000
+    time, angle, velocity, tool_positions, outcome = swing.run(duration or swing.estimate_duration(friction), last_brake)
+    return FreeSwing(
+        arm=arm,
+        q=start,
+        joint=joint_number,
+        damping=friction,
+        time=time,
+        angle=angle,
+        velocity=velocity,
+        tool_position=tool_positions,
+        rest_angle=float("nan") if outcome == "moving" else float(angle[-1]),
+        peak=float(np.abs(angle).max()),
+        initial_acceleration=swing.acceleration,
+        outcome=outcome,
+        drops=tuple(_measure_drop(brake_time, time, angle, velocity, tool_positions, arm.gravity) for brake_time in brakes),
+        cell=None if cell_clearance is None else cell_clearance.cell,
+        contacts=contact_log.list_contacts(),
+    )
+
+
+# ---- input -------------------------------------------------------------------------------------------------------
+
+
+def _check_start(arm: Arm, q: ArrayLike) -> FloatArray:
+    start = arm.check_configurations(q)
+    if start.ndim != 1:
+        raise InputError(f"q has shape {start.shape}; a free swing starts from one configuration, ({arm.n},)")
+    if not np.isfinite(start).all():
+        raise InputError(f"q for '{arm.name}' holds NaN or infinity; give {arm.n} finite numbers")
+    return start
+
+
+def _check_options(damping: float | None, duration: float | None, brake_after: Sequence[float], step: float) -> None:
+    if damping is not None and not (np.isfinite(damping) and damping >= 0):
+        raise InputError(f"damping is {damping:g}; it must be a finite number of 0 or more, N m s/rad or N s/m")
+    if duration is not None and not (np.isfinite(duration) and duration > 0):
+        raise InputError(f"duration is {duration:g} s; it must be a finite number above 0")
+    if not 0 < step <= MAX_STEP_S:
+        raise InputError(f"step is {step:g} s; it must be above 0 and at most {MAX_STEP_S:g} s")
+    if duration is not None and duration < step:
+        raise InputError(f"duration is {duration:g} s, shorter than one step of {step:g} s; make it longer")
+    for brake_time in brake_after:
+        if not (np.isfinite(brake_time) and brake_time >= 0):
+            raise InputError(f"brake_after holds {brake_time:g}; every brake time must be a finite number of 0 or more, ms")
+        longest = MAX_DURATION_S if duration is None else duration
+        if brake_time / 1000 > longest * (1 + 1e-12):
+            raise InputError(
+                f"brake_after holds {brake_time:g} ms, which is after the end of the simulation at {longest:g} s; brake earlier"
+                + ("" if duration is None else " or give a longer duration")
+            )
+
+
+def _require_stop(joint: Joint, upwards: bool) -> None:
+    side_name, limit = ("upper", joint.upper) if upwards else ("lower", joint.lower)
+    if not np.isfinite(limit):
+        raise ArmError(
+            f"joint '{joint.name}' slides and has no {side_name} limit, where gravity takes it, so it would fall forever; "
+            "give it that limit in m"
+        )
+
+
+# ---- the motion --------------------------------------------------------------------------------------------------
+
+
+class _SwingModel:
+    """A MuJoCo model with one free joint at the moment of failure, and the motion that follows from its torque there."""
+
+    def __init__(self, model: Any, arm: Arm, joint: int, contact_log: ContactLog) -> None:
+        self.mujoco, self.contact_log = import_mujoco(), contact_log
+        self.model, self.data = model, self.mujoco.MjData(model)
+        self.prismatic = bool(arm.prismatic[joint])
+        label = f"arm '{arm.name}', joint '{arm.joint_names[joint]}'"
+        mass = float(model.body_subtreemass[joint + 1])
+        # What swings is no longer than this.
+        length = float(
+            np.linalg.norm(model.body_pos[joint + 2 : arm.n + 1], axis=1).sum()
+            + np.linalg.norm(model.body_ipos[joint + 1 : arm.n + 1], axis=1).sum()
+        )
+        start_torque = self._holding_torque(0.0)
+        inertia = np.zeros(1)
+        self.mujoco.mj_mulM(model, self.data, inertia, np.ones(1))
+        self.inertia = float(inertia[0])
+        self.acceleration = float(self.data.qacc_smooth[0])
+        weight = mass * float(np.linalg.norm(arm.gravity))
+        if self.prismatic:
+            self.stiffness, self.rest_angle = 0.0, 0.0
+            self.is_balanced = abs(start_torque) <= NEGLIGIBLE_FRACTION * weight
+        else:
+            if self.inertia <= NEGLIGIBLE_FRACTION * mass * length**2:
+                raise ArmError(
+                    f"{label}: all that it carries lies on its axis and has no inertia about it, so its acceleration is not "
+                    "defined; give the links their inertia or the joint its armature"
+                )
+            # One rigid body about one axis: the torque is a sine of the angle, so two values give it all.
+            quarter_torque = self._holding_torque(np.pi / 2)
+            self.stiffness = float(np.hypot(start_torque, quarter_torque))
+            self.rest_angle = float(-np.arctan2(start_torque, quarter_torque))
+            self.is_balanced = self.stiffness <= NEGLIGIBLE_FRACTION * weight * length
+        if self.is_balanced:
+            self.acceleration = 0.0
+
+    def _holding_torque(self, angle: float) -> float:
+        """Return the actuator torque that holds the joint at an angle, N m or N."""
+        self.mujoco.mj_resetData(self.model, self.data)
+        self.data.qpos[0] = angle
+        self.mujoco.mj_forward(self.model, self.data)
+        return float(self.data.qfrc_bias[0])
+
+    def choose_damping(self, requested: float | None, joint: Joint) -> float:
+        """Choose the friction, and set it in the model."""
+        if requested is not None:
+            damping = float(requested)
+        else:
+            critical = 2 * float(np.sqrt(self.stiffness * self.inertia))
+            damping = joint.friction if joint.friction > MIN_DAMPING_RATIO * critical else DEFAULT_DAMPING_RATIO * critical
+        self.model.dof_damping[0] = damping
+        if damping * self.model.opt.timestep > self.inertia:
+            # Runge-Kutta would blow up; motion this viscous is slow enough for a method of first order.
+            self.model.opt.integrator = self.mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+        return damping
+
+    def estimate_duration(self, friction: float) -> float:
+        """Estimate the time in which the joint comes to rest, s."""
+        if self.is_balanced:
+            return 1.0
+        if friction == 0 or self.stiffness == 0:
+            return MIN_DURATION_S
+        frequency = np.sqrt(self.stiffness / self.inertia)
+        damping_ratio = friction / (2 * np.sqrt(self.stiffness * self.inertia))
+        slowest_rate = frequency * (
+            damping_ratio if damping_ratio <= 1 else 1 / (damping_ratio + np.sqrt(damping_ratio**2 - 1))
+        )
+        return float(np.clip(15 / slowest_rate, MIN_DURATION_S, MAX_DURATION_S))
+
+    def run(self, duration: float, min_duration: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Outcome]:
+        """Simulate the swing: times (T,), angles (T,), velocities (T,), tool positions (T, 3), and the outcome."""
+        mujoco, model, data = self.mujoco, self.model, self.data
+        step = float(model.opt.timestep)
+        self._holding_torque(0.0)
+        tool_site = model.site("tool").id
+        samples = [(0.0, 0.0, *data.site_xpos[tool_site])]
+        outcome: Outcome = "moving"
+        last_step = int(np.ceil(max(duration, min_duration) / step - 1e-9))
+        for step_number in track("time steps", range(1, last_step + 1), most=True, every=CHECK_INTERVAL_STEPS):
+            mujoco.mj_step(model, data)
+            if data.ncon:
+                self.contact_log.record_contacts(model, data, step_number * step)
+            mujoco.mj_kinematics(model, data)
+            samples.append((data.qpos[0], data.qvel[0], *data.site_xpos[tool_site]))
+            if (
+                step_number % CHECK_INTERVAL_STEPS == 0
+                and step_number * step >= min_duration
+                and (outcome := self._classify_state()) != "moving"
+            ):
+                break
+        table: FloatArray = np.array(samples, dtype=np.float64)
+        if np.abs(table[:, 0]).max() < BALANCED_TRAVEL and outcome == "moving":
+            outcome = "balanced"
+        time = step * np.arange(len(table), dtype=np.float64)
+        return time, table[:, 0].copy(), table[:, 1].copy(), table[:, 2:].copy(), outcome
+
+    def _classify_state(self) -> Outcome:
+        """Classify the present state: moving unless nothing can move the joint any more."""
+        data = self.data
+        angle, velocity = float(data.qpos[0]), float(data.qvel[0])
+        if self.is_balanced:
+            return "balanced"
+        self.mujoco.mj_forward(self.model, data)
+        is_supported = data.nefc > 0 and abs(data.qacc[0]) < 1e-3 * abs(data.qacc_smooth[0])
+        if is_supported and abs(velocity) < STOP_SPEED:
+            return "contact" if data.ncon else "stop"
+        if self.prismatic:
+            return "moving"
+        deviation = angle - self.rest_angle
+        amplitude = np.hypot(
+            np.arctan2(np.sin(deviation), np.cos(deviation)), velocity * np.sqrt(self.inertia / self.stiffness)
+        )
+        return "rest" if amplitude < REST_AMPLITUDE_RAD else "moving"
+
+
+def _measure_drop(
+    after_ms: float, time: FloatArray, angle: FloatArray, velocity: FloatArray, tool: FloatArray, gravity: FloatArray
+) -> BrakedDrop:
+    brake_time = after_ms / 1000
+    displacement = np.array([np.interp(brake_time, time, tool[:, axis]) for axis in range(3)]) - tool[0]
+    gravity_norm = float(np.linalg.norm(gravity))
+    return BrakedDrop(
+        after_ms=after_ms,
+        angle=float(np.interp(brake_time, time, angle)),
+        speed=float(np.interp(brake_time, time, velocity)),
+        drop=float(displacement @ gravity) / gravity_norm if gravity_norm > 0 else 0.0,
+        distance=float(np.linalg.norm(displacement)),
+    )

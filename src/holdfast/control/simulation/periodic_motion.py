@@ -1,0 +1,138 @@
+"""Evidence that a motion repeats itself forever: it returns to the same configuration with the same velocity.
+
+A motion under way at its time limit, or after its last step, may yet stop. It never stops if it is on a closed orbit. The
+rates of a kinematic arm follow from its configuration, so a return to the same configuration, modulo whole turns, is a
+return to the same velocity. The distance that remains between two passages measures how far the motion would drift later.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.simulation.runge_kutta import RungeKuttaStepper
+from holdfast.control.simulation.system import LARGE_NUMBER, STATE_RUNNING
+from holdfast.core.typing import FloatArray
+
+_STEPS_PER_ROUND = 1500  # of the integrator: a period is no longer
+_MAX_STRETCHES = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
+_RETURN_TIME_STEPS = 6  # corrections of the time of a return
+_MAX_CALLS = 400  # calls in each
+_GROUP_RUNS = 32  # at a time, whose ways are kept
+_RETURN_TOLERANCE = 0.1  # of the motion's extent: a return that misses by more is none
+_MAX_DRIFT = 1e-2  # of the motion's extent: the most that it may drift within the horizon
+DRIFT_HORIZON = 1e5  # 1/Ke, after the end of the run
+
+
+def detect_periodic(
+    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
+) -> NDArray[np.bool_]:
+    """Find the periodic motions: those that return to an earlier configuration, always faster than ``min_speed``.
+
+    Args:
+        stepper: The compiled steps.
+        states: (N, s) of runs that are under way.
+        parameters: (N, p) of the steps.
+        is_revolute: (n,) joints of which the values count modulo whole turns.
+        min_speed: rad (and m) per 1/Ke.
+
+    Returns:
+        (N,) True where the drift from period to period, over :data:`DRIFT_HORIZON` or until the run's own limit if that is
+        later, stays below a hundredth of the motion's extent.
+    """
+    groups = [slice(first, first + _GROUP_RUNS) for first in range(0, len(states), _GROUP_RUNS)]
+    group_results = [
+        _detect_periodic_group(stepper, states[group], parameters[group], is_revolute, min_speed) for group in groups
+    ]
+    return np.concatenate([np.zeros(0, dtype=bool), *group_results])
+
+
+def _detect_periodic_group(
+    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
+) -> NDArray[np.bool_]:
+    states, unlimited_parameters = states.copy(), parameters.copy()
+    state_parts, limits = stepper.layout.view_parts(states), stepper.parameters.view_parts(unlimited_parameters)
+    state_parts["code"][:] = STATE_RUNNING
+    horizon = np.maximum(limits["limit"] - state_parts["clock"], DRIFT_HORIZON)[:, 0]
+    limits["until"][:] = limits["limit"][:] = LARGE_NUMBER
+    is_periodic, active = np.zeros(len(states), dtype=bool), np.arange(len(states))
+    for _ in range(_MAX_STRETCHES):
+        trajectory = np.stack(_record_steps(stepper, states[active], unlimited_parameters[active]))
+        returning = np.zeros(len(active), dtype=bool)
+        for column, row in enumerate(active):
+            drift = _measure_drift(stepper, trajectory[:, column], unlimited_parameters[row], is_revolute, min_speed)
+            is_periodic[row], returning[column] = drift * horizon[row] < _MAX_DRIFT, np.isfinite(drift)
+        states[active] = trajectory[-1]
+        active = active[returning & ~is_periodic[active]]
+        if not active.size:
+            break
+    return is_periodic
+
+
+def _record_steps(stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray) -> list[FloatArray]:
+    """Return the states (N, s) after each step, the initial ones first."""
+    if stepper.calls_per_step == 1:
+        return list(stepper.loop.trace_states(states, parameters, _STEPS_PER_ROUND))
+    trajectory = [states]
+    for _ in range(_STEPS_PER_ROUND // stepper.calls_per_step):
+        trajectory.append(stepper.loop.trace_states(trajectory[-1], parameters, stepper.calls_per_step)[-1])
+    return trajectory
+
+
+def _measure_drift(
+    stepper: RungeKuttaStepper, trajectory: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
+) -> float:
+    """Return the drift of a motion per 1/Ke, in units of its extent, by its first return; infinite where it does not return.
+
+    Args:
+        stepper: The compiled steps.
+        trajectory: (T, s) states of the motion, one after the other.
+        parameters: (p,) of the steps.
+        is_revolute: (n,) joints of which the values count modulo whole turns.
+        min_speed: rad (and m) per 1/Ke; a motion that falls to it may stop.
+    """
+    samples = stepper.layout.view_parts(trajectory)
+    if (samples["code"] != STATE_RUNNING).any():
+        return np.inf
+    speed = np.linalg.norm(samples["rates"], axis=1) / samples["share"][:, 0]
+    displacement = _wrap_angles(samples["q"] - samples["q"][0], is_revolute)
+    progress = displacement @ samples["rates"][0]
+    extent = np.maximum.accumulate(np.linalg.norm(displacement, axis=1))
+    for index in (np.flatnonzero((progress[1:-1] < 0) & (progress[2:] >= 0)) + 1).tolist():
+        stride = np.linalg.norm(samples["q"][index + 1] - samples["q"][index])
+        if (
+            np.linalg.norm(displacement[index]) > 2 * stride + _RETURN_TOLERANCE * extent[index]
+            or not speed[: index + 2].min() > min_speed
+        ):
+            continue
+        period, return_error = _find_return(stepper, trajectory[0], trajectory[index], parameters, is_revolute)
+        if return_error < _RETURN_TOLERANCE * extent[index]:
+            return float(return_error / (extent[index] * period))
+    return np.inf
+
+
+def _find_return(
+    stepper: RungeKuttaStepper, start: FloatArray, nearby: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_]
+) -> tuple[float, float]:
+    """Return the time at which a motion that is ``nearby`` its start passes it, and the distance; infinite if it does not."""
+    layout, parameters = stepper.layout, parameters[None].copy()
+    start_parts, earlier = layout.view_parts(start[None]), nearby[None].copy()
+    if stepper.is_staged:
+        layout.view_parts(earlier)["stage"][:] = 0  # a step under way begins again, as its length will change
+    direction, earlier_parts = start_parts["rates"][0], layout.view_parts(earlier)
+    time = float(earlier_parts["time"][0, 0])
+    earliest, current = time, earlier_parts
+    for _ in range(_RETURN_TIME_STEPS):
+        displacement = _wrap_angles(current["q"][0] - start_parts["q"][0], is_revolute)
+        speed_along = float(current["rates"][0] @ direction)
+        if not speed_along > 0:
+            return np.inf, np.inf
+        time = max(time - float(displacement @ direction) / speed_along, earliest)
+        stepper.parameters.view_parts(parameters)["until"][:] = time
+        current = layout.view_parts(stepper.loop.run(earlier, parameters, 0.0, _MAX_CALLS).state)
+    displacement = _wrap_angles(current["q"][0] - start_parts["q"][0], is_revolute)
+    return float(current["clock"][0, 0] - start_parts["clock"][0, 0]), float(np.linalg.norm(displacement))
+
+
+def _wrap_angles(q: FloatArray, is_revolute: NDArray[np.bool_]) -> FloatArray:
+    return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

@@ -1,0 +1,96 @@
+"""The least error that a failed arm can reach at a target, by damped least squares over its healthy joints."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+
+from holdfast.control.simulation.system import FailedArmSystem
+from holdfast.core.caching import cached_property
+from holdfast.core.progress import track
+from holdfast.core.typing import FloatArray
+from holdfast.kernels.disk_cache import cached_kernel
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.linalg import damped_least_norm
+from holdfast.kernels.loop import Loop
+from holdfast.model.arm.configurations import finite_limits
+
+_MAX_DESCENT_STEPS = 200
+_GRADIENT_TOLERANCE = 1e-9
+_INITIAL_DAMPING = 1e-3
+_DAMPING_DECREASE = 0.2
+_DAMPING_INCREASE = 5.0
+_MAX_DAMPING = 1e8
+
+
+class ErrorMinimiser:
+    """The compiled search for the least error of one arm and task.
+
+    A step is tried with the damping of Levenberg and Marquardt and kept if it lowers the error, so that the search ends at a
+    least error also where the target is out of reach.
+    """
+
+    def __init__(self, system: FailedArmSystem) -> None:
+        self._system, self._arm = system, system.law.arm
+        self.made_of = system
+
+    @cached_property
+    @cached_kernel
+    def _search_loop(self) -> Loop:
+        system, n = self._system, self._arm.n
+        state = ca.SX.sym("state", n + 1)
+        q, damping = state[:n], state[n]
+        error, jacobian = system.compute_error(q)
+        # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
+        length_unit = 1.0 if system.law.task.angular else self._arm.length_unit
+        error, jacobian = error / length_unit, jacobian / length_unit
+        healthy_jacobian = jacobian @ ca.diag(system.mask)
+        trial = q + damped_least_norm(healthy_jacobian, error, damping)
+        is_better = ca.sumsqr(system.compute_error(trial)[0] / length_unit) < ca.sumsqr(error)
+        next_state = ca.if_else(
+            is_better, ca.vertcat(trial, damping * _DAMPING_DECREASE + 1e-15), ca.vertcat(q, damping * _DAMPING_INCREASE)
+        )
+        gradient_norm = ca.sqrt(ca.sumsqr(healthy_jacobian.T @ error))
+        return Loop(
+            "nearest point",
+            state,
+            system.parameters,
+            next_state=next_state,
+            residual=ca.if_else(damping > _MAX_DAMPING, 0.0, gradient_norm),
+        )
+
+    @cached_property
+    @cached_kernel
+    def _error_kernel(self) -> Kernel:
+        system = self._system
+        return Kernel("least error", [system.q, system.target, system.rotation], [ca.norm_2(system.compute_error(system.q)[0])])
+
+    def compute_errors(self, q: FloatArray, poses: FloatArray) -> FloatArray:
+        """Return (N,) norms of the task's error, m and rad."""
+        return self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
+
+    def search(
+        self, q: FloatArray, poses: FloatArray, healthy_mask: FloatArray, restarts: int, generator: np.random.Generator
+    ) -> tuple[FloatArray, FloatArray]:
+        """Find the least norms of the error (N,) at poses (N, 4, 4) from q (N, n) and from random values of the healthy joints,
+        whose mask (N, n) is 1.
+
+        Returns:
+            The norms, and (N, n) configurations that have them.
+        """
+        run_count, n = q.shape
+        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), healthy_mask], axis=1)
+        least_errors, nearest = self.compute_errors(q, poses), q.copy()
+        lower, upper = finite_limits(self._arm)
+        for restart in track("starts of each run", range(restarts + 1)):
+            start = q if restart == 0 else np.where(healthy_mask > 0, generator.uniform(lower, upper, (run_count, n)), q)
+            solutions = self._search_loop.run(
+                np.column_stack([start, np.full(run_count, _INITIAL_DAMPING)]),
+                parameters,
+                _GRADIENT_TOLERANCE,
+                _MAX_DESCENT_STEPS,
+            )
+            errors = self.compute_errors(solutions.state[:, :n], poses)
+            is_better = errors < least_errors
+            least_errors[is_better], nearest[is_better] = errors[is_better], solutions.state[is_better, :n]
+        return least_errors, nearest

@@ -1,0 +1,371 @@
+"""Outcomes of the motions of a failed arm, with the evidence."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass, field
+from enum import IntEnum
+from pathlib import Path as File
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.formatting import capitalise_first
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.validation import check_arguments
+
+if TYPE_CHECKING:
+    from holdfast.control.laws.law import Law
+    from holdfast.model.collision.clearance import Clearance
+    from holdfast.model.collision.contacts import Contact
+
+
+CHECKED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
+
+
+class RunOutcome(IntEnum):
+    """Outcome of one run."""
+
+    CONVERGED = 0
+    STUCK = 1
+    MOVING = 2
+    UNDECIDED = 3
+
+    @property
+    def sentence(self) -> str:
+        """Phrase about the end effector that states the outcome."""
+        return _OUTCOME_PHRASES[self]
+
+
+_OUTCOME_PHRASES = {
+    RunOutcome.CONVERGED: "reaches the target",
+    RunOutcome.STUCK: "stops elsewhere",
+    RunOutcome.MOVING: "never stops: it repeats its motion",
+    RunOutcome.UNDECIDED: "is undecided",
+}
+
+
+class Reason(IntEnum):
+    """Reason for which a run is undecided, next to its :class:`RunOutcome`; ``NONE`` where it is decided. It is no status.
+
+    ``CONTACT`` is of runs that were stopped where they touched something.
+    """
+
+    NONE = 0
+    SINGULAR = 1
+    TIME_LIMIT = 2
+    STEPS = 3
+    BAD_INPUT = 4
+    HALF_TURN = 5
+    CONTACT = 6
+
+    @property
+    def sentence(self) -> str:
+        """Explanation of the reason, and advice."""
+        return _REASON_SENTENCES[self]
+
+
+_REASON_SENTENCES = {
+    Reason.NONE: "decided",
+    Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
+    Reason.TIME_LIMIT: "still moving at the time limit, and not found to repeat the motion: give a longer time_limit",
+    Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
+    Reason.HALF_TURN: (
+        "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "
+        "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
+        "orientation free"
+    ),
+    Reason.CONTACT: "the arm was stopped where it first touched something",
+    Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
+}
+
+UNDECIDED_REASONS = tuple(reason for reason in Reason if reason not in (Reason.NONE, Reason.CONTACT))
+
+
+@dataclass(frozen=True)
+class RunPath:
+    """One run over time.
+
+    Attributes:
+        time: (T,) s, or cycles.
+        q: (T, n) rad and m.
+        x: (T, 3) tool point in the world, m.
+        error: (T,) norm of the task's error, m and rad.
+        position_error: (T,) distance of the tool point from the target in the directions of the task, m.
+        angle_error: (T,) angle of the end effector from the target in the directions of the task, rad.
+        locked: (T, n) True where the joint is locked.
+    """
+
+    time: FloatArray
+    q: FloatArray
+    x: FloatArray
+    _: KW_ONLY
+    error: FloatArray
+    position_error: FloatArray
+    angle_error: FloatArray
+    locked: BoolArray
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """Settings with which runs were made.
+
+    Attributes:
+        time_limit: s, or cycles.
+        accuracy: Tolerance of a step, or radius of the target in cycles.
+        step_size: Of the fixed-step method, s.
+    """
+
+    time_limit: float
+    accuracy: float
+    step_size: float
+
+
+class _Simulator(Protocol):
+    """Simulator of the runs, for later questions about them."""
+
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]: ...
+    def compute_errors(self, runs: Runs, run: int | BoolArray, q: FloatArray) -> tuple[FloatArray, FloatArray]: ...
+    def sample_path(self, runs: Runs, run: int, motion: Callable[[FloatArray], FloatArray], time: FloatArray) -> RunPath: ...
+    def path(self, runs: Runs, run: int, samples: int, until: float | None) -> RunPath: ...
+    def run(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> Runs: ...
+    def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Runs(Result):
+    """N runs of the closed loop, or one (then without the leading N).
+
+    Norms of errors put metres and radians of the task's rows side by side, as the law's own command does.
+
+    Attributes:
+        law: The law of the controller.
+        q0: (N, n) starts, rad and m.
+        target: (N, 4, 4), or (N, m) where it was given so.
+        lock_time: (N, n) when each joint locks, s or cycles; 0 from the start, infinite: never.
+        cycles: Time counts in control cycles.
+        code: (N,) :class:`holdfast.control.simulation.RunOutcome`.
+        reason: (N,) :class:`holdfast.control.simulation.Reason`.
+        q_final: (N, n) where the run ended, not wrapped.
+        x_final: Where the end effector ended, in the form of ``target``.
+        error: (N,) norm of the task's error at the end.
+        closest: (N,) least norm of the error on the way.
+        path_length: (N,) m, of the tool point.
+        q_low, q_high: (N, n) least and greatest value of each joint on the way.
+        limits_passed: (N, n) True where a joint left its limits; the motion does not heed them.
+        time: (N,) s, or cycles, when it ended.
+        clearance: What the arm was to keep clear of, or None: then nobody looked. It changes no run that is not stopped.
+        contacts: First of each pair that touches, of all runs, in order of run and time; None if nobody looked.
+        stopped: (N,) when a run was stopped at its first contact, infinite for never; None if none was to be.
+    """
+
+    law: Law
+    q0: FloatArray
+    target: FloatArray
+    lock_time: FloatArray
+    cycles: bool
+    code: NDArray[np.uint8]
+    reason: NDArray[np.uint8]
+    q_final: FloatArray
+    x_final: FloatArray
+    error: FloatArray
+    closest: FloatArray
+    path_length: FloatArray
+    q_low: FloatArray
+    q_high: FloatArray
+    limits_passed: BoolArray
+    time: FloatArray
+    clearance: Clearance | None = None
+    contacts: tuple[Contact, ...] | None = None
+    stopped: FloatArray | None = None
+    _simulator: _Simulator = field(repr=False, compare=False)
+    _settings: RunSettings = field(repr=False, compare=False)
+
+    def __len__(self) -> int:
+        return int(np.size(self.code))
+
+    @property
+    def outcome(self) -> NDArray[np.str_]:
+        """(N,) ``converged``, ``stuck``, ``moving`` or ``undecided``."""
+        return np.asarray(_OUTCOME_NAMES[self.code])
+
+    @property
+    def position_error(self) -> FloatArray:
+        """(N,) distance of the tool point from the target at the end in the directions of the task, m."""
+        return self._end_errors[0]
+
+    @property
+    def angle_error(self) -> FloatArray:
+        """(N,) angle of the end effector from the target at the end in the directions of the task, rad."""
+        return self._end_errors[1]
+
+    @cached_property
+    def _end_errors(self) -> tuple[FloatArray, FloatArray]:
+        q = np.atleast_2d(self.q_final)
+        is_finite = np.asarray(np.isfinite(q).all(axis=1))
+        errors = np.full((2, len(q)), np.nan)
+        errors[:, is_finite] = self._simulator.compute_errors(self, is_finite, q[is_finite])
+        return (errors[0], errors[1]) if self.code.ndim else (errors[0, 0], errors[1, 0])
+
+    @property
+    def held_from(self) -> FloatArray:
+        """(N, n) when each joint stops for good, by its lock or because the run was stopped, s or cycles."""
+        lock_times = np.atleast_2d(self.lock_time)
+        return lock_times if self.stopped is None else np.minimum(lock_times, np.atleast_1d(self.stopped)[:, None])
+
+    @property
+    def first_contacts(self) -> tuple[Contact | None, ...]:
+        """(N,) first contact of each run; None where it touches nothing, or contacts were not checked."""
+        contact_by_run = {contact.run: contact for contact in reversed(self.contacts or ())}  # of each run the first comes last
+        return tuple(contact_by_run.get(run) for run in range(len(self)))
+
+    def ending_sentence(self, k: int = 0) -> str:
+        """Return how run k ended, a phrase about the end effector that names the time limit where the limit ended the run."""
+        reason = Reason(int(np.atleast_1d(self.reason)[k]))
+        if reason == Reason.TIME_LIMIT:
+            return f"is still moving at the limit of {self._settings.time_limit:.6g} {self.unit}"
+        outcome = RunOutcome(int(np.atleast_1d(self.code)[k])).sentence
+        return outcome if reason == Reason.NONE else f"{outcome}: {reason.sentence}"
+
+    @property
+    def unit(self) -> str:
+        """Unit of time: ``s``, or ``cycles``."""
+        return "cycles" if self.cycles else "s"
+
+    def checked_until(self, k: int = 0) -> float:
+        """Return the time up to which run k is checked for contacts, s or cycles: its end, unless it repeats its motion."""
+        end_time, is_periodic = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == RunOutcome.MOVING
+        return min(end_time, CHECKED_SPAN / self.law.gain) if is_periodic else end_time
+
+    def counts(self) -> dict[str, int]:
+        """Return the number of runs with each outcome."""
+        run_counts = np.bincount(np.atleast_1d(self.code), minlength=len(RunOutcome))
+        return {str(name): int(count) for name, count in zip(_OUTCOME_NAMES, run_counts, strict=True)}
+
+    @check_arguments
+    @reports_progress("looking for the least errors")
+    def least_error(self, restarts: int = 24, seed: int = 0) -> FloatArray:
+        """Return (N,) the least norm of the task's error that each arm can have with its joints locked where they were at the
+        end.
+
+        Found by damped least squares over the healthy joints, starting where the run ended and from random configurations,
+        joint limits left aside as in the run itself: an upper bound of the true least, never above the run's own end.
+
+        Raises:
+            InputError: Fewer than 0 restarts.
+        """
+        if restarts < 0:
+            raise InputError(f"restarts is {restarts}; it must be 0 or more")
+        least_errors, _ = self._simulator.least_error(self, restarts, np.random.default_rng(seed))
+        return least_errors if self.code.ndim else least_errors[0]
+
+    @property
+    def excess_error(self) -> FloatArray:
+        """(N,) error at the end minus :meth:`least_error`: 0 where the arm ends as close as it still could."""
+        return np.asarray(self.error - self.least_error())
+
+    @check_arguments
+    def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> RunPath:
+        """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
+
+        Args:
+            k: Which run, from 0.
+            samples: How many.
+            until: Up to this time, s or cycles; the whole run if not given.
+
+        Raises:
+            InputError: No such run, one that had bad input, or fewer than 2 samples.
+        """
+        if not 0 <= k < len(self):
+            raise InputError(f"there is no run {k}; runs are 0 to {len(self) - 1}")
+        if samples < 2:
+            raise InputError(f"samples is {samples}; it must be 2 or more")
+        if np.atleast_1d(self.reason)[k] == Reason.BAD_INPUT:
+            raise InputError(f"run {k} has no path: {Reason.BAD_INPUT.sentence}")
+        return self._simulator.path(self, k, samples, until)
+
+    def to_csv(self, file: str | File, k: int = 0) -> File:
+        """Write run k as rows over time, from its start to its end: joint positions, tool point (m), position and angle error.
+
+        Raises:
+            InputError: No such run.
+            StoreError: It cannot be written.
+        """
+        written: File = self._present("to_csv", File(file), k)
+        return written
+
+    def limits_sentence(self, k: int = 0) -> str:
+        """Return whether the joints of run k stayed within their limits, as a sentence; empty for an arm without limits.
+
+        It goes with the outcome and does not follow from it: the motion does not heed limits.
+        """
+        arm, lowest, highest = self.law.arm, np.atleast_2d(self.q_low)[k], np.atleast_2d(self.q_high)[k]
+        if not np.isfinite([arm.lower, arm.upper]).any():
+            return ""
+        violations = []
+        for joint, joint_name, minimum, maximum in zip(arm.joints, arm.joint_names, lowest, highest, strict=True):
+            factor, unit = joint.display_unit
+            for value, limit, is_beyond in (
+                (minimum, joint.lower, minimum < joint.lower),
+                (maximum, joint.upper, maximum > joint.upper),
+            ):
+                if is_beyond:
+                    violations.append(f"{joint_name} goes to {factor * value:.4g} {unit} (limit {factor * limit:.4g} {unit})")
+        if not violations:
+            return "All joints stay within their limits."
+        return f"On the way {' and '.join(violations)}: a real arm would stop there."
+
+    def contact_sentence(self, k: int | None = None) -> str:
+        """Return the first contact of run k, or the number of runs in contact with each object; empty if none were checked."""
+        if self.contacts is None:
+            return ""
+        if k is None and len(self) > 1:
+            touching = len({contact.run for contact in self.contacts})
+            object_counts = Counter(contact.object for contact in self.contacts)
+            object_list = ", ".join(
+                f"{object_name} by {count} link{'' if count == 1 else 's'}"
+                for object_name, count in object_counts.most_common(3)
+            )
+            return f"{touching} of them touch something on the way" + (
+                f" ({object_list}, all runs together)" if object_list else ""
+            )
+        run_contacts = [contact for contact in self.contacts if contact.run == (k or 0)]
+        if not run_contacts:
+            end_time, checked_time = float(np.atleast_1d(self.time)[k or 0]), self.checked_until(k or 0)
+            if checked_time < end_time:
+                return f"The arm touches nothing in the first {checked_time:g} s; its motion after them was not checked."
+            return "The arm touches nothing on the way."
+        unit, is_stopped = self.unit, self.stopped is not None
+        remark = "" if len(run_contacts) == 1 else f", the first of {len(run_contacts)} contacts"
+        return (
+            f"{capitalise_first(run_contacts[0].sentence(unit))}{remark}{': the run is stopped there' if is_stopped else ''}."
+        )
+
+    def describe(self) -> list[str]:
+        """Return the outcomes of the runs in a few sentences."""
+        counts = self.counts()
+        lines = [
+            f"{len(self)} runs of {self.law.describe()} on '{self.law.arm.name}': "
+            + ", ".join(f"{count} {name}" for name, count in counts.items())
+        ]
+        passes_limit = np.atleast_2d(self.limits_passed).any(axis=1)
+        if passes_limit.any():
+            converged_count = int((passes_limit & (np.atleast_1d(self.code) == RunOutcome.CONVERGED)).sum())
+            lines.append(
+                f"{int(passes_limit.sum())} of them pass a joint limit on the way, {converged_count} of these converge"
+            )
+        reasons = np.atleast_1d(self.reason)
+        for reason in UNDECIDED_REASONS:
+            if (reasons == reason).any():
+                limit_text = f", {self._settings.time_limit:.6g} {self.unit}" if reason == Reason.TIME_LIMIT else ""
+                lines.append(f"{int((reasons == reason).sum())} undecided{limit_text}: {reason.sentence}")
+        return [*lines, *[sentence for sentence in (self.contact_sentence(),) if sentence]]
+
+
+_OUTCOME_NAMES = np.array([o.name.lower() for o in RunOutcome])

@@ -1,5 +1,0 @@
-"""Outcomes of failed arms over a workspace: measures, maps, the best law, and comparisons of laws."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,0 +1,3 @@
+from holdfast.core import files as files
+from holdfast.core import probability as probability
+from holdfast.core import sweeps as sweeps

@@ -1,0 +1,44 @@
+"""Packages that import what they offer when it is first asked for, so that a program waits only for what it uses."""
+
+from __future__ import annotations
+
+import re
+import sys
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from holdfast.core.renamed import find_successor
+
+_OFFERED_NAME = re.compile(r"^from ([\w.]+) import (?:\(\s*)?(\w+) as \2\b", re.MULTILINE)
+
+
+def offer(package: str) -> None:
+    """Let a package offer its modules and the names that its stub ``__init__.pyi`` re-exports.
+
+    The stub, a line ``from MODULE import NAME as NAME`` for each, is the only list of what a package offers: type checkers
+    and editors read it too. No module has the name of something that its package offers, because Python would put the module
+    in its place (``make house`` counts them).
+
+    Args:
+        package: Its ``__name__``.
+    """
+    module = sys.modules[package]
+    stub = Path(str(module.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
+    homes = {name: home for home, name in _OFFERED_NAME.findall(stub)}
+
+    def get(name: str) -> Any:
+        home = homes.get(name, package)
+        if home != package:
+            value = getattr(import_module(home), name)
+        elif not name.startswith("_") and find_spec(f"{home}.{name}") is not None:
+            value = import_module(f"{home}.{name}")
+        else:
+            successor = find_successor(package, name)
+            hint = f"; it is now {successor}" if successor else ""
+            raise AttributeError(f"module '{package}' has no attribute '{name}'{hint}")
+        setattr(module, name, value)
+        return value
+
+    vars(module).update(__all__=sorted(homes), __getattr__=get, __dir__=lambda: sorted({*vars(module), *homes}))

@@ -1,0 +1,37 @@
+"""Digests of stored JSON documents: a changed character is detected before a number is used."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import Any
+
+from holdfast.core.errors import InputError
+
+_DIGEST_KEY = ',\n  "digest": "'
+
+
+def seal_document(data: dict[str, Any]) -> str:
+    """Return the text of a JSON object whose last entry is the SHA-256 digest of the text before it."""
+    body = json.dumps(data, indent=2, allow_nan=False).removesuffix("\n}")
+    return f'{body}{_DIGEST_KEY}{_digest_of(body)}"\n}}\n'
+
+
+def is_sealed(text: str) -> bool:
+    """Return whether a text ends like one of :func:`seal_document`."""
+    return _DIGEST_KEY in text
+
+
+def check_seal(text: str) -> None:
+    """Refuse a text that differs from the one that :func:`seal_document` returned.
+
+    Raises:
+        InputError: The digest is missing or does not match.
+    """
+    body, _, _ = text.rpartition(_DIGEST_KEY)
+    if text != f'{body}{_DIGEST_KEY}{_digest_of(body)}"\n}}\n':
+        raise InputError("its digest does not match its content; the file was changed after it was written")
+
+
+def _digest_of(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,165 @@
+"""Format numbers and words for the console and for pages."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Collection, Sequence
+from typing import Protocol
+
+import numpy as np
+
+_ROUNDED_TO_ZERO = 1e-9
+_SPACE_BEFORE_UNIT = re.compile(r" (?=(?:%|°|(?:N m|[kcmµ]?m|m?s|min|h|rad|deg|k?N|k?g|k?Hz|W|J|[kMG]?B|px)(?![\w-])))")
+_NUMBER_ENDS = frozenset("0123456789∞–")  # what a number ends with
+_NEGATIVE_EXPONENT = re.compile(r"(?<![\w.])(\d[\d.]*e)-(?=\d)")  # a browser breaks lines behind a hyphen
+_HTML_PIECE = re.compile(r"(<code\b.*?</code>|<pre\b.*?</pre>|<[^>]*>)", re.DOTALL)
+
+
+class Probability(Protocol):
+    """Value with its confidence interval."""
+
+    @property
+    def value(self) -> float:
+        """The estimate."""
+
+    @property
+    def low(self) -> float:
+        """Lower end."""
+
+    @property
+    def high(self) -> float:
+        """Upper end."""
+
+    @property
+    def confidence(self) -> float:
+        """Confidence level of the interval, 0 to 1."""
+
+
+def capitalise_first(text: str) -> str:
+    """Return the text with a capital first letter and the others unchanged."""
+    return text[:1].upper() + text[1:]
+
+
+def format_seconds(time: float) -> str:
+    """Return an instant in seconds: four digits, and never less than tenths of a second."""
+    return f"{time:.4g} s" if abs(time) < 1000 else f"{time:.1f} s"
+
+
+def format_number(x: float) -> str:
+    """Format a number with about three digits; values below 1e-9 are rounding errors and print as 0."""
+    if np.isnan(x):
+        return "–"
+    if np.isinf(x):
+        return "∞" if x > 0 else "−∞"
+    size = abs(x)
+    if size < _ROUNDED_TO_ZERO:
+        return "0"
+    if size < 1e-3 or size >= 1e7:
+        digits, exponent = f"{x:.1e}".split("e")
+        text = f"{digits}e{int(exponent)}"
+    else:
+        text = f"{x:.3f}" if size < 10 else f"{x:,.1f}" if size < 1000 else f"{x:,.0f}"
+    return text.replace("-", "−")
+
+
+def format_decimals(x: float, digits: int) -> str:
+    """Format a number with a fixed count of decimals and no minus sign before zeros."""
+    return f"{round(float(x), digits) + 0.0:.{digits}f}".replace("-", "−")
+
+
+def format_as_given(x: float) -> str:
+    """Format a number with the digits that it was given with."""
+    return f"{x:.6g}".replace("-", "−")
+
+
+def format_percent(fraction: float) -> str:
+    """Format a fraction with one decimal; 0 % and 100 % appear only for exactly 0 and 1."""
+    value = 100 * fraction
+    if 0 < value < 0.05:
+        return "<0.1 %"
+    if 99.95 <= value < 100:
+        return ">99.9 %"
+    return f"{value:.0f} %" if value in (0, 100) else f"{value:.1f} %"
+
+
+def format_interval(p: Probability) -> str:
+    """Format an estimate as ``0.49 (0.47 to 0.51, 95 %)`` with as many digits as its interval supports."""
+    half = max((p.high - p.low) / 2, 1e-6)
+    digits = int(np.clip(math.ceil(0.3 - math.log10(half)), 2, 6))
+    return f"{p.value:.{digits}f} ({p.low:.{digits}f} to {p.high:.{digits}f}, {100 * p.confidence:.4g} %)"
+
+
+def format_half_width(half: float) -> str:
+    """Write half the width of a band as ``±0.031``, with at least two digits that are not 0."""
+    return f"±{half:.{int(np.clip(math.ceil(1 - math.log10(max(half, 1e-9))), 3, 9))}f}"
+
+
+def format_share(count: int, whole: int) -> str:
+    """Format a count with its fraction of the whole and the 95 % Clopper-Pearson interval of that fraction."""
+    if not whole:
+        return f"{count:,}"
+    from holdfast.core.probability.intervals import Interval
+
+    limits = Interval.from_counts(count, whole)
+    low, high = (format_percent(round(x, 9)) for x in (limits.low, limits.high))
+    return f"{count:,} ({format_percent(count / whole)}, 95 % interval {low.removesuffix(' %')} to {high})"
+
+
+def on_one_line(text: str, most: int = 60) -> str:
+    """Return the printable part of a text on one line, shortened to ``most`` characters."""
+    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return line if len(line) <= most else line[: most - 1] + "…"
+
+
+def format_count(count: int, noun: str) -> str:
+    """Return a count with its noun: ``1 pose``, ``2 poses``, ``2 boxes``."""
+    return f"{count:,} {noun}" + ("" if count == 1 else "es" if noun.endswith(("x", "sh")) else "s")
+
+
+def join_units(text: str, html: bool = False) -> str:
+    """Return the text with no-break spaces between numbers and units, so that a page breaks no line there.
+
+    Args:
+        text: For people.
+        html: It is HTML; what is in tags, or to be copied, stays as it is.
+    """
+    if html:
+        pieces = _HTML_PIECE.split(text)  # each second one is to stay
+        return "".join(part if k % 2 else join_units(part) for k, part in enumerate(pieces))
+    joined = _SPACE_BEFORE_UNIT.sub(lambda space: "\u00a0" if text[max(space.start() - 1, 0)] in _NUMBER_ENDS else " ", text)
+    return _NEGATIVE_EXPONENT.sub(r"\1−", joined.replace("\u00a0N m", "\u00a0N\u00a0m"))
+
+
+def format_duration(seconds: float) -> str:
+    """Format a duration: ``4.2 s``, ``12 min``, ``3.0 h``, ``2.5 days`` or ``40 years``."""
+    if seconds < 60:
+        return f"{seconds:.2g} s" if seconds < 10 else f"{seconds:.0f} s"
+    if seconds < 5400:
+        return f"{seconds / 60:.0f} min"
+    if seconds < 172_800:
+        return f"{seconds / 3600:.1f} h"
+    return f"{seconds / 86_400:.1f} days" if seconds < 1e8 else f"{seconds / 31_557_600:.2g} years"
+
+
+def indefinite_article(word: str) -> str:
+    """Return ``a`` or ``an`` for a word."""
+    return "an" if word[:1].lower() in "aeiou" else "a"
+
+
+def list_alternatives(words: list[str]) -> str:
+    """Return ``a, b or c``."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
+
+
+def list_names(names: Sequence[str], most: int = 60) -> str:
+    """Return quoted names for a sentence, ``most`` of them."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(f"'{x}'" for x in names[:most]) + more
+
+
+def suggest_name(name: str, known: Collection[str]) -> str:
+    """Return ``did you mean ...?`` for a sentence, or nothing where no known name is close."""
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+    return f"did you mean '{close[0]}'? " if close else ""

@@ -1,0 +1,64 @@
+"""The status of one row of a batch, the same for the whole library.
+
+A batch cannot raise for row 17, so solvers and indices return one byte per row; ``require_ok`` of a result
+turns the first bad row into an error at the edge.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import HoldfastError
+
+
+class Status(IntEnum):
+    """Status of one row, or of one joint of it; ``Status(code).sentence`` says what to try. Stored: the numbers stay."""
+
+    OK = 0
+    NOT_FOUND = 1
+    BAD_INPUT = 2
+    SINGULAR = 3
+    INFEASIBLE = 4
+    NO_INERTIA = 5
+    UNDEFINED = 6
+    SLOWED = 7
+    DEGENERATE = 8
+    NOT_DEFINED = 9
+    NOT_COMPUTED = 255
+
+    @property
+    def sentence(self) -> str:
+        """What it means and what to try."""
+        return _STATUS_SENTENCES[self]
+
+
+_STATUS_SENTENCES = {
+    Status.OK: "solved",
+    Status.NOT_FOUND: "no solution was found within the budget: give more restarts or widen the joint limits; "
+    "this does not prove that there is none",
+    Status.BAD_INPUT: "the input held NaN or infinity: look at where it came from",
+    Status.SINGULAR: "the task Jacobian is singular here, so the index is 0 by convention: move off the singularity",
+    Status.INFEASIBLE: "no choice meets the constraint: relax it",
+    Status.NO_INERTIA: "all the mass that a joint carries lies on its axis, so its acceleration is 0/0: give the links their "
+    "inertia or the joint its armature",
+    Status.UNDEFINED: "the formula gives no number at this configuration, which is finite: look at where it divides by zero "
+    "or takes a root or logarithm",
+    Status.SLOWED: "the joints' limits let only a part of the commanded velocity pass: command less, or move off the limits",
+    Status.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not swing, "
+    "so the angle and its gradient are 0 by convention, and near here both change abruptly",
+    Status.NOT_DEFINED: "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention",
+    Status.NOT_COMPUTED: "not computed yet: resume the run",
+}
+
+
+def require_ok(status: NDArray[np.uint8], what: str) -> None:
+    """Raise :class:`HoldfastError` if any row is not ``OK``; the message names the first one."""
+    bad = np.flatnonzero(np.atleast_1d(status) != Status.OK)
+    if bad.size:
+        first = Status(int(np.atleast_1d(status)[bad[0]]))
+        raise HoldfastError(
+            f"{what}: {bad.size} of {np.size(status)} rows failed; first: row {bad[0]}, {first.name.lower()}: {first.sentence}"
+        )

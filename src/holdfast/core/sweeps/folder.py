@@ -1,0 +1,115 @@
+"""Tools of every results folder: a lock, checksums, and limits of its size."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import StoreError
+from holdfast.core.files.output import guard_writing
+
+RESUME_ADVICE = "what was committed is safe: make room and run the same command again"
+MAX_ROWS = 10**15
+MAX_CHUNKS = 10**7
+
+
+def exceeds_limits(rows: int, chunk: int) -> bool:
+    """Return whether rows in chunks of this size are more than a program can count in a sensible time."""
+    return rows > MAX_ROWS or -(-rows // chunk) > MAX_CHUNKS
+
+
+def is_plain_name(name: object) -> bool:
+    """Return whether a name is a valid folder name, without a path, on every system."""
+    return (
+        isinstance(name, str)
+        and name not in ("", ".", "..")
+        and not set(name) & set("/\\\0")
+        and len(name.encode(errors="replace")) < 256
+    )
+
+
+def current_plan(plan: Mapping[str, Any], old: Mapping[str, Any], formerly: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """Return the plan of a folder as this version writes it.
+
+    Args:
+        plan: What is asked for.
+        old: What the folder holds.
+        formerly: Entries of ``plan`` as earlier versions wrote them, None for those that they did not have.
+    """
+    content = plan_content(plan)
+    old = {**old, **{key: plan[key] for key, value in plan_content(old).items() if value == content.get(key)}}
+    if formerly is None or any(old.get(key) != value for key, value in formerly.items()):
+        return old
+    return {**old, **{key: plan[key] for key in formerly}}
+
+
+def plan_content(plan: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of a plan that define its results; an entry with a ``sha256`` counts by that digest, not by the place
+    of its files.
+    """
+    return {key: x["sha256"] if isinstance(x, dict) and "sha256" in x else x for key, x in plan.items()}
+
+
+def describe_difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> str:
+    """Return the first entry in which the plan of a folder differs from the requested plan, as text; empty if none."""
+    if old.get("index") == new.get("index") and old.get("index_digest") != new.get("index_digest"):
+        return f"the function of its index '{new.get('index')}' has changed since"
+    for key in sorted({*old, *new}):
+        if old.get(key) != new.get(key):
+            a, b = (shorten(json.dumps(x.get(key))) for x in (old, new))
+            return f"its {key} is {a}, asked for is {b}"
+    return ""
+
+
+def shorten(text: str, most: int = 60) -> str:
+    """Return a text, shortened where it is too long for a sentence."""
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+@contextmanager
+def lock_folder(folder: Path, name: str) -> Iterator[None]:
+    """Lock a folder through the file ``name`` in it until the block or this program ends.
+
+    Raises:
+        StoreError: Another program holds it, or the folder is not writable.
+    """
+    with guard_writing(folder):
+        handle = os.open(folder / name, os.O_CREAT | os.O_RDWR, 0o644)
+    try:
+        try:
+            _lock_file(handle)
+        except OSError as error:
+            raise StoreError(f"another program is writing to '{folder}'; wait for it or stop it") from error
+        yield
+    finally:
+        os.close(handle)
+
+
+def _lock_file(handle: int) -> None:
+    """Lock an open file for this program until it is closed; raise OSError where another program holds the lock."""
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        msvcrt = importlib.import_module("msvcrt")
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+    else:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def digest_columns(columns: Mapping[str, NDArray[Any]]) -> str:
+    """Return the checksum of values: of their names, types, shapes, and bits."""
+    digest = hashlib.blake2b(digest_size=16)
+    for name in sorted(columns):
+        values = np.ascontiguousarray(columns[name])
+        digest.update(f"{name} {values.dtype.str} {values.shape}".encode())
+        digest.update(values.view(np.uint8).data if values.size else b"")
+    return digest.hexdigest()

@@ -1,0 +1,120 @@
+"""Cells of a sweep: each cell is a job over rows that are split into chunks with their own seeds."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
+from hashlib import sha256
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.sweeps.folder import plan_content
+from holdfast.core.sweeps.store import Column
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Rows that are computed and committed together.
+
+    Attributes:
+        number: From 0, in its cell.
+        start: Its first row.
+        stop: The row after its last.
+        seed: Of the study.
+    """
+
+    number: int
+    start: int
+    stop: int
+    _: KW_ONLY
+    seed: int
+
+    @property
+    def sequence(self) -> np.random.SeedSequence:
+        """Random source of the chunk, which depends on the study and the number only, so that cells are paired."""
+        return np.random.SeedSequence(self.seed, spawn_key=(self.number,))
+
+    @property
+    def own_seed(self) -> int:
+        """Integer seed from :attr:`sequence`, for functions that take no more than an integer."""
+        low, high = self.sequence.generate_state(2, np.uint32).tolist()
+        return int(low) | int(high & 0x7FFFFFFF) << 32
+
+    def __len__(self) -> int:
+        return self.stop - self.start
+
+
+class SweepJob(Protocol):
+    """Computation of the rows of a cell; it is pickled and sent to workers, so it holds data and nothing compiled.
+
+    Its values depend on the job and the chunk alone: not on the thread, the process or what was computed before.
+    """
+
+    def prepare(self, alone: bool) -> None:
+        """Compile, once per process; ``alone`` means that each chunk has one thread and other chunks run in parallel.
+
+        Raises:
+            HoldfastError: The job cannot be done.
+        """
+
+    def columns(self) -> list[Column]:
+        """Return the columns of a stored row."""
+
+    def run(self, chunk: Chunk) -> Mapping[str, NDArray[Any]]:
+        """Return the columns of a chunk: one row for each of its rows, or one row that sums them up.
+
+        Raises:
+            HoldfastError: It cannot be done; the study continues with its other cells.
+        """
+
+
+@dataclass(frozen=True)
+class SweepCell:
+    """One cell of a sweep.
+
+    Attributes:
+        name: Unique in the study, fit for a folder.
+        job: What computes it.
+        plan: JSON data that defines its values.
+        rows: How many are computed.
+        chunk: Of them in a chunk.
+        summed: A chunk is stored as one row that sums it up.
+        labels: What it is in the sweep, for people: ``arm``, ``index``, ...
+    """
+
+    name: str
+    job: SweepJob
+    plan: Mapping[str, Any]
+    _: KW_ONLY
+    rows: int
+    chunk: int
+    summed: bool = False
+    labels: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Number of chunks."""
+        return -(-self.rows // self.chunk)
+
+    @property
+    def stored_shape(self) -> tuple[int, int]:
+        """Number of stored rows, in all and per chunk."""
+        return (self.count, 1) if self.summed else (self.rows, self.chunk)
+
+    @cached_property
+    def digest(self) -> str:
+        """Digest of everything that defines the values of the cell."""
+        text = json.dumps([plan_content(self.plan), self.rows, self.chunk, self.summed], sort_keys=True)
+        return sha256(text.encode()).hexdigest()[:16]
+
+    def chunk_at(self, number: int, seed: int) -> Chunk:
+        """Return a chunk by its number."""
+        return Chunk(number, number * self.chunk, min((number + 1) * self.chunk, self.rows), seed=seed)
+
+    def with_rows(self, rows: int) -> SweepCell:
+        """Return the same cell with fewer rows, to try it."""
+        return SweepCell(self.name, self.job, self.plan, rows=rows, chunk=rows, summed=self.summed, labels=self.labels)

@@ -1,0 +1,156 @@
+"""Merge folders of one study that different machines computed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import StoreError
+from holdfast.core.files import reading
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.sweeps.folder import lock_folder
+from holdfast.core.sweeps.store import Store
+from holdfast.core.sweeps.study import STUDY_LOCK_FILE, Study
+from holdfast.core.sweeps.work import Progress
+
+
+@dataclass(frozen=True, kw_only=True)
+class MergeReport(Result):
+    """Result of a merge.
+
+    Attributes:
+        study: That was merged into.
+        added: Chunks taken over.
+        both: Chunks that were there already, with the same bits.
+        close: Chunks that were there already, alike to 1e-12.
+        apart: Chunks that were there already with other values; those that were there stay.
+    """
+
+    study: Study
+    added: int
+    both: int
+    close: int
+    apart: tuple[tuple[str, int], ...]
+
+    def describe(self) -> list[str]:
+        """Return the added and existing chunks, the machines, and the progress of the study in sentences."""
+        lines = [f"{self.study.path}: {self.added} chunks added, {self.both} were there already, bit for bit the same"]
+        if self.close:
+            lines.append(f"{self.close} chunks were there already, alike to 1e-12")
+        if self.apart:
+            cell, k = self.apart[0]
+            lines.append(
+                f"{len(self.apart)} chunks were there already with other values (first: chunk {k + 1} of '{cell}'); those of "
+                f"'{self.study.path}' are kept"
+            )
+        for maker in self.study.makers:
+            packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
+            lines.append(f"computed on {maker['processor']}: Python {maker['python']}, {packages}")
+        if len(self.study.makers) > 1:
+            lines.append(
+                "versions or processors differ: the same study computed on one of them alone agrees to 1e-12, not in every bit"
+            )
+        return [*lines, *self.study.describe()]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the number of chunks of each kind and the machines that computed them."""
+        apart = [{"cell": c, "chunk": k + 1} for c, k in self.apart]
+        counts = {"added": self.added, "same": self.both, "within_1e-12": self.close}
+        return {**counts, "different": apart, "made_by": self.study.makers}
+
+
+@reports_progress("joining the studies")
+def merge_studies(path: str | Path, folders: Sequence[str | Path], progress: Progress | None = None) -> MergeReport:
+    """Copy the chunks that other folders of a study have and this folder lacks.
+
+    Chunks computed by the same versions on the same kind of processor have the same bits; otherwise values agree to 1e-12,
+    which is checked for the chunks that several folders have.
+
+    Args:
+        path: The folder to merge into; it is made if it does not exist.
+        folders: Where to take from.
+        progress: Called after every chunk.
+
+    Raises:
+        StoreError: A folder of another study, a damaged chunk, or another program at work.
+    """
+    others = [Study.open(folder) for folder in folders]
+    if not others:
+        raise StoreError("there is nothing to merge; name the folder to merge into and one or more to take from")
+    study = Study.open(path) if reading.path_exists(Path(path)) else None
+    for other in others:
+        (study or others[0]).check_same(other)
+    study = study or others[0].copy(path)
+    with lock_folder(study.path, STUDY_LOCK_FILE):
+        merging = _Merging(study, sum(s.chunks_done for o in others for s in o.status()), progress)
+        for other in others:
+            merging.take_from(other)
+        study.made.add_runs(r for o in others for r in o.runs)
+    return MergeReport(study=study, added=merging.added, both=merging.both, close=merging.close, apart=tuple(merging.apart))
+
+
+class _Merging:
+    """Merge in progress; its counts are those of :class:`MergeReport`."""
+
+    def __init__(self, study: Study, total: int, progress: Progress | None) -> None:
+        self._study, self._total, self._progress = study, total, progress
+        self.added = self.both = self.close = self._at = 0
+        self.apart: list[tuple[str, int]] = []
+
+    def take_from(self, other: Study) -> None:
+        """Copy the chunks of another folder."""
+        numbers = [self._study.made.machine_number(machine) for machine in other.makers]
+        for number, cell in enumerate(other.cells):
+            if not other.cell_entries(number):
+                continue
+            source = other.cell_store(number)
+            source.check_current()
+            rows, chunk = source.shape
+            mine = Store.create(
+                self._study.cell_folder(number), source.plan, source.columns, rows=rows, chunk=chunk, journal=True
+            )
+            if source.committed_chunks and number not in self._study.begun_cells:
+                self._study.record_begun(number)
+            for part in source.committed_chunks:
+                self._take_chunk(cell["name"], part, source, mine, numbers)
+                self._at += 1
+                if self._progress is not None:
+                    self._progress(self._at, self._total, None)
+
+    def _take_chunk(self, cell: str, chunk: int, source: Store, mine: Store, numbers: list[int]) -> None:
+        entry, own_entry = source.entries[chunk], mine.entries.get(chunk)
+        if own_entry is not None and own_entry.digest == entry.digest:
+            self.both += 1
+            return
+        try:
+            values = source.read_checked(chunk)
+        except StoreError as error:
+            raise StoreError(
+                f"chunk {chunk + 1} of cell '{cell}' in '{source.path}' is damaged ({error}); give 'holdfast study verify' "
+                "with that folder, then compute it again"
+            ) from error
+        if own_entry is None:
+            maker = numbers[entry.maker] if entry.maker < len(numbers) else 0
+            mine.commit_chunk(chunk, values, entry.seconds, maker=maker)
+            self.added += 1
+        elif _are_equal(mine.read_chunk(chunk, list(values)), values):
+            self.close += 1
+        else:
+            self.apart.append((cell, chunk))
+
+
+def _are_equal(a: Mapping[str, NDArray[Any]], b: Mapping[str, NDArray[Any]]) -> bool:
+    for name, x in a.items():
+        y = b[name]
+        if x.dtype.kind != "f":
+            if not np.array_equal(x, y):
+                return False
+        elif not np.allclose(x, y, rtol=1e-12, atol=1e-12, equal_nan=True):
+            return False
+    return True

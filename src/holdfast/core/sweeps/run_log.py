@@ -1,0 +1,67 @@
+"""Log of the runs of a study, with the versions and processors that computed it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from holdfast.core.errors import InputError, StoreError
+from holdfast.core.files.digest import seal_document
+from holdfast.core.files.output import replace_file
+from holdfast.core.files.sealed import read_sealed
+from holdfast.core.sweeps.folder import RESUME_ADVICE
+
+_RUN_LOG_FILE = "made.json"
+
+
+class RunLog:
+    """File in a study's folder that records its runs; it is read at every query."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    @property
+    def makers(self) -> list[dict[str, Any]]:
+        """Versions and processors by their numbers in the journals."""
+        return list(self._read_file()["makers"])
+
+    @property
+    def runs(self) -> list[dict[str, Any]]:
+        """Start, machine, and duration of each run, except runs that were killed."""
+        return list(self._read_file()["runs"])
+
+    def machine_number(self, maker: dict[str, Any]) -> int:
+        """Return the number of versions and a processor, recording new ones first.
+
+        Raises:
+            StoreError: The disk refuses, or the file is damaged.
+        """
+        data = self._read_file()
+        if maker not in data["makers"]:
+            data["makers"].append(maker)
+            self._write(data)
+        return int(data["makers"].index(maker))
+
+    def add_runs(self, runs: Iterable[dict[str, Any]]) -> None:
+        """Add runs; known runs do not count again.
+
+        Raises:
+            StoreError: The disk refuses, or the file is damaged.
+        """
+        data = self._read_file()
+        data["runs"] += [run for run in runs if run not in data["runs"]]
+        self._write(data)
+
+    def _read_file(self) -> dict[str, list[Any]]:
+        file = self._folder / _RUN_LOG_FILE
+        if not file.exists():
+            return {"makers": [], "runs": []}
+        try:
+            data = read_sealed(file)
+            return {"makers": list(data["makers"]), "runs": list(data["runs"])}
+        except (OSError, ValueError, InputError, KeyError, TypeError) as error:
+            raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
+
+    def _write(self, data: dict[str, list[Any]]) -> None:
+        replace_file(self._folder / _RUN_LOG_FILE, seal_document({**data, "sealed": True}), advice=RESUME_ADVICE)

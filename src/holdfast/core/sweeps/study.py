@@ -1,0 +1,392 @@
+"""Study: a folder of cells, each with its chunks, that outlives the program, the worker, and the machine."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from holdfast.core.errors import HoldfastError, InputError, StoreError
+from holdfast.core.files import reading
+from holdfast.core.files.digest import seal_document
+from holdfast.core.files.output import guard_writing, is_occupied, replace_file
+from holdfast.core.files.sealed import read_sealed
+from holdfast.core.formatting import format_duration
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.sweeps.folder import exceeds_limits, is_plain_name, lock_folder
+from holdfast.core.sweeps.job import SweepCell
+from holdfast.core.sweeps.journal import Journal, JournalEntry
+from holdfast.core.sweeps.run_log import RunLog
+from holdfast.core.sweeps.runner import Runner, Stop
+from holdfast.core.sweeps.state import CellStatus, DamagedChunk
+from holdfast.core.sweeps.store import Store
+from holdfast.core.sweeps.work import Progress, StudyRun
+
+_STUDY_FORMAT = "holdfast-study"
+_STUDY_VERSION = 1
+STUDY_FILE = "study.json"
+STUDY_LOCK_FILE = "study.lock"
+_CELLS_FOLDER = "cells"
+_BEGUN_FILE = "begun.journal"
+_KINDS_BY_KEY = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
+
+
+class Study(Result):
+    """Folder of a study; see :meth:`create` and :meth:`open`.
+
+    Attributes:
+        path: The folder.
+        made: What computed it.
+    """
+
+    def __init__(self, path: Path, data: dict[str, Any]) -> None:
+        self.path = path
+        self.made = RunLog(path)
+        self._data = data
+        self._begun = Journal(path / _BEGUN_FILE)
+
+    # ---- opening ---------------------------------------------------------------------------------------------------
+
+    @classmethod
+    def create(cls, path: str | Path, name: str, seed: int, *, cells: Sequence[SweepCell], source: str = "") -> Study:
+        """Create a folder, or open the existing folder of the same study with the new name, source, and labels.
+
+        Args:
+            path: The folder.
+            name: Of the study.
+            seed: Of all its chunks.
+            cells: What is computed.
+            source: The study file, kept for people and for reports.
+
+        Raises:
+            StoreError: Not writable, not a study's folder, or that of another study.
+        """
+        folder = Path(path)
+        data = study_document(name, seed, cells, source)
+        if reading.path_exists(folder / STUDY_FILE):
+            study = cls.open(folder)
+            if study.digest != data["digest"]:
+                raise StoreError(
+                    f"'{folder}' holds another study ({study._describe_difference(data)}); give another folder, or the "
+                    f"same study file to "
+                    "resume it"
+                )
+            if study._data != data:
+                study._write(data)
+            return study
+        if reading.path_exists(folder) and not folder.is_dir():
+            raise StoreError(f"'{folder}' is a file; give a folder")
+        with guard_writing(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+            foreign = is_occupied(folder)
+        if foreign:
+            raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
+        study = cls(folder, data)
+        study._write(data)
+        return study
+
+    @classmethod
+    def open(cls, path: str | Path) -> Study:
+        """Open the study in a folder.
+
+        Raises:
+            StoreError: There is none, or it is damaged or of another version.
+        """
+        folder = Path(path)
+        file = folder / STUDY_FILE
+        if not reading.path_exists(file):
+            raise StoreError(
+                f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
+            )
+        try:
+            data = read_sealed(file, own_digest=True)
+            if data.pop("sealed", False):
+                data["digest"] = _study_digest(data)
+        except (OSError, ValueError, InputError) as error:
+            raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
+        if not isinstance(data, dict) or data.get("format") != _STUDY_FORMAT:
+            raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
+        if data.get("version") != _STUDY_VERSION:
+            raise StoreError(
+                f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_STUDY_VERSION}"
+            )
+        wrong = next((k for k, kind in _KINDS_BY_KEY.items() if not isinstance(data.get(k), kind)), None)
+        wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
+        wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
+        wrong = wrong or ("digest" if _study_digest(data) != data["digest"] else None)
+        if wrong:
+            raise StoreError(
+                f"'{file}' is damaged: its {wrong} is missing or wrong; run the study file again with a new folder"
+            )
+        return cls(folder, data)
+
+    def copy(self, path: str | Path) -> Study:
+        """Create a folder of this study without results.
+
+        Raises:
+            StoreError: It exists, or cannot be written.
+        """
+        folder = Path(path)
+        with guard_writing(folder):
+            folder.mkdir(parents=True)
+        study = Study(folder, self._data)
+        study._write(self._data)
+        return study
+
+    def _write(self, data: dict[str, Any]) -> None:
+        entries = {key: value for key, value in data.items() if key != "digest"}
+        replace_file(self.path / STUDY_FILE, seal_document({**entries, "sealed": True}))
+        self._data = data
+
+    def check_same(self, other: Study) -> None:
+        """Reject a folder of another study.
+
+        Raises:
+            StoreError: It is not; the message names the difference.
+        """
+        if other.digest != self.digest:
+            raise StoreError(
+                f"'{other.path}' and '{self.path}' are not parts of one study ({self._describe_difference(other._data)}); "
+                f"merge folders of "
+                "one study file"
+            )
+
+    def _describe_difference(self, other: Mapping[str, Any]) -> str:
+        if self.seed != other["seed"]:
+            return f"its seed is {self.seed}, asked for is {other['seed']}"
+        mine, theirs = ({c["name"]: c for c in d["cells"]} for d in (self._data, other))
+        for name in [*mine, *theirs]:
+            if name not in theirs or name not in mine:
+                return f"cell '{name}' is {'not asked for' if name not in theirs else 'not in it'}"
+            for key in ("rows", "chunk"):
+                if mine[name][key] != theirs[name][key]:
+                    return f"cell '{name}' has {key} {mine[name][key]}, asked for is {theirs[name][key]}"
+        return next(f"cell '{n}' has other settings, or a file that it reads has changed" for n in mine if mine[n] != theirs[n])
+
+    # ---- what is there ---------------------------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """Name of the study."""
+        return str(self._data["name"])
+
+    @property
+    def seed(self) -> int:
+        """Seed of all chunks."""
+        return int(self._data["seed"])
+
+    @property
+    def digest(self) -> str:
+        """Digest of everything that defines the values of the study; folders with the same digest belong together."""
+        return str(self._data["digest"])
+
+    @property
+    def source(self) -> str:
+        """Text of the study file."""
+        return str(self._data["source"])
+
+    @property
+    def cells(self) -> list[dict[str, Any]]:
+        """Name, labels, rows, chunk and digest of each cell."""
+        return list(self._data["cells"])
+
+    def cell_folder(self, cell: int) -> Path:
+        """Return the path of a cell."""
+        return self.path / _CELLS_FOLDER / str(self._data["cells"][cell]["name"])
+
+    def cell_store(self, cell: int) -> Store:
+        """Return the stored rows of a cell.
+
+        Raises:
+            StoreError: None of it is computed, or it is damaged.
+        """
+        if not reading.path_exists(self.cell_folder(cell)):
+            raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
+        return Store.open(self.cell_folder(cell))
+
+    def record_begun(self, cell: int) -> None:
+        """Record that a cell has rows, so that its loss is detected.
+
+        Raises:
+            StoreError: The disk refuses.
+        """
+        self._begun.add(cell, JournalEntry("begun", 0, 0.0, 0))
+
+    @property
+    def begun_cells(self) -> frozenset[int]:
+        """Cells that have had rows, from 0; folders of early versions do not record them.
+
+        Raises:
+            StoreError: It cannot be read.
+        """
+        return frozenset(self._begun.read_entries())
+
+    def cell_entries(self, cell: int) -> dict[int, JournalEntry]:
+        """Return the finished chunks of a cell by number.
+
+        Raises:
+            StoreError: Its journal cannot be read.
+        """
+        return Journal(self.cell_folder(cell) / Store.JOURNAL).read_entries()
+
+    def status(self) -> list[CellStatus]:
+        """Return the progress of each cell, from the journals alone.
+
+        Raises:
+            StoreError: A journal cannot be read.
+        """
+        states = []
+        for number, cell in enumerate(self._data["cells"]):
+            entries = self.cell_entries(number)
+            count, last_rows = -(-cell["rows"] // cell["chunk"]), cell["rows"] % cell["chunk"]
+            done = [e for n, e in entries.items() if n < count]
+            missing_rows = cell["chunk"] - last_rows if last_rows and count - 1 in entries else 0
+            states.append(
+                CellStatus(
+                    name=cell["name"],
+                    labels=cell["labels"],
+                    chunks=count,
+                    rows=cell["rows"],
+                    chunks_done=len(done),
+                    rows_done=len(done) * cell["chunk"] - missing_rows,
+                    seconds=sum(e.seconds for e in done),
+                    makers=tuple(sorted({e.maker for e in done})),
+                )
+            )
+        return states
+
+    @property
+    def is_complete(self) -> bool:
+        """True if every cell is complete."""
+        return all(s.is_complete for s in self.status())
+
+    @property
+    def makers(self) -> list[dict[str, Any]]:
+        """Versions and processors that computed it, by their numbers in the journals."""
+        return self.made.makers
+
+    @property
+    def runs(self) -> list[dict[str, Any]]:
+        """Start, machine, and duration of each run, except runs that were killed."""
+        return self.made.runs
+
+    def describe(self) -> list[str]:
+        """Return the progress in a sentence."""
+        cells = self.status()
+        done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+        word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
+        spent = format_duration(sum(s.seconds for s in cells))
+        return [f"{self.name} ({self.path}): {done:,} of {total:,} chunks, {word}, {spent} of processor time to compute"]
+
+    # ---- computing -------------------------------------------------------------------------------------------------
+
+    @reports_progress("computing the study")
+    def run(
+        self,
+        cells: Sequence[SweepCell],
+        runner: Runner,
+        progress: Progress | None = None,
+        *,
+        stop: Stop = lambda: False,
+        part: tuple[int, int] = (1, 1),
+    ) -> dict[str, HoldfastError]:
+        """Compute and commit what is missing.
+
+        Args:
+            cells: Those it was created with.
+            runner: Who computes.
+            progress: Called after every chunk.
+            stop: Asked now and then; once it says True, what is at work is finished and committed, and no more begun.
+            part: ``(1, 3)``: only the first of three shares, for machines that never see each other; see
+                :func:`holdfast.core.sweeps.merge_studies`.
+
+        Returns:
+            Cells that could not be computed, by name, and why.
+
+        Raises:
+            StoreError: The folder belongs to other cells, another program is at work in it, the disk is full, or the cluster
+                is gone. What was committed is safe.
+        """
+        if study_document(self.name, self.seed, cells, "")["digest"] != self.digest:
+            raise StoreError(f"'{self.path}' holds another study; give another folder")
+        with lock_folder(self.path, STUDY_LOCK_FILE):
+            return StudyRun(self, cells, progress).run(runner, stop, part)
+
+    # ---- checking and joining --------------------------------------------------------------------------------------
+
+    @reports_progress("reading the study")
+    def verify(self, progress: Progress | None = None) -> list[DamagedChunk]:
+        """Read every committed chunk and compare its checksum; damaged chunks count as missing and are computed by the next
+        run.
+
+        A cell that was begun and of which nothing is left counts too.
+
+        Raises:
+            StoreError: Another program is at work in the folder, or it is not writable.
+        """
+        damaged: list[DamagedChunk] = []
+        with lock_folder(self.path, STUDY_LOCK_FILE):
+            total, position = sum(s.chunks_done for s in self.status()), 0
+            begun = self.begun_cells
+            for number, cell in enumerate(self._data["cells"]):
+                if number in begun and not self.cell_entries(number):
+                    damaged.append(DamagedChunk(cell["name"], None, "it was begun, and nothing of it is left"))
+                    self._begun.drop([number])
+                if not reading.path_exists(self.cell_folder(number)):
+                    continue
+                store = self.cell_store(number)
+                bad_chunks = []
+                for chunk in store.committed_chunks:
+                    try:
+                        store.read_checked(chunk)
+                    except StoreError as error:
+                        bad_chunks.append(chunk)
+                        damaged.append(DamagedChunk(cell["name"], chunk, str(error)))
+                    position += 1
+                    if progress is not None:
+                        progress(position, total, None)
+                if bad_chunks:
+                    store.drop_chunks(bad_chunks)
+                    if not store.committed_chunks:
+                        self._begun.drop([number])
+        return damaged
+
+
+def study_document(name: str, seed: int, cells: Sequence[SweepCell], source: str) -> dict[str, Any]:
+    """Return the content of the study file."""
+    data: dict[str, Any] = {
+        "format": _STUDY_FORMAT,
+        "version": _STUDY_VERSION,
+        "name": name,
+        "seed": seed,
+        "source": source,
+        "cells": [
+            {"name": cell.name, "labels": dict(cell.labels)}
+            | {key: getattr(cell, key) for key in ("rows", "chunk", "summed", "digest")}
+            for cell in cells
+        ],
+    }
+    return {**data, "digest": _study_digest(data)}
+
+
+def _is_cell(data: Any) -> bool:
+    kinds = {"labels": dict, "rows": int, "chunk": int, "digest": str}
+    if not isinstance(data, dict) or not all(isinstance(data.get(k), kind) for k, kind in kinds.items()):
+        return False
+    return (
+        is_plain_name(data.get("name"))
+        and data["rows"] >= 0
+        and data["chunk"] >= 1
+        and not exceeds_limits(data["rows"], data["chunk"])
+    )
+
+
+def _study_digest(data: Mapping[str, Any]) -> str:
+    try:
+        text = json.dumps([data["seed"], [[c["name"], c["rows"], c["chunk"], c["digest"]] for c in data["cells"]]])
+    except (KeyError, TypeError):
+        return ""
+    return sha256(text.encode()).hexdigest()[:16]

@@ -1,5 +1,0 @@
-"""Search for fault-tolerant arms: Jacobians, link lengths, and other geometric parameters."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

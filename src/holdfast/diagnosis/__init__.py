@@ -1,5 +1,0 @@
-"""Monitor that detects a joint fault while the arm moves, isolates the joint, and reports inconclusive cases."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,5 +1,0 @@
-"""Every configuration of a pose within limits, or a proof that there is none, by branch and bound over joint boxes."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,5 +1,0 @@
-"""Stationary points of a failed arm, their curves and basins, and limit cycles."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

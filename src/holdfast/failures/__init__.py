@@ -1,5 +1,0 @@
-"""Failure modes: sets of joints that may fail, and the known failures of an arm."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,5 +1,0 @@
-"""Timed joint faults: drawn for each episode identically on every machine, and injected into simulators."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,5 +1,0 @@
-"""Batch functions inside PyTorch and JAX with exact first derivatives; both are imported only when they are used."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,2 +1,0 @@
-from holdfast.frameworks.rows import Differentiable as Differentiable
-from holdfast.frameworks.rows import RowFunction as RowFunction

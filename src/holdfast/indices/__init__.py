@@ -1,9 +1,0 @@
-"""Fault tolerance of one configuration: locked-joint indices and free-swinging susceptibilities, with gradients.
-
-Free-swinging joints are in :mod:`holdfast.indices.susceptibility`. Every constructor of an index takes
-``(arm, task="pose", failures="single", length=None)``, and what it needs besides, and returns an :class:`Index`.
-"""
-
-from holdfast._lazy import offer
-
-offer(__name__)

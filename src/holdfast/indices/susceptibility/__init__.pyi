@@ -1,9 +1,0 @@
-from holdfast.indices.susceptibility.formulas import SusceptibilityFormula as SusceptibilityFormula
-from holdfast.indices.susceptibility.measure import Susceptibility as Susceptibility
-from holdfast.indices.susceptibility.measure import SusceptibilityBatch as SusceptibilityBatch
-from holdfast.indices.susceptibility.measure import SusceptibilityEvaluation as SusceptibilityEvaluation
-from holdfast.indices.susceptibility.measure import acceleration as acceleration
-from holdfast.indices.susceptibility.measure import by_name as by_name
-from holdfast.indices.susceptibility.measure import swing_angle as swing_angle
-from holdfast.indices.susceptibility.measure import torque as torque
-from holdfast.indices.susceptibility.weights import largest_static_torque as largest_static_torque

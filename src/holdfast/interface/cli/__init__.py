@@ -1,0 +1,31 @@
+"""Command line of holdfast, a thin layer over the library."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from contextlib import suppress
+
+from holdfast.interface.cli.interrupt import STOPPED_EXIT_CODE, InterruptHandler
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the program; Ctrl-C ends it within a second, with exit code 130 and one line on stderr."""
+    gc.set_threshold(50_000)  # of 700, which looks for circles again and again while modules are imported
+    interrupt = InterruptHandler()
+    try:
+        from holdfast.interface.cli.program import main as run
+
+        run()
+    except SystemExit as end:
+        if end.code != STOPPED_EXIT_CODE:
+            raise
+    except BaseException:  # a foreign module that is interrupted while it is imported may raise what it likes
+        if not interrupt.was_requested:
+            raise
+        print("holdfast: stopped", file=sys.stderr, flush=True)
+    with suppress(OSError):
+        sys.stdout.flush()
+    interrupt.end_process()

@@ -1,0 +1,5 @@
+"""``python -m holdfast.interface.cli``."""
+
+from holdfast.interface.cli import main
+
+main()

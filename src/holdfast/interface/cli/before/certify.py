@@ -1,0 +1,246 @@
+"""``holdfast certify``, with a command for each kind of claim."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.before.certify_path import path
+from holdfast.interface.cli.certify_options import (
+    AnglesOption,
+    CertificateOption,
+    CertificateOutput,
+    CheckOption,
+    ConfigurationBoxOptions,
+    HalvingsOption,
+    JointHalvingsOption,
+    LimitOption,
+    LockOption,
+    RowsOption,
+    SearchOptions,
+    TargetBoxOptions,
+    read_intervals,
+)
+from holdfast.interface.cli.certify_search import prove_claim, prove_with_found_ranges
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption, SeedOption
+from holdfast.interface.presentation.results import print_result
+from holdfast.model.failure_modes.sets import read_failures
+
+command = typer.Typer(
+    name="certify",
+    help="Prove a property for every point of a box and write a certificate.",
+    no_args_is_help=True,
+)
+
+
+@dataclass(frozen=True)
+class _CertificateFolder(CertificateOutput):
+    out: Annotated[Path, "Folder for the certificate and those of its parts; or FILE.zip."]
+
+
+@command.command()
+def reach(
+    arm: ArmArgument,
+    targets: TargetBoxOptions,
+    lock: LockOption = None,
+    limit: LimitOption = None,
+    degrees: AnglesOption = False,
+    halvings: HalvingsOption = 8,
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    seed: SeedOption = 0,
+    written: CertificateOutput = CertificateOutput(Path("reach.certificate")),
+) -> None:
+    """Prove that every target in a box is reachable, with or without a locked joint.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far; with --store the same command resumes.
+
+    Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
+    """
+    model = chain.resolve_arm(arm)
+    claim = hf.certificates.reach_claim(
+        model,
+        **targets.claim_arguments(),
+        locked=None if lock is None else read_intervals(model, "--lock", [lock], degrees),
+        limits=read_intervals(model, "--limit", limit, degrees),
+    )
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+
+
+@command.command("out-of-reach")
+def out_of_reach(
+    arm: ArmArgument,
+    targets: TargetBoxOptions,
+    lock: LockOption = None,
+    limit: LimitOption = None,
+    degrees: AnglesOption = False,
+    halvings: Annotated[int, "Of each joint and axis of the box, at most."] = 16,
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    seed: SeedOption = 0,
+    written: CertificateOutput = CertificateOutput(Path("out-of-reach.certificate")),
+) -> None:
+    """Prove that no target in a box is reachable, with or without a locked joint.
+
+    The exit code is 0 if all is proved, 3 if something is undecided, 4 if a configuration is found whose tool is in the box, 1
+    if the check rejects something. Ctrl-C writes what is proved so far; with --store the same command resumes.
+
+    Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
+    """
+    model = chain.resolve_arm(arm)
+    claim = hf.certificates.out_of_reach_claim(
+        model,
+        **targets.claim_arguments(),
+        locked=None if lock is None else read_intervals(model, "--lock", [lock], degrees),
+        limits=read_intervals(model, "--limit", limit, degrees),
+    )
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+
+
+@command.command()
+def tolerant(
+    arm: ArmArgument,
+    targets: TargetBoxOptions,
+    ranges: Annotated[Path | None, "Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m."] = None,
+    range_: Annotated[
+        list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits."
+    ] = None,
+    degrees: AnglesOption = False,
+    find_ranges: Annotated[
+        bool, "Find wide working ranges by samples, within those that are given, and prove the claim with them."
+    ] = False,
+    failures: FailuresOption = "single",
+    halvings: HalvingsOption = 8,
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    seed: SeedOption = 0,
+    written: _CertificateFolder = _CertificateFolder(Path("certificates")),
+) -> None:
+    """Prove that every target in a box stays reachable after any single lock.
+
+    The exit code is 0 if all is proved, 3 if something is undecided or no ranges are found, 1 if the check rejects something.
+    Ctrl-C writes what is proved so far; with --store the same command resumes.
+
+    Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
+    """
+    model = chain.resolve_arm(arm)
+    texts = [*(_read_range_options(ranges) if ranges is not None else []), *(range_ or [])]
+    claim_arguments = targets.claim_arguments() | {
+        "working_ranges": read_intervals(model, "--range", texts, degrees),
+        "failures": read_failures(model, failures),
+    }
+    if find_ranges:
+        prove_with_found_ranges(model, claim_arguments, search, written, halvings=halvings, seed=seed)
+    else:
+        prove_claim(hf.certificates.tolerant_claim(model, **claim_arguments), search, written, halvings=halvings, seed=seed)
+
+
+@command.command()
+def ceiling(
+    arm: ArmArgument,
+    below: Annotated[float, "Threshold, between 0 and 1."],
+    configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
+    task: RowsOption = "pose",
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: JointHalvingsOption = 16,
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    seed: SeedOption = 0,
+    written: CertificateOutput = CertificateOutput(Path("ceiling.certificate")),
+) -> None:
+    """Prove an upper bound on relative manipulability over a box of configurations.
+
+    The best configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something is
+    undecided, 4 if that configuration is above the threshold, 1 if the check rejects something. Ctrl-C writes what is proved
+    so far; with --store the same command resumes.
+
+    Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
+    """
+    model = chain.resolve_arm(arm)
+    claim = hf.certificates.ceiling_claim(
+        model, configurations.read_ranges(model, degrees), below, failures=read_failures(model, failures), task=task
+    )
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+
+
+@command.command()
+def floor(
+    arm: ArmArgument,
+    above: Annotated[float, "Threshold, between 0 and 1."],
+    configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
+    task: RowsOption = "pose",
+    degrees: AnglesOption = False,
+    failures: FailuresOption = "single",
+    halvings: JointHalvingsOption = 16,
+    search: SearchOptions = SearchOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    seed: SeedOption = 0,
+    written: CertificateOutput = CertificateOutput(Path("floor.certificate")),
+) -> None:
+    """Prove a lower bound on relative manipulability over a box of configurations.
+
+    The worst configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something
+    is undecided, 4 if that configuration is below the threshold, 1 if the check rejects something. Ctrl-C writes what is
+    proved so far; with --store the same command resumes.
+
+    Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
+    """
+    model = chain.resolve_arm(arm)
+    claim = hf.certificates.floor_claim(
+        model, configurations.read_ranges(model, degrees), above, failures=read_failures(model, failures), task=task
+    )
+    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+
+
+command.command()(path)
+
+
+@command.command("structural-zero")
+def structural_zero(
+    arm: ArmArgument,
+    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Between a shoulder and a wrist.")],
+    check: CheckOption = True,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    out: CertificateOption = Path("structural-zero.certificate"),
+    json_: JsonOption = False,
+) -> None:
+    """Prove that locking one joint removes all relative manipulability in every configuration.
+
+    Proved exactly, of an arm whose geometry is that of the file but for rounded digits, and by how much it differs is
+    printed. The exit code is 0 if it is proved, 3 if axes do not meet.
+
+    Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
+    """
+    from holdfast.certificates.checks import require_flint
+
+    model = chain.resolve_arm(arm)
+    if check:
+        require_flint()
+    proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
+    if not proof.ok:
+        print_result(proof, json_)
+        raise typer.Exit(NOT_MET_EXIT_CODE)
+    file = proof.write(out)
+    print_result(hf.check_certificate(file) if check else proof, json_, [file])
+
+
+def _read_range_options(file: Path) -> list[str]:
+    """Read a file of working ranges; return them in the form of ``--range``."""
+    from holdfast.core.files.yaml import read_mapping
+
+    try:
+        ranges = read_mapping(file, "holdfast certify tolerant --help", "a joint with its range, such as joint1: [-0.5, 0.5]")
+    except InputError as error:
+        raise InputError(f"ranges file '{file}': {error}") from error
+    for joint, pair in ranges.items():
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise InputError(f"ranges file '{file}': {joint} has {str(pair)[:40]!r}; give [LOW, HIGH]")
+    return [f"{joint}={lower}..{upper}" for joint, (lower, upper) in ranges.items()]

@@ -1,0 +1,94 @@
+"""``holdfast design``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.core.registry import LAW_REGISTRY
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.options import TASK_HELP, ArmArgument, FailuresOption, JsonOption, LengthOption, SeedOption
+from holdfast.interface.cli.progress import ProgressBar
+from holdfast.interface.cli.start.assess import read_region
+from holdfast.interface.cli.values import read_failures, read_task
+from holdfast.interface.presentation.results import current_command, print_result
+
+if TYPE_CHECKING:
+    from holdfast.core.result import Result
+
+
+def command(
+    arm: ArmArgument,
+    vary: Annotated[
+        list[str],
+        "What to vary, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
+        "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. May be given again.",
+    ],
+    maximise: Annotated[
+        str,
+        "What to maximise: an index, of which a quantile over the region counts; convergence, how often the "
+        "arm reaches its target after a lock that its controller does not know of; self-motion-size, how far all joints "
+        "turn on one self-motion; or tolerant-workspace, the area that a planar arm keeps whatever joint locks.",
+    ] = "relative-manipulability",
+    law: Annotated[str | None, f"With --maximise convergence: {LAW_REGISTRY.usage}. Default: pseudoinverse."] = None,
+    keep_reach: Annotated[bool, "With --maximise convergence or tolerant-workspace: link lengths keep their sum."] = False,
+    region: Annotated[Path | None, "Region file (YAML). Default: around the arm's home."] = None,
+    task: Annotated[str | None, TASK_HELP] = None,
+    failures: FailuresOption = "single",
+    length: LengthOption = 1.0,
+    level: Annotated[float, "Fraction of the poses that must keep the index; 0.95 maximises the 5 % quantile."] = 0.95,
+    poses: Annotated[int, "Poses on which designs are compared."] = 256,
+    designs: Annotated[int, "How many designs, spread over the bounds, are tried first."] = 512,
+    local_searches: Annotated[int, "Climbs with exact gradients, from the best of them."] = 8,
+    check_poses: Annotated[int, "Fresh poses for the final check."] = 2000,
+    seed: SeedOption = 0,
+    out: Annotated[Path | None, "Folder for report, best arm and designs; a stopped search resumes."] = None,
+    threads: Annotated[int | None, "Threads. Default: all processors."] = None,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    json_: JsonOption = False,
+) -> None:
+    """Optimise link lengths, twists, limits or the tool of an arm for fault tolerance.
+
+    The search maximises a lower quantile: the index that, for example, 95 % of the poses of the region keep after the worst
+    single lock, estimated from a sample. The report shows the change of reach and contains the best arm as a file for
+    'holdfast assess'.
+
+    Example: holdfast design pa10-9dof --vary a8=-0.2..0.2 --vary alpha8=45..135deg --vary tool.z=0..0.3 --out tool
+    """
+    if threads is not None:
+        hf.kernels.set_threads(threads)
+    baseline = chain.resolve_arm(arm)
+    space = hf.designs.design_space(baseline, vary)
+    rows = read_task(task, arm, baseline)
+    design_result: Result
+    with ProgressBar(json_, "designs") as progress:
+        common: dict[str, Any] = {
+            "designs": designs,
+            "local_searches": local_searches,
+            "seed": seed,
+            "store": out,
+            "progress": progress,
+        }
+        if maximise == "convergence":
+            control_law = LAW_REGISTRY.make(law or "pseudoinverse", baseline, option="--law", task=rows)
+            design_result = hf.design_for_convergence(control_law, space, keep_reach=keep_reach, **common)
+        elif maximise == "tolerant-workspace" and law is None:
+            design_result = hf.designs.design_for_workspace(baseline, space, keep_reach=keep_reach, seed=seed)
+        elif maximise == "self-motion-size" and law is None and not keep_reach:
+            design_result = hf.designs.design_for_self_motion(baseline, space, task=rows, seed=seed)
+        elif law is not None or keep_reach:
+            raise InputError(
+                "--law belongs to --maximise convergence, --keep-reach to that and to tolerant-workspace; leave them out"
+            )
+        else:
+            common |= {"level": level, "failures": read_failures(baseline, failures), "length": length}
+            workspace_region = read_region(region, arm, baseline)
+            design_result = hf.design(
+                baseline, space, maximise, region=workspace_region, task=rows, poses=poses, check_poses=check_poses, **common
+            )
+    save_options = (
+        {"command": current_command()} if isinstance(design_result, hf.designs.EvolvedDesign) else {}
+    )  # others make theirs of what they store
+    print_result(design_result, json_, [] if out is None else design_result.save(out, **save_options), listed=True)

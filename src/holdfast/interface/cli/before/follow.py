@@ -1,0 +1,98 @@
+"""``holdfast follow``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
+from holdfast.interface.cli.measure_options import OBJECTIVES_HELP
+from holdfast.interface.cli.options import (
+    ArmArgument,
+    DegreesOption,
+    DurationOption,
+    JsonOption,
+    MotionCsvOption,
+    PathArgument,
+    PathTaskOption,
+)
+from holdfast.interface.cli.values import check_path_units, read_configuration, read_objective, read_task
+from holdfast.interface.presentation.results import current_command, print_result
+
+
+def command(
+    arm: ArmArgument,
+    path: PathArgument,
+    minimise: Annotated[
+        str | None, f"What the self-motion makes small: {OBJECTIVES_HELP}; or a sum: '0.5*torque:effort + 0.1*acceleration'."
+    ] = None,
+    maximise: Annotated[str | None, "What it makes large: the same choices."] = None,
+    method: Annotated[
+        str, "gradient-projection, extended-jacobian, augmented-jacobian or none (least-norm rates, to compare)."
+    ] = "gradient-projection",
+    task: PathTaskOption = None,
+    q: Annotated[str | None, "Where to start, rad and m. Default: the best configuration."] = None,
+    degrees: DegreesOption = False,
+    gain: Annotated[float | None, "Feedback gain. Default: high enough to hardly lag."] = None,
+    wanted: Annotated[float | None, "Value the augmented Jacobian keeps. Default: that of the start."] = None,
+    rate_cap: Annotated[float | None, "Largest norm of the joint rates, rad/s; slows self-motion only."] = None,
+    samples: Annotated[int, "Samples over the duration."] = 501,
+    duration: DurationOption = None,
+    best: Annotated[bool, "Also the best of each pose (one or two degrees of redundancy)."] = False,
+    torque_bound: Annotated[
+        float | None, "N m. How slow must the motion be for torques to stay this close to those of gravity?"
+    ] = None,
+    apart: ClearanceOptions = ClearanceOptions(),
+    no_limits: Annotated[bool, "Ignore joint limits while moving."] = False,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
+    placement: MountingOptions = MountingOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    out: Annotated[Path | None, "Folder for trajectory.csv and report.html."] = None,
+    csv: MotionCsvOption = None,
+    parquet: Annotated[Path | None, "The same as Parquet (needs holdfast-arms[parquet])."] = None,
+    json_: JsonOption = False,
+) -> None:
+    """Track a tool path while the null-space motion optimises fault tolerance.
+
+    Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
+    """
+    from holdfast.model.arm.task import task_of_path
+
+    if (minimise is None) == (maximise is None):
+        raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
+    apart.check_consistency()
+    model = placement.mount_arm(chain.resolve_arm(arm))
+    timed = hf.paths.TimedPath.load(path, duration)
+    check_path_units(model, timed.path, f"path '{path}'")
+    path_task = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
+    option_and_text = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
+    objective = read_objective(model, *option_and_text, path_task)  # the other way round already, if that is meant
+    optimisation: dict[str, Any] = {"minimise" if objective.better == "smaller" else "maximise": objective}
+    result = hf.follow(
+        model,
+        timed,
+        **optimisation,
+        method=method,  # type: ignore[arg-type]
+        q=None if q is None else read_configuration(model, q, degrees),
+        gain=gain,
+        wanted=wanted,
+        rate_cap=rate_cap,
+        task=path_task,
+        samples=samples,
+        limits=not no_limits,
+        seed=seed,
+        best=best,
+        torque_bound=torque_bound,
+        clearance=apart.build_if_requested(model),
+        margin=apart.margin or 0.0,
+    )
+    files = [] if csv is None else [result.to_csv(csv)]
+    if parquet is not None:
+        files.append(result.to_parquet(parquet))
+    if out is not None:
+        files += result.save(out, command=current_command())
+    print_result(result, json_, files)

@@ -1,0 +1,139 @@
+"""Options of the commands of ``holdfast certify``, and their conversion to the arguments of a claim."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+import typer
+
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.options import JsonOption, PlotOption
+from holdfast.interface.cli.values import read_by_joint, read_numbers
+
+if TYPE_CHECKING:
+    from holdfast.model.arm.model import Arm
+
+    Ranges = dict[str | int, tuple[float, float]]
+
+# REJECTED_EXIT_CODE and REFUTED_EXIT_CODE: exit codes
+REJECTED_EXIT_CODE = 1
+REFUTED_EXIT_CODE = 4
+
+LockOption = Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."]
+LimitOption = Annotated[list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again."]
+RowsOption = Annotated[str, "pose; planar-pose for arms in a plane."]
+AnglesOption = Annotated[bool, "Angles are in degrees (slides stay in m)."]
+HalvingsOption = Annotated[int, "Of each axis of the box, at most."]
+JointHalvingsOption = Annotated[int, "Of each joint, at most."]
+CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast-arms[certify]).")]
+CertificateOption = Annotated[Path, "Certificate to write."]
+
+
+@dataclass(frozen=True)
+class TargetBoxOptions:
+    """Options for a box of targets."""
+
+    box: Annotated[str, "Centre of the targets, m: x, y, z; x, y in a plane."]
+    size: Annotated[str, "Edges of the box, m: one number, or one for each axis."]
+    rotation: Annotated[
+        str | None,
+        "Roll, pitch and yaw of the tool at every target, degrees: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
+    ] = None
+    rotation_size: Annotated[str | None, "Edges of a box around --rotation, degrees: one number or three. Default: 0."] = None
+    pointing: Annotated[bool, "Of --rotation only where the tool's z axis points counts, not its turn about it."] = False
+
+    def claim_arguments(self) -> dict[str, Any]:
+        """Return the targets as arguments of a claim."""
+        return {
+            "centre": read_numbers("--box", self.box, "two or three numbers, m,"),
+            "size": read_numbers("--size", self.size, "one number, or one for each axis, m,"),
+            **self._rotation_arguments(),
+        }
+
+    def _rotation_arguments(self) -> dict[str, Any]:
+        from holdfast.model.arm.urdf import rpy_rotation
+
+        if self.rotation is None:
+            if self.rotation_size is not None or self.pointing:
+                raise InputError(
+                    "--rotation-size is a box around --rotation, and --pointing about its z axis; give --rotation as well"
+                )
+            return {}
+        angles = read_numbers("--rotation", self.rotation, "roll, pitch and yaw")
+        edges = read_numbers("--rotation-size", self.rotation_size or "0", "one number, or three,")
+        if angles.size not in (1, 3) or edges.size not in (1, angles.size) or not (edges >= 0).all():
+            raise InputError(
+                "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
+            )
+        radians_per_degree, task = np.pi / 180, {"task": "pointing"} if self.pointing else {}
+        if angles.size == 3 and not edges.any():
+            return {"rotation": rpy_rotation((radians_per_degree * angles).tolist()), **task}
+        intervals = radians_per_degree * np.column_stack([angles - edges / 2, angles + edges / 2])
+        return {"rpy": intervals if angles.size == 3 else intervals[0], **task}
+
+
+@dataclass(frozen=True)
+class ConfigurationBoxOptions:
+    """Options for a box of configurations: intervals around a center, or within limits."""
+
+    around: Annotated[str | None, "Middle of the box: a value of each joint, rad. Default: limits."] = None
+    within: Annotated[str | None, "Half widths of it, rad: one number, or one for each joint."] = None
+    limit: LimitOption = None
+
+    def read_ranges(self, arm: Arm, degrees: bool) -> Ranges:
+        """Return the range of each joint, as an argument of a claim."""
+        box: Ranges = {}
+        if (self.around is None) != (self.within is None):
+            raise InputError("--around and --within go together: the middle of the box and its half widths")
+        if self.around is not None and self.within is not None:
+            center = read_numbers("--around", self.around, f"{arm.n} numbers,")
+            half_widths = read_numbers("--within", self.within, f"one number, or {arm.n},")
+            if len(center) != arm.n or len(half_widths) not in (1, arm.n):
+                raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+            if (half_widths < 0).any():
+                raise InputError("--within must not be negative: it is half widths")
+            pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
+            texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
+            box = read_intervals(arm, "--around", texts, degrees)
+        return box | read_intervals(arm, "--limit", self.limit, degrees)
+
+
+@dataclass(frozen=True)
+class SearchOptions:
+    """Options for the resources of the search, and the folder from which it resumes."""
+
+    time_limit: Annotated[float | None, "Time limit of search and check together, s; half of it is kept for the check."] = None
+    workers: Annotated[int, "Processes; the certificate is the same."] = 1
+    store: Annotated[
+        Path | None, "Folder that remembers what is done, so that the same command resumes a search that was stopped or killed."
+    ] = None
+    check: CheckOption = True
+
+
+@dataclass(frozen=True)
+class CertificateOutput:
+    """Options for the output files of a certificate and its display."""
+
+    out: CertificateOption
+    plot: PlotOption = None
+    report: Annotated[Path | None, "Write a page of what is proved into this HTML file."] = None
+    json_: JsonOption = False
+
+
+def read_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
+    """Read ``JOINT=LOW..HIGH`` as numbers, rad."""
+    ends: tuple[list[str], list[str]] = [], []
+    for text in texts or []:
+        joint, _, span = text.rpartition("=")
+        lower, separator, upper = span.partition("..")
+        if not (separator and lower and upper):
+            raise InputError(
+                f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
+            )
+        for end, value in zip(ends, (lower, upper), strict=True):
+            end.append(f"{joint}={value}")
+    lower_ends, upper_ends = (read_by_joint(arm, end, option, degrees) for end in ends)
+    return {name: (lower_ends[name], upper_ends[name]) for name in lower_ends}

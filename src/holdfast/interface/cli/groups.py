@@ -1,0 +1,222 @@
+"""Groups of options that several commands share, each declared and read in one place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.options import JsonOption, OutOption, PlotOption
+from holdfast.interface.cli.values import read_numbers
+from holdfast.interface.presentation.results import print_result, write_outputs
+from holdfast.model.arms.spec import match_arm_options, read_hold
+
+if TYPE_CHECKING:
+    from holdfast.core.result import Result
+    from holdfast.model.arm.model import Arm
+    from holdfast.model.arms.spec import ArmSpec
+    from holdfast.model.collision.clearance import Clearance
+
+_PER_ARM = "once for all arms, or once for each in order ('-' for none)."
+
+
+@dataclass(frozen=True)
+class ArmSourceOptions:
+    """Options that select the kinematic chain of an arm file."""
+
+    base: Annotated[str | None, "URDF, MJCF: base link or body. Default: the root."] = None
+    tip: Annotated[str | None, "URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger."] = None
+    hold: Annotated[
+        list[str] | None,
+        "URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be given "
+        "again.",
+    ] = None
+
+    def resolve_arm(self, spec: str) -> Arm:
+        """Return the arm that ``spec`` and these options describe."""
+        from holdfast.model import arms
+
+        return arms.resolve(spec, self.base, self.tip, hold=read_hold(",".join(self.hold)) if self.hold else None)
+
+
+@dataclass(frozen=True)
+class ArmSourcesOptions:
+    """Options that select the kinematic chains of several arms, and their names."""
+
+    base: Annotated[list[str] | None, f"URDF, MJCF: base link or body, {_PER_ARM} Default: the root."] = None
+    tip: Annotated[list[str] | None, f"URDF, MJCF: tip link, body or site, {_PER_ARM} Default: the only end."] = None
+    hold: Annotated[
+        list[str] | None,
+        f"URDF, MJCF: JOINT=value, rad or m, at which joints are held for good, separated by commas, {_PER_ARM}",
+    ] = None
+    name: Annotated[list[str] | None, "What an arm is called, once for each in order ('-' for its own)."] = None
+
+    def resolve_arms(self, specs: Sequence[str]) -> list[ArmSpec]:
+        """Return the arms that ``specs`` and these options describe; see :func:`holdfast.model.arms.spec.match_arm_options` for
+        the errors.
+        """
+        return match_arm_options(specs, self.base, self.tip, self.hold, self.name)
+
+
+@dataclass(frozen=True)
+class OutputOptions:
+    """Options for the display of a result."""
+
+    plot: PlotOption = None
+    out: OutOption = None
+    json_: JsonOption = False
+
+    def print_result(self, result: Result, files: Sequence[Path] = ()) -> None:
+        """Print the result and the paths of ``files``, the requested picture, and the requested folder."""
+        print_result(result, self.json_, [*files, *write_outputs(result, self.plot, self.out)])
+
+
+_MOUNT_ROTATIONS = {
+    "floor": np.eye(3),
+    "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
+    "ceiling": np.diag([1.0, -1, -1]),
+}
+
+
+@dataclass(frozen=True)
+class MountingOptions:
+    """Options for the mounting, the gravity, and the payload of an arm."""
+
+    mount: Annotated[str, "floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x)."] = "floor"
+    gravity: Annotated[str | None, "Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's."] = None
+    payload: Annotated[
+        str | None, "A point mass at the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0)."
+    ] = None
+
+    def mount_arm(self, arm: Arm) -> Arm:
+        """Return the arm with this mounting, gravity, and payload.
+
+        Raises:
+            InputError: A mount that is not known, or numbers that are too many or too few.
+        """
+        from holdfast.model.arm.machine import Link
+
+        if self.mount not in _MOUNT_ROTATIONS:
+            raise InputError(f"--mount '{self.mount}' is not known; use one of {', '.join(_MOUNT_ROTATIONS)}")
+        mount_pose = np.eye(4)
+        mount_pose[:3, :3] = _MOUNT_ROTATIONS[self.mount]
+        arm = arm.with_base(mount_pose @ arm.base)
+        if self.gravity is not None:
+            arm = replace(arm, gravity=read_numbers("--gravity", self.gravity, "3 numbers"))
+        if self.payload is not None:
+            numbers = read_numbers("--payload", self.payload, "1 or 4 numbers")
+            if numbers.size not in (1, 4):
+                raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
+            center_of_mass = numbers[1:] if numbers.size == 4 else np.zeros(3)
+            arm = arm.with_payload(Link(float(numbers[0]), center_of_mass, np.zeros((3, 3)), name="payload"))
+        return arm
+
+
+CapsulesOption = Annotated[Path | None, "Capsule file (YAML): the shape of the arm's links."]
+RadiusOption = Annotated[float | None, "Radius, m, along the links. Default: the collision shapes, else assumed."]
+MeshesOption = Annotated[Path | None, "Folder in which meshes that the arm's file names are looked for first."]
+CellOption = Annotated[Path | None, "Cell file (YAML): objects around the arm, which it is kept clear of."]
+
+
+@dataclass(frozen=True)
+class ClearanceOptions:
+    """Options for the clearance of an arm. With ``--no-clearance`` the cell alone counts."""
+
+    clearance: Annotated[
+        bool | None,
+        typer.Option(
+            "--clearance/--no-clearance",
+            help="Keep the arm from colliding with itself, or let it. Default: keep it when configurations are chosen, but for "
+            "an arm that moves in a plane.",
+        ),
+    ] = None
+    capsules: CapsulesOption = None
+    radius: RadiusOption = None
+    meshes: MeshesOption = None
+    margin: Annotated[float | None, "Smallest clearance kept, m; from objects beyond the cell's own. Default: 0."] = None
+    cell: CellOption = None
+
+    def check_consistency(self) -> None:
+        """Raise for contradictory options, before any work is done.
+
+        Raises:
+            InputError: Which ones, or an invalid radius or margin.
+        """
+        given_options = [f"--{name}" for name in ("capsules", "radius", "margin") if getattr(self, name) is not None]
+        if self.clearance is False and given_options and self.cell is None:
+            raise InputError(
+                f"{given_options[0]} asks for a clearance of the arm from itself and --no-clearance asks for none; give "
+                f"one of them"
+            )
+        if self.capsules is not None and self.radius is not None:
+            raise InputError("give one of --capsules and --radius; a capsule file may hold a radius")
+        if self.radius is not None and not (math.isfinite(self.radius) and self.radius > 0):
+            raise InputError(f"--radius is {self.radius:g}; it must be a finite number of metres above 0")
+        if self.margin is not None and not math.isfinite(self.margin):
+            raise InputError(f"--margin is {self.margin:g}; it must be a finite number of metres")
+
+    def build_clearance(self, arm: Arm, chooses_configurations: bool = True) -> Clearance | None:
+        """Build the clearance to enforce, or return None for none; ``chooses_configurations``: the command chooses among
+        configurations.
+
+        Raises:
+            InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
+            ArmError: A capsule file or radius that does not fit the arm.
+        """
+        from holdfast.model.collision.capsules import Capsules
+        from holdfast.model.collision.clearance import Clearance
+        from holdfast.model.collision.clearance_argument import chosen_clearance
+        from holdfast.model.shapes.reading import with_meshes
+
+        if self.margin is not None and not chooses_configurations:
+            raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
+        arm = arm if self.meshes is None else with_meshes(arm, self.meshes)
+        if self.capsules is not None or self.radius is not None:
+            shape = Capsules.along_links(arm, self.radius) if self.capsules is None else Capsules.load(self.capsules, arm)
+            return chosen_clearance(arm, Clearance(arm, shape, itself=self.clearance is not False), self.cell)
+        default_clearance = chosen_clearance(arm, self.clearance, self.cell, looks=chooses_configurations)
+        if self.margin is not None and default_clearance is None:
+            raise InputError(
+                f"--margin has no effect: the links of '{arm.name}' lie beside each other, so its clearance is not checked "
+                f"unless you ask for it; add --clearance or --capsules"
+            )
+        return default_clearance
+
+    def build_if_requested(self, arm: Arm) -> Clearance | None:
+        """Build the clearance only if an option other than --meshes requests it, else return None."""
+        is_requested = self.clearance or any(
+            option is not None for option in (self.capsules, self.radius, self.margin, self.cell)
+        )
+        return self.build_clearance(arm) if is_requested else None
+
+
+@dataclass(frozen=True)
+class ContactOptions:
+    """Options for objects that the arm may touch, where a command reports the contacts."""
+
+    cell: Annotated[Path | None, "Cell file (YAML): objects around the arm; what it touches is said."] = None
+    capsules: CapsulesOption = None
+    radius: RadiusOption = None
+    meshes: MeshesOption = None
+
+    def build_contact_clearance(self, arm: Arm) -> Clearance | None:
+        """Build the clearance from the arm's shape and the cell; return None without a cell.
+
+        Raises:
+            InputError: A shape with nothing to touch, or a cell that cannot be read or does not fit the arm.
+            ArmError: A capsule file or radius that does not fit the arm.
+        """
+        clearance_options = ClearanceOptions(capsules=self.capsules, radius=self.radius, meshes=self.meshes, cell=self.cell)
+        clearance_options.check_consistency()
+        if self.cell is None:
+            for name in ("capsules", "radius", "meshes"):
+                if getattr(self, name) is not None:
+                    raise InputError(f"--{name} is the shape of the arm that may touch a cell, and there is none; add --cell")
+            return None
+        return replace(clearance_options, clearance=False).build_clearance(arm, chooses_configurations=False)

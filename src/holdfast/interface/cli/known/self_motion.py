@@ -1,0 +1,75 @@
+"""``holdfast self-motion``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
+from holdfast.interface.cli.options import TARGET_HELP, ArmArgument, SeedOption, TaskOption
+from holdfast.interface.cli.values import read_pose, read_target, read_task
+
+if TYPE_CHECKING:
+    from holdfast.model.arm.model import Arm
+    from holdfast.model.arm.task import Task
+
+PoseOption = Annotated[str | None, "The target as x,y,z,roll,pitch,yaw of the tool, m and degrees."]
+TargetOption = Annotated[str | None, TARGET_HELP]
+
+
+def command(
+    arm: ArmArgument,
+    target: TargetOption = None,
+    pose: PoseOption = None,
+    task: TaskOption = None,
+    bounds: Annotated[bool, "Also report where each joint may lock without losing the target."] = False,
+    degrees: Annotated[bool, "--csv in degrees (prismatic joints stay in m)."] = False,
+    spacing: Annotated[float, "Spacing of the points, rad."] = 0.05,
+    seed: SeedOption = 0,
+    apart: ClearanceOptions = ClearanceOptions(),
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    csv: Annotated[Path | None, "Write all points to this file."] = None,
+    output: OutputOptions = OutputOptions(),
+) -> None:
+    """Trace all configurations of a tool pose and the joint values at which a lock is harmless.
+
+    With one degree of redundancy they are curves, closed or ended by a joint limit; with more they are sampled. A lock keeps
+    the target within reach if and only if it lies in the range of its joint.
+
+    Example: holdfast self-motion planar-3r --target 1.5,1.5 --bounds --plot self-motion.png
+    """
+    from holdfast.model.arm.task import as_task
+
+    apart.check_consistency()
+    model = chain.resolve_arm(arm)
+    rows = as_task(model, read_task(task, arm, model))
+    if (target is None) == (pose is None):
+        raise InputError("give the target by --target or by --pose, one of them")
+    target_value = read_target(model, rows, target) if target is not None else _read_task_pose(model, rows, str(pose))
+    chooses = apart.margin is not None or apart.cell is not None
+    clearance = apart.build_clearance(model, chooses_configurations=chooses)
+    motion = hf.self_motion(
+        model, target_value, rows, spacing=spacing, seed=seed, clearance=clearance, margin=apart.margin or 0.0
+    )
+    if clearance is not None and (bounds or motion.redundancy == 1):
+        motion = replace(motion, bounds=motion.arcs())
+    elif clearance is None and (bounds or output.plot is not None or output.out is not None):
+        motion = replace(motion, bounds=hf.joint_bounds(model, target_value, rows, seed=seed))
+    output.print_result(motion, [] if csv is None else [motion.to_csv(csv, degrees)])
+
+
+def _read_task_pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
+    values = read_pose(arm, "--pose", text)
+    if values.shape == (4, 4):
+        return values
+    if task.angular:
+        raise InputError(f"--pose has 3 numbers; task '{task.name}' needs 6, x,y,z in m and roll,pitch,yaw in degrees")
+    position_pose = np.eye(4)
+    position_pose[:3, 3] = values
+    return position_pose

@@ -1,0 +1,47 @@
+"""``holdfast export``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.laws import LawOption, read_law_for_arm
+from holdfast.interface.cli.options import ArmArgument, JsonOption, TaskOption
+from holdfast.interface.presentation.results import print_result
+
+EXPORT_LANGUAGES = ("c",)
+
+
+def command(
+    arm: ArmArgument,
+    out: Annotated[Path, "Folder for the files; made if it is not there."],
+    law: LawOption = "failure-tolerant",
+    language: Annotated[str, "c: C99 that needs only math.h."] = "c",
+    name: Annotated[str | None, "Name of the function and the files. Default: the law's."] = None,
+    task: TaskOption = None,
+    monitor: Annotated[Path | None, "Bounds of calibrate: also a monitor of joint faults, NAME_monitor."] = None,
+    controller: Annotated[bool, "With --monitor: also a controller in C++17 that reacts to it, NAME_controller."] = False,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    json_: JsonOption = False,
+) -> None:
+    """Export a control law, monitor or controller as C or C++ code.
+
+    Example: holdfast export panda --law failure-tolerant --language c --out controller
+    """
+    if language not in EXPORT_LANGUAGES:
+        raise InputError(f"--language '{language}' is not known; use {', '.join(EXPORT_LANGUAGES)}")
+    if controller and monitor is None:
+        raise InputError("--controller needs --monitor BOUNDS, which 'holdfast calibrate' makes")
+    control_law = read_law_for_arm(law, arm, task, chain)
+    files = control_law.export_c(out, name)
+    monitor_files: list[Path] = []
+    if monitor is not None:
+        bounds, stem = hf.diagnosis.load(monitor), files.source.stem
+        if controller:
+            monitor_files += hf.supervisor.export_controller(control_law, bounds, out, name=f"{stem}_controller")
+        else:
+            monitor_files += hf.diagnosis.export_c(control_law.arm, bounds, out, name=f"{stem}_monitor")
+    print_result(files, json_, monitor_files, listed=monitor is not None)

@@ -1,0 +1,59 @@
+"""Options for a control law, its target, and the locked joints, shared by several commands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from holdfast.core.labels import is_count
+from holdfast.core.registry import LAW_REGISTRY
+from holdfast.interface.cli.options import TARGET_HELP
+from holdfast.interface.cli.values import read_target, read_task
+
+if TYPE_CHECKING:
+    from holdfast.control.laws.law import Law
+    from holdfast.interface.cli.groups import ArmSourceOptions
+    from holdfast.model.arm.model import Arm
+    from holdfast.model.arm.task import Task
+
+TargetOption = Annotated[str, TARGET_HELP]
+TargetsOption = Annotated[str, f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200)."]
+LAW_HELP = f"{LAW_REGISTRY.usage}."
+LawOption = Annotated[str, LAW_HELP]
+LawsOption = Annotated[
+    list[str] | None, f"A law to compare: {LAW_HELP} May be given again.", "pseudoinverse and failure-tolerant"
+]
+GainOption = Annotated[float, "Feedback gain Ke, per s or per cycle."]
+SpeedLimitOption = Annotated[float | None, "Of the end effector, m/s or m per cycle. Default: none."]
+CyclesOption = Annotated[bool, "Discrete control cycles in place of continuous time."]
+TimeLimitOption = Annotated[float | None, "Time limit, s or cycles.", "3000/gain s, or 1000 cycles"]
+LockDegreesOption = Annotated[bool, "--lock is in degrees (prismatic joints stay in m)."]
+
+
+def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **settings: Any) -> Law:
+    """Create the law that --law names; errors refer to ``option``."""
+    law: Law = LAW_REGISTRY.make(label, arm, option=option, task=task, **settings)
+    return law
+
+
+def read_laws(labels: list[str] | None, arm: Arm, task: str | None, spec: str, **settings: Any) -> list[Law]:
+    """Create the laws to compare, for the arm that ``spec`` names."""
+    common_task = read_task(task, spec, arm)
+    return [read_law(label, arm, common_task, **settings) for label in labels or ["pseudoinverse", "failure-tolerant"]]
+
+
+def read_law_for_arm(label: str, arm: str, task: str | None, chain: ArmSourceOptions, **settings: Any) -> Law:
+    """Create the law that --law, ARM, --task and the options of the kinematic chain describe."""
+    model = chain.resolve_arm(arm)
+    return read_law(label, model, read_task(task, arm, model), **settings)
+
+
+def read_positions(text: str) -> str | int:
+    """Read the text of a lattice, or a number of random positions."""
+    text = text.removeprefix("random:")
+    return int(text) if is_count(text) else text
+
+
+def read_targets(law: Law, text: str) -> Any:
+    """Read ``--target`` as an argument of the library where it may be one target or many."""
+    is_set = text.startswith(("grid", "random:"))
+    return read_positions(text) if is_set else read_target(law.arm, law.task, text)

@@ -1,0 +1,39 @@
+"""``holdfast cell``: check."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, JsonOption, OutOption
+from holdfast.interface.presentation.results import print_result, write_outputs
+
+command = typer.Typer(
+    name="cell",
+    help="Inspect the environment around an arm.",
+    no_args_is_help=True,
+)
+
+
+@command.command()
+def check(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.")],
+    arm: Annotated[str | None, "Built-in name or arm file: what it touches."] = None,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    out: OutOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Check an environment file: unreadable shapes, permanent contacts, grid resolution.
+
+    The exit code is 3 if something touches the base or in every configuration.
+
+    Example: holdfast cell check bench.yaml --arm panda
+    """
+    cell_check = hf.check_cell(file, None if arm is None else chain.resolve_arm(arm))
+    print_result(cell_check, json_, write_outputs(cell_check, None, out))
+    if not cell_check.ok:
+        raise typer.Exit(NOT_MET_EXIT_CODE)

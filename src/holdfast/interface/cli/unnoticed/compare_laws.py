@@ -1,0 +1,100 @@
+"""``holdfast compare-laws``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
+from holdfast.interface.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
+from holdfast.interface.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
+from holdfast.interface.cli.values import read_configuration, read_failures, read_numbers, read_target
+from holdfast.interface.presentation.results import current_command, print_result
+
+if TYPE_CHECKING:
+    from holdfast.control.convergence.random_motions import PointToPoint
+    from holdfast.model.arm.model import Arm
+    from holdfast.model.arm.task import Task
+
+DEFAULT_MOTIONS = 100
+
+
+def command(
+    arm: ArmArgument,
+    law: LawsOption = None,
+    motions: Annotated[
+        int | None,
+        typer.Option(
+            "--motions", "--tasks", help="How many random motions from point to point.", show_default=str(DEFAULT_MOTIONS)
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
+    distance: Annotated[str | None, "Of random motions, m: least,greatest, for example 0.2,0.8."] = None,
+    reachable_after: Annotated[
+        str | None, "Random motions whose target is still within reach after these failures, as --failures takes them."
+    ] = None,
+    start: Annotated[str | None, "Instead: one motion from these joint values, rad and m, ..."] = None,
+    target: Annotated[str | None, "... to this target, given as in 'holdfast simulate'."] = None,
+    failures: Annotated[
+        str, "Joints that lock from the start, each alone: single (all of them), 'joint2; joint3', or none."
+    ] = "single",
+    task: TaskOption = None,
+    gain: GainOption = 1.0,
+    speed_limit: SpeedLimitOption = None,
+    cycles: CyclesOption = False,
+    time_limit: TimeLimitOption = None,
+    touched: ContactOptions = ContactOptions(),
+    degrees: StartDegreesOption = False,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    out: Annotated[Path | None, "Folder for report.html and tables (CSV)."] = None,
+    json_: JsonOption = False,
+) -> None:
+    """Compare control laws on the same motions, healthy and with an undetected lock.
+
+    The others are compared with the first law. 'holdfast assess A B C' compares arms, tools and tasks instead: how much
+    dexterity a failure leaves.
+
+    Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
+    """
+    model = chain.resolve_arm(arm)
+    laws = read_laws(law, model, task, arm, gain=gain, speed_limit=speed_limit)
+    if start is None and target is None:
+        sampled_motions = _sample_motions(
+            model, laws[0].task, DEFAULT_MOTIONS if motions is None else motions, seed, distance, reachable_after
+        )
+        q0, targets, description = sampled_motions.q0, sampled_motions.target, f"{sampled_motions.describe()}; seed {seed}"
+    elif start is None or target is None:
+        raise InputError("--start and --target go together; give both, or neither for random motions")
+    elif motions is not None or distance is not None or reachable_after:
+        raise InputError("--motions, --distance and --reachable-after are about random motions; leave out --start and --target")
+    else:
+        q0, targets = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
+        description = f"one motion of '{model.name}'"
+    failure_spec = None if failures == "none" else read_failures(model, failures)
+    clearance = touched.build_contact_clearance(model)
+    common_options: dict[str, Any] = {
+        "cycles": cycles,
+        "time_limit": time_limit,
+        "seed": seed,
+        "about": description,
+        "clearance": clearance,
+    }
+    result = hf.compare_laws(laws, q0, targets, failures=failure_spec, **common_options)
+    print_result(result, json_, [] if out is None else result.save(out, command=current_command()))
+
+
+def _sample_motions(
+    arm: Arm, task: Task, motions: int, seed: int, distance: str | None, reachable_after: str | None
+) -> PointToPoint:
+    distance_range: tuple[float, float] | None = None
+    if distance is not None:
+        distance_limits = read_numbers("--distance", distance, "least,greatest")
+        if distance_limits.size != 2:
+            raise InputError(f"--distance has {distance_limits.size} numbers; give the least and the greatest distance, m")
+        distance_range = float(distance_limits[0]), float(distance_limits[1])
+    failures = None if reachable_after is None else read_failures(arm, reachable_after)
+    return hf.point_to_point(arm, motions, seed, distance=distance_range, failures=failures, task=task)

@@ -1,0 +1,222 @@
+"""``holdfast simulate``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.core.labels import read_measures
+from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
+from holdfast.interface.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, read_law_for_arm
+from holdfast.interface.cli.options import (
+    TARGET_HELP,
+    ArmArgument,
+    FailureOption,
+    JsonOption,
+    MotionCsvOption,
+    StartDegreesOption,
+    TaskOption,
+)
+from holdfast.interface.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
+from holdfast.interface.presentation.results import print_result, write_outputs
+
+_LIMIT_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by how a number of --error-limit ends
+
+if TYPE_CHECKING:
+    from holdfast.core.result import Result
+    from holdfast.model.arm.model import Arm
+
+
+def command(
+    arm: ArmArgument,
+    start: Annotated[str | None, "Joint values at the start, rad and m, by commas or spaces."] = None,
+    target: Annotated[str | None, TARGET_HELP] = None,
+    motion: Annotated[
+        Path | None,
+        "Play this motion in MuJoCo, in place of --start and --target: a CSV file of joints over time or the folder that "
+        "recover, follow or endure wrote with --out, or a record (.npz).",
+    ] = None,
+    error_limit: Annotated[
+        str | None, "With --motion: largest distance of a joint from the motion, for example 2deg or 2deg,1mm."
+    ] = None,
+    lock: Annotated[
+        list[str] | None,
+        "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --monitor a fault. May be given again.",
+    ] = None,
+    failure: FailureOption = None,
+    law: LawOption = "pseudoinverse",
+    task: TaskOption = None,
+    gain: GainOption = 1.0,
+    speed_limit: SpeedLimitOption = None,
+    cycles: CyclesOption = False,
+    time_limit: TimeLimitOption = None,
+    physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
+    servo_bandwidth: Annotated[float, "With --physics: bandwidth of the joint servos, Hz."] = 10.0,
+    faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
+    episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
+    monitor: Annotated[
+        Path | None,
+        "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts, clear of --cell.",
+    ] = None,
+    record: Annotated[
+        Path | None, "With --physics: write what the sensors told (.npz, .csv or .parquet), for calibrate and diagnose."
+    ] = None,
+    touched: ContactOptions = ContactOptions(),
+    stop_at_contact: Annotated[bool, "With --cell: the run ends where the arm first touches an object."] = False,
+    degrees: StartDegreesOption = False,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    csv: MotionCsvOption = None,
+    plot: Annotated[Path | None, "Draw the motion into this PNG file."] = None,
+    out: Annotated[Path | None, "Folder for report.html with the arm moving, run.png and run.csv."] = None,
+    json_: JsonOption = False,
+) -> None:
+    """Simulate the closed loop with locked joints that the controller does not know of.
+
+    With --motion a planned motion is played instead, and the output says when a joint first exceeds --error-limit.
+
+    Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
+    """
+    if motion is not None:
+        other_options = {
+            "--start": start,
+            "--target": target,
+            "--failure": failure,
+            "--task": task,
+            "--speed-limit": speed_limit,
+        }
+        other_options |= {
+            "--cycles": cycles,
+            "--time-limit": time_limit,
+            "--faults": faults,
+            "--monitor": monitor,
+            "--record": record,
+        }
+        _reject_options(other_options | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
+        execution = _play_motion(
+            chain.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
+        )
+        print_result(execution, json_, write_outputs(execution, plot, out) + ([] if csv is None else [execution.to_csv(csv)]))
+        return
+    if error_limit is not None:
+        raise InputError("--error-limit is of a motion that is played; add --motion")
+    if start is None or target is None:
+        raise InputError(f"{'--start' if start is None else '--target'} is missing; give --start and --target, or --motion")
+    control_law = read_law_for_arm(law, arm, task, chain, gain=gain, speed_limit=speed_limit)
+    target_value = read_target(control_law.arm, control_law.task, target)
+    locked_joints, lock_times = (
+        zip(*[_read_timed_lock(control_law.arm, text) for text in lock or []], strict=True) if lock else ((), ())
+    )
+    q0 = read_configuration(control_law.arm, start, degrees, "--start")
+    drawn_faults = None if faults is None else hf.faults.load(faults)
+    if physics and (drawn_faults is not None or monitor is not None or record is not None):
+        _reject_options({"--failure": failure, "--cycles": cycles, "--stop-at-contact": stop_at_contact})
+        if lock and drawn_faults is not None:
+            _reject_options({"--lock": lock})
+        locks = [
+            hf.faults.FaultEvent("locked", control_law.arm.joint_names[joint_index], lock_time)
+            for joint_index, lock_time in zip(locked_joints, lock_times, strict=True)
+        ]
+        fault_monitor = None if monitor is None else hf.diagnosis.Monitor(control_law.arm, hf.diagnosis.load(monitor))
+        fault_run = hf.simulate_faults(
+            control_law,
+            q0,
+            target_value,
+            faults=locks if drawn_faults is None else drawn_faults,
+            episode=episode,
+            monitor=fault_monitor,
+            clearance=touched.build_contact_clearance(control_law.arm),
+            time_limit=12.0 if time_limit is None else time_limit,
+            servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if fault_monitor is None else fault_monitor.bounds.rate),
+        )
+        records = [] if record is None else [fault_run.log().save(record)]
+        print_result(
+            fault_run, json_, write_outputs(fault_run, plot, out) + records + ([] if csv is None else [fault_run.to_csv(csv)])
+        )
+        return
+    for name, file in {"--monitor": monitor, "--record": record}.items():
+        if file is not None:
+            raise InputError(f"{name} is of an arm with bodies, motors and sensors; add --physics")
+    if drawn_faults is not None:
+        _reject_options({"--lock": lock, "--failure": failure})
+    sampled_events = None if drawn_faults is None else drawn_faults.draw(control_law.arm, episode=episode)
+    clearance = touched.build_contact_clearance(control_law.arm)
+    if stop_at_contact and clearance is None:
+        raise InputError("--stop-at-contact has nothing to stop at; add --cell")
+    locked_spec = read_locks(control_law.arm, lock, degrees, failure=failure) if failure else locked_joints
+    common_options: dict[str, Any] = {
+        "locked": locked_spec,
+        "time_limit": time_limit,
+        "time": lock_times or 0.0,
+        "clearance": clearance,
+    }
+    runs = hf.simulate(
+        control_law, q0, target_value, cycles=cycles, faults=sampled_events, stop_at_contact=stop_at_contact, **common_options
+    )
+    result: Result = runs
+    if physics:
+        if cycles:
+            raise InputError("--physics has a control rate of its own; leave out --cycles")
+        servos = hf.Servos(bandwidth=servo_bandwidth)
+        result = hf.simulate_physics(control_law, q0, target_value, servos=servos, **common_options)
+    files = write_outputs(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
+    print_result(result, json_, files)
+
+
+def _reject_options(options: Mapping[str, object], chosen_option: str = "--faults, --monitor or --record") -> None:
+    given_option = next((name for name, value in options.items() if value), None)
+    if given_option is not None:
+        raise InputError(f"{given_option} does not go with {chosen_option}; leave it out")
+
+
+def _play_motion(
+    arm: Arm, file: Path, locks: list[str], error_limit: str | None, servos: hf.Servos, contact_options: ContactOptions
+) -> hf.Execution:
+    """Execute the motion of a file with joints that lock during it."""
+    from holdfast.interface.studio.motions import read_motion as read_table
+    from holdfast.response.diagnosis.detectability.motions import read_motion as read_record
+
+    if file.suffix in (".npz", ".parquet"):
+        q, rate = read_record(arm, file)
+        time = np.arange(len(q)) / rate
+    else:
+        table = read_table(arm, file)
+        if table.unit != "s":
+            raise InputError(f"motion '{file}' is not timed in seconds; write it with a column time_s")
+        q, time = table.q, table.time
+    timed_locks = [_read_timed_lock(arm, text) for text in locks]
+    return hf.execute(
+        arm,
+        q,
+        time,
+        locked=[joint for joint, _ in timed_locks],
+        lock_time=[lock_time for _, lock_time in timed_locks] if timed_locks else 0.0,
+        servos=servos,
+        error_limit=None if error_limit is None else _read_error_limit(error_limit),
+        clearance=contact_options.build_contact_clearance(arm),
+    )
+
+
+def _read_error_limit(text: str) -> tuple[float, float]:
+    """Read ``--error-limit`` in rad and m; a unit that is missing has no limit."""
+    limits = {"rad": np.inf, "m": np.inf}
+    for part in text.split(","):
+        unit = next((unit_kind for suffix, unit_kind in _LIMIT_UNITS.items() if part.strip().endswith(suffix)), None)
+        if unit is None:
+            raise InputError(f"--error-limit '{text}' has a number without a unit; write it as 2deg, 0.05rad or 2deg,1mm")
+        limits[unit] = read_measures("--error-limit", part)[0]
+    return limits["rad"], limits["m"]
+
+
+def _read_timed_lock(arm: Arm, text: str) -> tuple[int, float]:
+    joint, separator, time = text.rpartition("@")
+    if not separator:
+        return read_joint(arm, text), 0.0
+    values = read_numbers(f"--lock '{text}'", time, "one number after @")
+    if values.size != 1:
+        raise InputError(f"--lock '{text}' has {values.size} numbers after @; give one time")
+    return read_joint(arm, joint), float(values[0])

@@ -1,0 +1,42 @@
+"""``holdfast stationary-points``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import holdfast as hf
+from holdfast.core.errors import InputError
+from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
+from holdfast.interface.cli.laws import LawOption, LockDegreesOption, TargetOption, read_law_for_arm
+from holdfast.interface.cli.options import ArmArgument, FailureOption, SeedOption, TaskOption
+from holdfast.interface.cli.values import read_locks, read_target
+
+if TYPE_CHECKING:
+    from holdfast.core.result import Result
+
+
+def command(
+    arm: ArmArgument,
+    target: TargetOption,
+    lock: Annotated[
+        list[str] | None, "JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values."
+    ] = None,
+    failure: FailureOption = None,
+    degrees: LockDegreesOption = False,
+    law: LawOption = "pseudoinverse",
+    task: TaskOption = None,
+    seed: SeedOption = 0,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
+) -> None:
+    """Find the configurations at which an arm with an undetected lock can stop.
+
+    Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=140 --degrees
+    """
+    control_law = read_law_for_arm(law, arm, task, chain)
+    target_value = read_target(control_law.arm, control_law.task, target)
+    locked = read_locks(control_law.arm, lock, degrees, optional_value=True, failure=failure)
+    if output.plot is not None and all("=" in text for text in lock or []):
+        raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
+    result: Result = hf.stationary_points(control_law, target_value, locked, seed=seed)
+    output.print_result(result)

@@ -1,0 +1,100 @@
+"""Pages, figures, and console text for the results of the packages below."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+# The modules that present a class, by the class with its module: first the module of its words and numbers (to_dict, show,
+# tables, key_table, next_steps), which draws nothing, then that of its pictures (figures, write, save). What a module does not
+# define is in `results`. For the inputs of an analysis there are words alone, for notebooks.
+PRESENTER_MODULES = {
+    "model.arm.model.Arm": ("arm.console", "arm.view"),
+    "model.arm.task.Task": ("arm.task", ""),
+    "studies.assessment.assessment.Assessment": ("assessment.console", "assessment.page"),
+    "studies.assessment.comparison.Comparison": ("assessment.comparison_console", "assessment.comparison"),
+    "studies.planner_benchmark.suite.FailActive": ("planner_benchmark.console", "planner_benchmark.page"),
+    "kinematics.index_bounds.manipulability_bounds.UpperBound": ("index_bounds.console", ""),
+    "kinematics.index_bounds.manipulability_bounds.UpperBoundTable": ("index_bounds.console", ""),
+    "kinematics.index_bounds.least_singular_values.SingularValueBound": ("index_bounds.console", ""),
+    "kinematics.index_bounds.ascent_search.UpperBoundSearch": ("index_bounds.console", ""),
+    "certificates.proof.BisectionResult": ("certificates.console", ""),
+    "certificates.checks.CertificateCheck": ("certificates.console", ""),
+    "certificates.joint_boxes.bounds.ManipulabilityBound": ("certificates.console", "certificates.joint_boxes"),
+    "certificates.joint_boxes.refutations.Refutation": ("certificates.console", "certificates.joint_boxes"),
+    "certificates.proof.Proof": ("certificates.console", "certificates.slices"),
+    "certificates.proof.TolerantProof": ("certificates.console", "certificates.slices"),
+    "certificates.structure.StructuralZero": ("certificates.console", ""),
+    "certificates.tool_paths.proof.PathProof": ("certificates.motions", "certificates.motions"),
+    "model.collision.cell_check.CellCheck": ("collision.cell_check", ""),
+    "control.laws.law.Law": ("control.law", ""),
+    "control.laws.trade_offs.TradeOff": ("control.console", "control.trade_offs"),
+    "control.convergence.law_choice.LawChoice": ("convergence.law_choice", "convergence.law_choice"),
+    "control.convergence.law_comparison.LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
+    "control.convergence.maps.ConvergenceMap": ("convergence.maps", "convergence.maps"),
+    "control.convergence.start_workspace.Workspace": ("convergence.origins", "convergence.origins"),
+    "control.convergence.targets.TargetMeasures": ("convergence.targets", "convergence.targets"),
+    "studies.designs.record_book.entries.DesignRecord": ("designs.records", ""),
+    "studies.designs.record_book.entries.RecordBook": ("designs.records", "designs.book"),
+    "studies.designs.record_book.entries.RecordCheck": ("designs.records", ""),
+    "studies.designs.convergence.ConvergenceDesigns": ("designs.console", "designs.convergence"),
+    "studies.designs.designs.Designs": ("designs.console", "designs.page"),
+    "studies.designs.evolution.found.EvolvedDesign": ("designs.evolved", "designs.evolved"),
+    "studies.designs.arm_comparison.comparison.ArmComparison": ("designs.arm_comparison", ""),
+    "studies.designs.arm_comparison.orders.JointOrders": ("designs.records", ""),
+    "studies.designs.synthesis.arms.Synthesis": ("designs.records", ""),
+    "response.diagnosis.answer.Diagnosis": ("diagnosis.console", "diagnosis.page"),
+    "response.diagnosis.bounds.Bounds": ("diagnosis.console", ""),
+    "response.diagnosis.detectability.observability.Observability": ("diagnosis.detectability", "diagnosis.separation"),
+    "response.diagnosis.detectability.probe.Identification": ("diagnosis.detectability", ""),
+    "response.diagnosis.detectability.probe.ProbingMotion": ("diagnosis.detectability", "diagnosis.separation"),
+    "kinematics.interval_search.search.Configurations": ("interval_search.console", ""),
+    "response.lock_survival.planning.LockSurvival": ("lock_survival.console", "lock_survival.page"),
+    "core.sweeps.study.Study": ("studies.console", "studies.page"),
+    "core.sweeps.merge.MergeReport": ("studies.console", ""),
+    "control.equilibria.attraction.Basins": ("equilibria.basins", "equilibria.basins"),
+    "control.equilibria.curves.Curves": ("equilibria.curves", "equilibria.curves"),
+    "control.equilibria.limit_cycles.Orbit": ("equilibria.orbit", ""),
+    "control.equilibria.points.StationaryPoints": ("equilibria.points", ""),
+    "response.faults.batch.FaultBatch": ("faults.console", ""),
+    "kinematics.indices.objective.Objective": ("indices.notebook", ""),
+    "kinematics.path_following.trajectory.Trajectory": ("path_following.console", "path_following.trajectory"),
+    "kinematics.paths.path.Path": ("paths.path", ""),
+    "kinematics.paths.timed_path.TimedPath": ("paths.path", ""),
+    "control.physics.execution.Execution": ("physics.execution", "physics.execution"),
+    "control.physics.fall.FreeSwing": ("physics.swing", "physics.swing"),
+    "control.physics.run.PhysicalRun": ("physics.console", "physics.run"),
+    "kinematics.workspace.tolerance.TolerantWorkspace": ("workspace.region", "workspace.region"),
+    "certificates.working_ranges.WorkingRanges": ("certificates.working_ranges", ""),
+    "response.supervisor.run.FaultRun": ("supervisor.console", "supervisor.page"),
+    "response.recovery.recovery.Recovery": ("recovery.console", "recovery.motion"),
+    "response.recovery.workspace_after_failure.RemainingWorkspace": (
+        "recovery.remaining_workspace",
+        "recovery.remaining_workspace",
+    ),
+    "response.recovery.waypoints.WaypointCheck": ("recovery.check", ""),
+    "kinematics.regions.region.Region": ("regions.region", "regions.region"),
+    "control.simulation.runs.Runs": ("simulation.console", "simulation.run"),
+    "kinematics.solvers.optima.Optima": ("solvers.console", "solvers.console"),
+    "kinematics.solvers.self_motions.SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
+    "teleop.analysis.result.Analysis": ("teleop.numbers", "teleop.page"),
+    "teleop.bank.selection.TaskChoice": ("teleop.choice", "teleop.bank"),
+}
+_TEXT_FUNCTIONS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps", "story", "describe"}
+
+
+def find_presenter(presented: type, function: str) -> Callable[..., Any]:
+    """Return the function that presents the results of a class; its module is imported on this call."""
+    names = [f"{base.__module__}.{base.__name__}".removeprefix("holdfast.") for base in presented.__mro__]
+    text_module, figure_module = next((PRESENTER_MODULES[name] for name in names if name in PRESENTER_MODULES), ("", ""))
+    for module in (text_module if function in _TEXT_FUNCTIONS else figure_module, "results"):
+        candidate = getattr(import_module(f"holdfast.interface.presentation.{module}"), function, None) if module else None
+        if callable(candidate):  # `figures` may be a module that the presenter imports
+            return candidate  # type: ignore[no-any-return]
+    raise AttributeError(f"nothing in holdfast.interface.presentation has '{function}' for {presented.__name__}")
+
+
+def call_presenter(presented: object, function: str, *arguments: Any, **options: Any) -> Any:
+    """Call the function that presents an object, for example ``show`` or ``tables``."""
+    return find_presenter(type(presented), function)(presented, *arguments, **options)

@@ -1,0 +1,193 @@
+"""Text, tables, and JSON of arms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.labels import TASK_SIZES
+from holdfast.interface.presentation.printing import TextTable, format_column, format_significant
+from holdfast.model import arms
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.soundness import check_arm
+from holdfast.model.arm.task import plane_normal
+from holdfast.studies.assessment.single_points import explain, structures
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def to_dict(arm: Arm) -> dict[str, Any]:
+    """Return the arm, the joints that are single points of failure by structure, and the findings about its data."""
+    return {
+        "name": arm.name,
+        **{key: value for key, value in arm.entry().items() if key != "arm"},
+        "source": arm.source,
+        "fingerprint": arm.fingerprint,
+        "gravity_m_s2": arm.gravity,
+        "joints": [
+            {
+                **{
+                    key: getattr(joint, key)
+                    for key in ("name", "type", "unit", "lower", "upper", "velocity", "effort", "friction")
+                },
+                "mass_kg": None if link is None else link.mass,
+            }
+            for joint, link in zip(arm.joints, arm.links, strict=True)
+        ],
+        "structure": [
+            {
+                "task": structure.task,
+                "redundancy": structure.redundancy,
+                "single_points_of_failure": [arm.joint_names[index] for index in structure.fatal],
+                "at_most_left": {arm.joint_names[index]: remaining for index, remaining in structure.nearly},
+                "weak_joints": {arm.joint_names[weak_joint.joint]: asdict(weak_joint) for weak_joint in structure.weak},
+                "end_it_together": [[arm.joint_names[index] for index in joint_set] for joint_set in structure.together],
+                "always_singular": structure.never,
+            }
+            for structure in structures(arm)
+        ],
+        "findings": [
+            {"severity": finding.severity, "subject": finding.subject, "message": finding.message} for finding in check_arm(arm)
+        ],
+    }
+
+
+def sentences(arm: Arm) -> list[str]:
+    """Return the title, the number of joints, and the source of the arm."""
+    return [f"{arm.title}: {arm.n} joints", *([f"Source: {arm.source}"] if arm.source else [])]
+
+
+def key_table(arm: Arm) -> TextTable:
+    """Tabulate the joints with their types, limits, and link masses."""
+    table_rows = []
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        factor, unit = joint.display_unit
+        limits = [f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)]
+        table_rows.append(
+            [joint.name, joint.type, *limits, "not given" if link is None else f"{format_significant(link.mass)} kg"]
+        )
+    return TextTable(["joint", "type", "lower", "upper", "link mass"], table_rows)
+
+
+def next_steps(arm: Arm, name: str) -> list[str]:
+    """Suggest a view of the arm, and its fault tolerance for the largest task for which it is redundant."""
+    task = find_redundant_task(arm)
+    view_call = f"{name}.show()  # a view to turn, with a slider for each joint"
+    if task is None:
+        return [view_call]
+    return [
+        view_call,
+        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves",
+        f"hf.assess({name}, task={task!r}, poses=200)  # and over a region about its home",
+    ]
+
+
+def find_redundant_task(arm: Arm) -> str | None:
+    """Return the largest task of the arm's kind of motion (planar or spatial) with fewer rows than joints; None if there is
+    none.
+    """
+    is_planar = plane_normal(arm) is not None
+    candidates = [task for task, rows in TASK_SIZES.items() if task.startswith("planar") == is_planar and rows < arm.n]
+    return max(candidates, key=TASK_SIZES.__getitem__, default=None)
+
+
+def show(arm: Arm, out: Console) -> None:
+    """Print the joints as a table, then the weaknesses of the structure and the findings about the data."""
+    from rich.markup import escape
+
+    from holdfast.interface.presentation.terminal import BandedTable
+
+    source = f". Source: {escape(arm.source)}" if arm.source else ""
+    out.print(f"[bold]{escape(arm.title)}[/]: {arm.n} joints{source}")
+    table = BandedTable("", "joint", "type", "lower", "upper", "speed", "effort", "link mass")
+    for index, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
+        factor, unit = joint.display_unit
+        table.add_row(
+            str(index + 1),
+            escape(joint.name),
+            joint.type,
+            *[f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)],
+            f"{format_significant(joint.velocity)} {joint.unit}/s" if np.isfinite(joint.velocity) else "not given",
+            f"{format_significant(joint.effort)} {'N' if joint.prismatic else 'N m'}"
+            if np.isfinite(joint.effort)
+            else "not given",
+            f"{format_significant(link.mass)} kg" if link is not None else "not given",
+        )
+    out.print(table)
+    out.print()
+    structure_list = structures(arm)
+    for structure in structure_list:
+        style = "green" if structure.survives and not structure.weak else "yellow"
+        label = f"{structure.task}: " + (f"degree of redundancy {structure.redundancy}. " if structure.redundancy > 0 else "")
+        out.print(f"[{style}]{label}[/]{escape(explain(arm, structure, structure_list))}", soft_wrap=True)
+    # The same remark about every joint is one line.
+    subjects: dict[tuple[str, str], list[str]] = {}
+    for finding in check_arm(arm):
+        subjects.setdefault((finding.severity, finding.message), []).append(finding.subject)
+    if subjects:
+        out.print()
+    for (severity, message), names in subjects.items():
+        subject_text = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more like it"
+        colour = "red" if severity == "error" else "yellow"
+        out.print(f"[{colour}]{severity}[/] {escape(subject_text)}: {escape(message)}", soft_wrap=True)
+
+
+def describe(arm: Arm) -> list[str]:
+    """Return the lines that ``holdfast describe`` prints where the width of the terminal is unknown."""
+    from holdfast.interface.presentation.terminal import WrappingConsole
+
+    screen = WrappingConsole()
+    with screen.capture() as captured:
+        show(arm, screen)
+    return [line.rstrip() for line in captured.get().splitlines()]
+
+
+def list_library_arms() -> list[dict[str, Any]]:
+    """List the built-in arms with their joint counts, summaries, sources, and licences."""
+    entries = [arms.about(name) for name in arms.names()]
+    return [
+        {"name": entry.name, "joints": entry.n, "summary": entry.summary, "source": entry.source, "licence": entry.licence}
+        for entry in entries
+    ]
+
+
+def show_library(out: Console) -> None:
+    """Print the built-in arms as a table."""
+    from holdfast.interface.presentation.terminal import BandedTable
+
+    table = BandedTable("name", "joints", "what it is", "licence")
+    for entry in list_library_arms():
+        table.add_row(entry["name"], str(entry["joints"]), entry["summary"], entry["licence"])
+    out.print(table)
+
+
+def format_position(value: float, unit: str) -> str:
+    """Format the position of a joint, or an angle, for a table."""
+    return (
+        f"{format_significant(value)} m"
+        if unit == "m"
+        else f"{format_significant(value)} rad ({format_significant(np.degrees(value))} deg)"
+    )
+
+
+def format_positions(values: NDArray[np.float64], units: Sequence[str], digits: int = 5) -> list[str]:
+    """Format a column of positions, or of measures of joints; angles are also given in degrees."""
+    degrees = iter(
+        format_column(np.degrees([value for value, unit in zip(values, units, strict=True) if unit == "rad"]), "deg")
+    )
+    pairs = zip(format_column(values, units, digits), units, strict=True)
+    return [f"{text} ({next(degrees)})" if unit == "rad" else text for text, unit in pairs]
+
+
+def print_limit_violations(arm: Arm, q: NDArray[np.float64], out: Console, when: str = "") -> None:
+    """Print the names of the joints that a configuration (n,) has beyond a limit, if any."""
+    from rich.markup import escape
+
+    names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
+    if names:
+        out.print(f"[yellow]outside its limits{when}: {escape(', '.join(names))}[/]", soft_wrap=True)

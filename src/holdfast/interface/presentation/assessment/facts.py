@@ -1,0 +1,293 @@
+"""Contents of the report of an assessment, computed once: evaluated poses, scene, axes, marks and curves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.formatting import format_as_given, format_half_width, format_number
+from holdfast.core.probability.distribution import Distribution
+from holdfast.core.typing import FloatArray
+from holdfast.interface.report import figures
+from holdfast.interface.report.figures import Bin, Curve, Mark
+from holdfast.interface.report.scenes import Scale, Scene
+from holdfast.interface.report.views import SIDE_VIEW, View, choose_side_and_top_views
+from holdfast.kinematics.solvers.inverse_kinematics import solver
+from holdfast.model.arm.poses import rotations_of_quaternions
+from holdfast.studies.assessment.answer import ZERO_INDEX, ThresholdAnswer
+from holdfast.studies.assessment.assessment import Assessment
+from holdfast.studies.assessment.rows import describe_provenance
+from holdfast.studies.assessment.upgrade import select_sample
+
+_MAX_DOTS = 20_000
+_MAX_AXIS_RATIO = 4.0  # times the largest value: beyond it a bound would flatten the curve
+
+
+@dataclass(frozen=True)
+class EvaluatedPoses:
+    """Evaluated poses of a run, with tool poses also for a region of joints."""
+
+    number: NDArray[np.int64]
+    position: FloatArray
+    rotation: FloatArray
+    q: FloatArray
+    reached: NDArray[np.bool_]
+    value: FloatArray
+    by_failure: FloatArray
+    worst: NDArray[np.int64]
+    weight: FloatArray | None
+
+
+class AssessmentFacts(ThresholdAnswer):
+    """Contents of the report of an assessment, each computed once."""
+
+    assessment: Assessment
+
+    def __init__(self, assessment: Assessment, threshold: float | None) -> None:
+        super().__init__(assessment, threshold)
+
+    @property
+    def collision_objects(self) -> str:
+        """Objects that the arm may collide with: ``itself``, the cell, or both."""
+        clearance = self.assessment.plan.clearance
+        return "itself" if clearance is None else clearance.others
+
+    @property
+    def avoided_objects(self) -> str:
+        """Objects that the arm must avoid: ``itself``, the cell, or both joined by ``and``."""
+        clearance = self.assessment.plan.clearance
+        return "itself" if clearance is None else clearance.everything
+
+    @property
+    def has_finite_values(self) -> bool:
+        """True if some reached pose has a finite index."""
+        return self.distribution.reached > self.distribution.infinite
+
+    @property
+    def axis_label(self) -> str:
+        """Label of an axis of index values, with the unit."""
+        return figures.format_label(f"worst-case {self.index.name}{self.unit_suffix and ','}{self.unit_suffix}")
+
+    @property
+    def failure_labels(self) -> list[str]:
+        """Joint numbers from 1 and names of each failure: ``4 elbow``, ``2+4 shoulder+elbow``."""
+        pairs = zip(self.index.failures, self.index.failure_names, strict=True)
+        return [f"{'+'.join(str(joint + 1) for joint in joints)}  {name}" for joints, name in pairs]
+
+    # ---- rows ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def poses(self) -> EvaluatedPoses | None:
+        """Every evaluated pose; None if the poses were not kept."""
+        if not self.distribution.samples or not self.assessment.has_rows:
+            return None
+        evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=False)
+        if self.assessment.region.kind == "joints":
+            tool_poses = self.assessment.arm.forward_kinematics(evaluated.q)
+            position, rotation = tool_poses[:, :3, 3], tool_poses[:, :3, :3]
+        else:
+            columns = self.assessment.columns
+            position = columns["position"][:][evaluated.number]
+            rotation = rotations_of_quaternions(columns["quaternion"][:][evaluated.number])
+        return EvaluatedPoses(
+            evaluated.number,
+            position,
+            rotation,
+            evaluated.q,
+            evaluated.reached,
+            evaluated.value,
+            evaluated.by_failure,
+            evaluated.worst,
+            evaluated.weight,
+        )
+
+    @cached_property
+    def optimised_poses(self) -> EvaluatedPoses | None:
+        """Every evaluated pose at its best configuration; None if the run was not optimised or the poses were not kept."""
+        if self.poses is None or self.assessment.optimised is None:
+            return None
+        evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=True)
+        return replace(
+            self.poses,
+            q=evaluated.q,
+            reached=evaluated.reached,
+            value=evaluated.value,
+            by_failure=evaluated.by_failure,
+            worst=evaluated.worst,
+        )
+
+    @property
+    def samples(self) -> list[tuple[str, Distribution, EvaluatedPoses | None]]:
+        """Samples of the run: the label, the distribution, and the poses of each."""
+        first = ("found by inverse kinematics", self.distribution, self.poses)
+        return (
+            [first]
+            if self.assessment.optimised is None
+            else [first, ("after optimisation", self.assessment.optimised, self.optimised_poses)]
+        )
+
+    @cached_property
+    def provenance(self) -> dict[str, object]:
+        """Date, duration and versions of the run; those of this report where the run did not store them."""
+        notes = self.assessment.store.notes if self.assessment.store is not None else {}
+        return notes if "versions" in notes else describe_provenance(self.assessment.seconds)
+
+    # ---- figures ---------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def drawn_configuration(self) -> tuple[FloatArray, str]:
+        """Configuration to draw, and its description."""
+        assessment, poses = self.assessment, self.poses
+        if poses is not None and poses.reached.any():
+            reached = np.flatnonzero(poses.reached)
+            index = reached[np.argsort(poses.value[reached], kind="stable")[(len(reached) - 1) // 2]]
+            description = (
+                "the only one there is"
+                if len(reached) == 1
+                else f"the one with the median index, {format_number(float(poses.value[index]))}"
+            )
+            return poses.q[index], f"at {self.noun} {poses.number[index] + 1:,}, {description}"
+        center = np.array(assessment.region.center)
+        if assessment.region.kind == "joints":
+            return center, "in the middle of the region"
+        if self.distribution.reached and assessment.region.kind == "box":
+            solutions = solver(assessment.arm, self.index.task).solve(
+                assessment.region.poses(center[None]), np.random.SeedSequence(assessment.seed), assessment.restarts, 1e-6
+            )
+            if solutions.success[0]:
+                return solutions.q[0], "at the middle of the region"
+        lower = np.where(np.isfinite(assessment.arm.lower), assessment.arm.lower, -np.pi / 2)
+        upper = np.where(np.isfinite(assessment.arm.upper), assessment.arm.upper, np.pi / 2)
+        return (lower + upper) / 2, "in the middle of its joint limits"
+
+    @cached_property
+    def scene(self) -> tuple[Scene, int]:
+        """Scene of the views, and the number of poses in it."""
+        assessment, poses = self.assessment, self.poses
+        joint_positions = assessment.arm.frames(self.drawn_configuration[0])[:, :3, 3]
+        no_points = np.zeros((0, 3))
+        points, values, missing, drawn_count = no_points, np.zeros(0), no_points, 0
+        if poses is not None:
+            chosen = np.arange(len(poses.value))
+            if len(chosen) > _MAX_DOTS:
+                chosen = np.sort(np.random.default_rng(0).choice(len(chosen), _MAX_DOTS, replace=False))
+            is_reached = poses.reached[chosen]
+            points, values, missing = (
+                poses.position[chosen[is_reached]],
+                poses.value[chosen[is_reached]],
+                poses.position[chosen[~is_reached]],
+            )
+            drawn_count = len(chosen)
+        box = None
+        if assessment.region.kind == "box":
+            center, size = np.array(assessment.region.center[:3]), np.array(assessment.region.size[:3])
+            box = np.array([center - size / 2, center + size / 2])
+        return Scene(
+            points,
+            values,
+            missing,
+            chain=joint_positions,
+            nodes=joint_positions[1:-1],
+            square=assessment.arm.prismatic,
+            box=box,
+        ), drawn_count
+
+    @cached_property
+    def views(self) -> list[View]:
+        """Side and top view; only one of them if everything lies in its plane."""
+        return choose_side_and_top_views(self.scene[0].extent) or [SIDE_VIEW]
+
+    @property
+    def main_view(self) -> View:
+        """First of the views."""
+        return self.views[0]
+
+    @cached_property
+    def is_logarithmic(self) -> bool:
+        """True if the values span decades and none is 0, so that they are shown on a logarithmic scale."""
+        return (
+            not self.larger_is_better
+            and self.distribution.lowest > 0
+            and self.distribution.highest > 20 * self.distribution.lowest
+        )
+
+    @cached_property
+    def color_scale(self) -> Scale:
+        """Colour scale of the dots."""
+        values = self.scene[0].values
+        if self.is_worst_everywhere and self.larger_is_better:
+            return Scale(0.0, self.index.bound or 1.0)
+        return Scale.from_values(values, self.is_logarithmic, not self.larger_is_better)
+
+    @cached_property
+    def axis_values(self) -> FloatArray:
+        """Index values at which the CDF is drawn."""
+        distribution, mark_values = self.distribution, [mark.x for mark in self.marks]
+        if self.is_logarithmic:
+            return np.geomspace(
+                min(distribution.lowest, *mark_values) / 1.15, max(distribution.highest, *mark_values) * 1.15, 1601
+            )
+        finite = [value for value in (distribution.lowest, distribution.highest) if np.isfinite(value)]
+        upper = max([0.0, *finite, *mark_values])
+        lower = min([0.0, *finite, *mark_values])
+        return np.linspace(lower, upper + 0.04 * ((upper - lower) or 1.0), 1601)
+
+    @cached_property
+    def marks(self) -> list[Mark]:
+        """Lines at the threshold and at the bound, unless they are far beyond all values."""
+        candidates = (
+            [Mark(self.threshold, f"threshold {format_as_given(self.threshold)}{self.unit_suffix}")]
+            if self.has_threshold
+            else []
+        )
+        if self.index.bound is not None:
+            candidates.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
+        highest = max(
+            (
+                distribution.highest
+                for distribution in (self.distribution, self.assessment.optimised)
+                if distribution is not None and distribution.reached
+            ),
+            default=0.0,
+        )
+        keep_all = self.is_chosen or self.index.bound is None or highest <= ZERO_INDEX
+        return candidates if keep_all else [mark for mark in candidates if mark.x <= _MAX_AXIS_RATIO * highest]
+
+    @cached_property
+    def curves(self) -> list[Curve]:
+        """Cumulative distribution over all poses, and over the reached ones if some are not reached."""
+        band = self.assessment.distribution.band()
+        unreached_text = (
+            f" (not found counts as {'0' if self.larger_is_better else 'infinite'})" if self.distribution.unreached else ""
+        )
+        label_prefix = "" if not self.distribution.unreached else f"all {self.distribution.samples:,} poses{unreached_text}, "
+        all_poses = Curve(
+            self.axis_values,
+            self.assessment.cdf(self.axis_values),
+            f"{label_prefix or f'all {self.distribution.samples:,} {self.noun}s, '}95 % band {format_half_width(band)}",
+            band=band,
+        )
+        if not self.distribution.unreached:
+            return [all_poses]
+        return [
+            all_poses,
+            Curve(
+                self.axis_values,
+                self.assessment.cdf(self.axis_values, reachable_only=True),
+                f"the {self.distribution.reached:,} reached poses only",
+                second=True,
+            ),
+        ]
+
+    @cached_property
+    def histogram(self) -> Bin:
+        """Density over the reached poses, from the CDF, so that it also works for binned distributions."""
+        count = int(np.clip(2 * self.distribution.reached ** (1 / 3), 8, 40)) if self.distribution.values is not None else 40
+        edges = (np.geomspace if self.is_logarithmic else np.linspace)(self.axis_values[0], self.axis_values[-1], count + 1)
+        fraction = np.diff(self.assessment.cdf(edges, reachable_only=True))
+        width = np.diff(np.log10(edges)) if self.is_logarithmic else np.diff(edges)
+        density_unit = "per decade" if self.is_logarithmic else self.unit_suffix and f"per{self.unit_suffix}"
+        return Bin(edges, fraction / width, "", ylabel=f"probability density {density_unit}".strip())

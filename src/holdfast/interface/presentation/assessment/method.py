@@ -1,0 +1,121 @@
+"""Section of a report on how an assessment was computed, and the command that repeats it."""
+
+from __future__ import annotations
+
+from markupsafe import Markup
+
+from holdfast.core import labels
+from holdfast.core.formatting import capitalise_first, format_as_given
+from holdfast.core.registry import INDEX_REGISTRY
+from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.commands import build_command_line, list_capsule_files, list_region_files
+from holdfast.interface.presentation.page_content import format_versions
+from holdfast.interface.report.page import Block, Code, Table, Text
+from holdfast.studies.assessment.assessment import Assessment
+
+
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Build the table that describes how the assessment was computed."""
+    assessment, index = facts.assessment, facts.index
+    run_info = facts.provenance
+    definition_entry = INDEX_REGISTRY.get(index.slug) if INDEX_REGISTRY.is_storable(index) else None
+    formula = definition_entry.formula if definition_entry else ""
+    extreme = "smallest" if facts.larger_is_better else "largest"
+    definition = Markup("the {} value over the failures S").format(extreme)
+    if formula:
+        definition = Markup(
+            "the {} over the failures S of {}, where <sup>S</sup>J is the task Jacobian J without the columns of S"
+        ).format(extreme, Markup(formula))
+        if "σ" in formula:
+            definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
+    for name, value in index.settings.items() if formula else ():
+        definition += Markup("; {} {}").format(name, labels.write_value(value))
+    if index.source:
+        definition += Markup(". Source: {}").format(index.source)
+    uses_ik = assessment.region.kind != "joints"
+    entries: list[tuple[str, str | Markup]] = []
+    missing_value = "0" if facts.larger_is_better else "infinite"
+    if uses_ik:
+        solved = f"damped least squares from up to {assessment.restarts:,} random starts within the joint limits"
+        entries += [
+            ("Method", f"{facts.sampling_text}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
+            (
+                "Not optimised",
+                "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
+                "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers"
+                + ("; see what that gains above" if assessment.optimised is not None else ""),
+            ),
+            (
+                "Not found",
+                f"none of {assessment.restarts:,} starts led to a configuration within the joint limits; this does not "
+                f"prove that there "
+                f"is none. Such a pose counts as {missing_value} unless 'reached only' is said",
+            ),
+        ]
+        if index.task.m < 6:
+            free_directions = (
+                f"task '{index.task.name}' fixes {index.task.m} of 6 directions; the others of a drawn pose are not asked for"
+            )
+            entries.append(("Free directions", free_directions))
+    else:
+        entries.append(
+            ("Method", f"{assessment.sampling} configurations of the region, evaluated directly, without inverse kinematics")
+        )
+    if assessment.sampling == "sobol":
+        sobol_remark = (
+            "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"
+        )
+        entries.append(("Error bars", sobol_remark))
+    entries += [
+        ("Index", definition),
+        (
+            "Singular",
+            "smallest singular value of J at most 1e-12 times the largest; the index is then "
+            f"{'0' if facts.larger_is_better else 'infinite'} by convention",
+        ),
+        ("Failures", "a locked joint stays where it failed"),
+        ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Region", f"{assessment.region.name}: {assessment.region.describe()}{_format_joint_ranges(assessment)}"),
+        ("Arm", assessment.arm.provenance),
+        ("Fingerprint of the arm", Markup("<code>{}</code>").format(assessment.arm.fingerprint)),
+        (
+            "Seed, samples",
+            f"seed {assessment.seed}, {assessment.poses:,} {facts.noun}s, {assessment.sampling} sampling"
+            + (f", {assessment.restarts:,} restarts" if uses_ik else ""),
+        ),
+        ("Time", f"{run_info['seconds']:.1f} s" if isinstance(run_info.get("seconds"), (int, float)) else "not noted"),
+        ("Versions", _format_versions(run_info)),
+    ]
+    return [Table([[label, text] for label, text in entries])]
+
+
+def build_rerun_blocks(assessment: Assessment) -> list[Block]:
+    """Build the command that repeats the run with the files that it needs, or the reason why there is none."""
+    command, remark = build_command_line(assessment)
+    if command is None:
+        return [Text(remark)]
+    return [
+        Code(command, remark and f"{capitalise_first(remark)}:"),
+        *list_region_files(assessment.region),
+        *list_capsule_files(assessment),
+    ]
+
+
+def _format_joint_ranges(assessment: Assessment) -> str:
+    """Format the joint ranges of a region of joints, in degrees and metres; empty for other regions."""
+    if assessment.region.kind != "joints":
+        return ""
+    parts = []
+    for joint, middle, width in zip(assessment.arm.joints, assessment.region.center, assessment.region.size, strict=True):
+        scale, unit = joint.display_unit
+        parts.append(
+            f"{joint.name} {format_as_given(scale * (middle - width / 2))} to "
+            f"{format_as_given(scale * (middle + width / 2))} {unit}"
+        )
+    return ": " + ", ".join(parts)
+
+
+def _format_versions(provenance: dict[str, object]) -> str:
+    versions = provenance.get("versions")
+    packages = [format_versions(versions)] if isinstance(versions, dict) else []
+    return ", ".join([*packages, f"Python {provenance.get('python', '')}", str(provenance.get("machine", ""))])

@@ -1,0 +1,168 @@
+"""Gain from choosing configurations: the distribution before and after, and each pose."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from holdfast.core.formatting import format_as_given, format_count, format_half_width, format_interval, format_number
+from holdfast.core.probability.distribution import Distribution
+from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.report import figures
+from holdfast.interface.report.figures import Curve
+from holdfast.interface.report.page import Block, Picture, Table, Text
+
+SECTION_TITLE = "What choosing configurations gains"
+_MAX_DOTS = 20_000
+
+
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Compare the index before and after optimisation, if the run was optimised; Abdi et al. 2012, Figs. 5 to 7."""
+    optimised = facts.assessment.optimised
+    if optimised is None or not optimised.reached:
+        return []
+    blocks: list[Block] = [
+        Text(
+            f"After: for each pose the best configuration found that keeps the pose{_describe_constraints(facts)}. "
+            "Found by a local search from several starts: a lower bound of what is possible."
+        ),
+        _tabulate_gain(facts, optimised),
+    ]
+    if facts.has_finite_values:
+        figure = draw_gain(facts, optimised)
+        blocks.append(
+            Picture(
+                figures.svg(figure, "gain", "Distribution of the index before and after choosing configurations"),
+                f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses in the "
+                f"order of the index before; "
+                "what a pose gains is the height of its dot above the line." + _describe_blocked_poses(facts),
+            )
+        )
+    return blocks
+
+
+def _describe_constraints(facts: AssessmentFacts) -> str:
+    """Describe the constraints of the best configurations in addition to the pose."""
+    clearance, margin = facts.assessment.plan.clearance, facts.assessment.plan.margin
+    if clearance is None:
+        return " and the joint limits, even where the arm collides with itself"
+    clearance_text = f"a clearance of {margin:g} m" if margin else f"the arm clear of {facts.avoided_objects}"
+    return f", the joint limits and {clearance_text} ({clearance.capsules.describe(facts.assessment.arm)})"
+
+
+def _describe_blocked_poses(facts: AssessmentFacts) -> str:
+    blocked = facts.assessment.collisions.hopeless if facts.assessment.collisions is not None else 0
+    obstacles = "the arm itself" if facts.collision_objects == "itself" else facts.avoided_objects
+    return f" {format_count(blocked, 'pose')} without a configuration clear of {obstacles} have no dot." if blocked else ""
+
+
+def _tabulate_gain(facts: AssessmentFacts, best: Distribution) -> Table:
+    levels = (0.05, 0.25, 0.5, 0.75, 0.95)
+    threshold_option = {"at_least" if facts.larger_is_better else "at_most": facts.threshold}
+    table_rows = []
+    for name, distribution, optimised in (("before", facts.distribution, False), ("after", best, True)):
+        probability = facts.assessment.interval(optimised=optimised, **threshold_option)  # type: ignore[arg-type]
+        best_value = distribution.highest if facts.larger_is_better else distribution.lowest
+        name += f", {distribution.reached:,} poses" if best.reached < facts.distribution.reached else ""
+        table_rows.append(
+            [
+                name,
+                *[format_number(float(value)) for value in distribution.quantile(levels)],
+                format_number(distribution.mean),
+                format_number(best_value),
+                format_interval(probability),
+            ]
+        )
+    relation = "≥" if facts.larger_is_better else "≤"
+    header = [
+        "Index over reached poses", "5 %", "25 %", "median", "75 %", "95 %", "mean", "best",
+        f"P({relation} {format_as_given(facts.threshold)}), all poses",
+    ]  # fmt: skip
+    return Table(table_rows, header, frozenset(range(1, 9)), wide=True)
+
+
+def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
+    """Draw the two cumulative distributions (left) and both values of each pose, sorted by the first (right; Figs. 6 and 7)."""
+    curves = build_gain_curves(facts, best)
+    axis_values = curves[0].x
+    with figures.style():
+        figure = Figure(figsize=(figures.WIDTH_IN, 3.9))
+        cdf_axes, pose_axes = figure.subplots(1, 2)
+        visible_marks = [mark for mark in facts.marks if mark.x <= axis_values[-1]]
+        figures.draw_cdf(
+            cdf_axes,
+            curves,
+            visible_marks,
+            xlabel=facts.axis_label,
+            ylabel="fraction with a smaller value, F",
+            log=facts.is_logarithmic,
+        )
+        cdf_axes.set_title(f"Cumulative (CDF), {facts.distribution.samples:,} poses")
+        poses = facts.poses
+        if poses is None:
+            pose_axes.set_axis_off()
+        else:
+            before = poses.value[poses.reached]
+            after = facts.assessment.columns["optimised_index"][:][: len(poses.reached)][poses.reached]
+            order = np.argsort(before)
+            chosen = order if len(order) <= _MAX_DOTS else order[:: -(-len(order) // _MAX_DOTS)]
+            ranks = np.searchsorted(np.sort(before), before[chosen]) + 1
+            pose_axes.plot(ranks, after[chosen], ".", color=figures.BLUE, markersize=2.2, rasterized=True)
+            pose_axes.plot(ranks, before[chosen], color=figures.ORANGE, linewidth=1.6)
+            pose_axes.set(xlabel="reached poses, sorted by the index before", ylabel=facts.axis_label, ylim=(0, None))
+            if facts.is_logarithmic:
+                pose_axes.set(yscale="log", ylim=(None, None))
+            pose_axes.set_title("Each pose before (line) and after (dots)")
+        figures.legend_below(figure, cdf_axes)
+        return figures.settle_layout(figure)
+
+
+def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]:
+    """Return the distributions after and before choosing configurations over one axis, each with its 95 % band."""
+    extremes = [
+        value
+        for distribution in (facts.distribution, best)
+        for value in (distribution.lowest, distribution.highest)
+        if np.isfinite(value)
+    ]
+    lower = min(0.0, *extremes) if not facts.is_logarithmic else min(extremes)
+    axis_values = (np.geomspace if facts.is_logarithmic else np.linspace)(lower, max(extremes) * 1.02, 400)
+    samples = (
+        (best, "after: the best configurations", False),
+        (facts.distribution, "before: as inverse kinematics found them", True),
+    )
+    return [
+        Curve(
+            axis_values,
+            distribution.cdf(axis_values),
+            f"{label}, 95 % band {format_half_width(distribution.band())}",
+            second=second,
+            band=distribution.band(),
+        )
+        for distribution, label, second in samples
+    ]
+
+
+def draw_cdf_figure(facts: AssessmentFacts) -> Figure:
+    """Draw the cumulative distribution with its 95 % band; before and after optimisation if the run was optimised."""
+    optimised = facts.assessment.optimised
+    curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
+    with figures.style():
+        figure = Figure(figsize=(7.2, 4.8))
+        axes = figure.subplots()
+        visible_marks = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]]
+        figures.draw_cdf(
+            axes,
+            curves,
+            visible_marks,
+            xlabel=facts.axis_label,
+            ylabel="fraction with a smaller value, F",
+            log=facts.is_logarithmic,
+        )
+        unreached_text = f", {facts.distribution.unreached:,} of them not reached" if facts.distribution.unreached else ""
+        axes.set_title(
+            f"{figures.format_label(facts.assessment.arm.name, 30)}: {facts.distribution.samples:,} "
+            f"{facts.noun}s{unreached_text}"
+        )
+        figures.legend_below(figure, axes, 1)
+        return figures.settle_layout(figure)

@@ -1,0 +1,146 @@
+"""Remaining workspace of the region after a joint has locked."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from holdfast.core.formatting import format_as_given, format_decimals, format_interval, format_percent
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.report import figures, maps
+from holdfast.interface.report.page import Block, Picture, Table, Text
+from holdfast.interface.report.views import View, choose_side_and_top_views
+from holdfast.model.collision.exact.exact_clearance import ExactClearance
+from holdfast.studies.assessment.plan import LOCK_RESTARTS
+
+SECTION_TITLE = "What survives a locked joint"
+
+_MIN_POSES_FOR_MAP = 200
+
+
+def blocks(facts: AssessmentFacts) -> list[Block]:
+    """Build the figure and the table of the fraction of the region that remains after each lock, if the run tested locks."""
+    survivors = facts.assessment.survivors
+    if survivors is None or not facts.distribution.samples:
+        return []
+    fractions, locks = facts.assessment.survival(), facts.assessment.plan.locks
+    worst = min(fractions, key=lambda name: fractions[name].value)
+    lock_positions = {
+        facts.assessment.arm.joint_names[joint]: _describe_lock_position(facts, joint, angle) for joint, angle in locks.items()
+    }
+    bar_labels = [
+        f"{joint + 1} "
+        f"{facts.assessment.arm.joint_names[joint]}{'' if angle is None else f' {_format_position(facts, joint, angle)}'}"
+        for joint, angle in locks.items()
+    ]
+    axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached once the joint has locked"
+    figure = figures.bar_figure(
+        bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
+    )
+    is_specified = [angle is not None for angle in locks.values()]
+    place = "where it was at another pose of the region, drawn at random"
+    if all(is_specified):
+        place = "at the angle that was given"
+    elif any(is_specified):
+        place = f"at the angle that was given for it, else {place}"
+    blocks: list[Block] = [
+        Text(
+            f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
+            f"{'the weight of ' if facts.distribution.has_weights else ''}the "
+            f"{facts.distribution.samples:,} poses{_describe_safe_reach(facts)}. The lock that costs most is that of "
+            f"{worst}, {lock_positions[worst]}: "
+            f"{format_interval(fractions[worst])} of the poses are left."
+        ),
+        Picture(
+            figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
+            f"Each joint is locked {place}. A pose counts as left if one of {LOCK_RESTARTS} starts reaches it with that joint "
+            f"held there{_describe_clearance_method(facts)}; so the fractions are lower bounds.",
+        ),
+    ]
+    blocks += _build_map_blocks(facts, facts.assessment.arm.joint_index(worst), lock_positions[worst])
+    blocks.append(
+        Table(
+            [[name, lock_positions[name], format_interval(fraction)] for name, fraction in fractions.items()],
+            ["Once it has locked", "where", "fraction of the poses still reached"],
+            frozenset({2}),
+        )
+    )
+    return blocks
+
+
+def _describe_safe_reach(facts: AssessmentFacts) -> str:
+    """Describe the fraction of poses reached without collision; empty if collisions were not checked."""
+    return (
+        ""
+        if facts.assessment.clear is None
+        else f" and at least {format_interval(facts.assessment.reached_clear())} of all clear of {facts.avoided_objects}"
+    )
+
+
+def _describe_clearance_method(facts: AssessmentFacts) -> str:
+    clearance = facts.assessment.plan.clearance
+    if facts.assessment.clear is None or clearance is None:
+        return ""
+    distance_kind = f"exact where small, {clearance.exact_by}" if isinstance(clearance, ExactClearance) else "lower bounds"
+    return f", clear of {facts.avoided_objects} (distances: {distance_kind})"
+
+
+def _get_total_weight(facts: AssessmentFacts) -> float:
+    return facts.distribution.total_weight() if facts.distribution.has_weights else facts.distribution.samples
+
+
+def _format_position(facts: AssessmentFacts, joint: int, position: float) -> str:
+    """Format a joint position in degrees, or in metres for a prismatic joint."""
+    return (
+        f"at {format_as_given(position)} m"
+        if facts.assessment.arm.prismatic[joint]
+        else f"at {format_decimals(np.rad2deg(position), 1)} deg"
+    )
+
+
+def _describe_lock_position(facts: AssessmentFacts, joint: int, position: float | None) -> str:
+    """Describe the position at which the joint is locked."""
+    if position is None:
+        return "where it was at another pose"
+    return _format_position(facts, joint, position) + (
+        "" if facts.assessment.arm.prismatic[joint] else f" ({format_as_given(position)} rad)"
+    )
+
+
+def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list[Block]:
+    """Map the reached poses of the healthy arm and those that remain after the lock that costs most."""
+    poses = facts.poses
+    if poses is None or len(poses.reached) < _MIN_POSES_FOR_MAP:
+        return []
+    views = choose_side_and_top_views(poses.position, ("seen from the side", "seen from above"))
+    if not views:
+        return []
+    view = views[0]
+    remaining = facts.assessment.columns["survives"][:][poses.number, joint] == 1
+    healthy = poses.reached if facts.assessment.clear is None else facts.assessment.columns["clear"][:][poses.number] == 1
+    name = facts.assessment.arm.joint_names[joint]
+    figure = draw_before_and_after(poses.position, healthy, remaining, view, f"{name} locked", poses.weight)
+    total = len(remaining)
+    text = (
+        f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
+        f"how many poses the cell holds. Left: the healthy arm reaches {int(healthy.sum()):,} of {total:,} poses"
+        f"{_describe_clearance_method(facts)}. Right: with {name} locked {position}, {int(remaining.sum()):,} of {total:,}."
+    )
+    if facts.distribution.has_weights:
+        text += " Fractions count by weight, these numbers do not."
+    return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
+
+
+def draw_before_and_after(
+    position: FloatArray,
+    healthy: NDArray[np.bool_],
+    remaining: NDArray[np.bool_],
+    view: View,
+    locked_title: str,
+    weights: FloatArray | None = None,
+) -> Figure:
+    """Map the fraction of poses (N, 3), m, reached (N,) before and after a failure, by weight (N,) if there is one."""
+    panels = [("Healthy", healthy), (figures.format_label(locked_title, 37), remaining)]
+    return maps.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)

@@ -1,0 +1,237 @@
+"""Text, figures, and report of a proof of the lock instants after which a path can be finished."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
+from holdfast.certificates.tool_paths.march import LockedPath
+from holdfast.certificates.tool_paths.proof import PathProof
+from holdfast.certificates.tool_paths.slabs import Slab
+from holdfast.certificates.verifier import format_percent
+from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
+from holdfast.interface.presentation.certificates.pages import write as write
+from holdfast.interface.presentation.page_content import PageContent
+from holdfast.interface.presentation.printing import TextTable
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MAX_PANEL_COLUMNS = 4  # pictures in a row
+
+
+def to_dict(proof: PathProof) -> dict[str, Any]:
+    """Return the fractions of lock instants as exact rationals and as numbers, for all locks together and for each; cells,
+    seconds.
+    """
+    parts: dict[str, Any] = {}
+    for part in proof.parts:
+        gaps = [[begin / SEGMENT_INSTANTS, end / SEGMENT_INSTANTS] for begin, end in proof.gaps(part)]
+        counts = {"leaves": part.leaves, "nodes": part.nodes, "finished": part.finished, "seconds": part.seconds}
+        shares = {key: _fraction_entry(getattr(part, key)) for key in ("proved", "refuted", "undecided")}
+        followers = [proof.claim.arm.joint_names[joint] for joint in part.followers]
+        parts[_joint_name(proof, part)] = shares | {"undecided_between_knots": gaps, "followers": followers} | counts
+    total_fractions = {
+        "proved": proof.proved,
+        "refuted": proof.refuted,
+        "undecided": proof.undecided,
+        "tolerant": proof.tolerant,
+    }
+    data = {"claim": proof.document["claim"], **{key: _fraction_entry(share) for key, share in total_fractions.items()}}
+    counts = {"leaves": proof.leaves, "nodes": proof.nodes, "finished": proof.finished, "verified": False}
+    return data | counts | {"deviation": proof.claim.deviation, "seconds": proof.seconds, "parts": parts}
+
+
+def _fraction_entry(fraction: Fraction) -> dict[str, Any]:
+    return {"value": float(fraction), "fraction": f"{fraction.numerator}/{fraction.denominator}"}
+
+
+def _joint_name(proof: PathProof, part: LockedPath) -> str:
+    return proof.claim.arm.joint_names[part.joint]
+
+
+def tables(proof: PathProof) -> list[TextTable]:
+    """Tabulate the fractions of each lock, then those of all locks."""
+    rows = [
+        [
+            _joint_name(proof, part), format_percent(part.proved), format_percent(part.refuted),
+            format_percent(part.undecided, up=True),
+            _format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}",
+        ]
+        for part in proof.parts
+    ]  # fmt: skip
+    header = ["lock of", "proved, not yet verified", "refuted", "undecided", "undecided between knots", "cells", "s"]
+    return [TextTable(header, rows), key_table(proof)]
+
+
+def _format_undecided_intervals(proof: PathProof, part: LockedPath) -> str:
+    """List the undecided intervals, or the widest two of them."""
+    gaps = sorted(proof.gaps(part), key=lambda gap: gap[0] - gap[1])
+    texts = [f"{begin / SEGMENT_INSTANTS:.4g} to {end / SEGMENT_INSTANTS:.4g}" for begin, end in gaps]
+    return ", ".join(texts[:2]) + (f" and {len(texts) - 2} more" if len(texts) > 2 else "")
+
+
+def key_table(proof: PathProof) -> TextTable:
+    """Tabulate the fractions of all locks together."""
+    rows = [
+        ["proved at least, whichever joint locks, not yet verified", format_percent(proof.proved)],
+        ["refuted at most, likewise", format_percent(proof.refuted)],
+        ["undecided at most", format_percent(proof.undecided, up=True)],
+        ["proved for all locks at once", format_percent(proof.tolerant)],
+        ["cells proved and glued, or without a configuration", f"{proof.leaves:,}"],
+        ["cells looked at", f"{proof.nodes:,}"],
+        ["straight segments off the motion that was given, mm", f"{1000 * proof.claim.deviation:.2g}"],
+    ]
+    return TextTable(["", ""], rows)
+
+
+def next_steps(proof: PathProof, name: str) -> list[str]:
+    """Suggest the check of the written certificate by independent code."""
+    return [f'hf.check_certificate({name}.write("path.certificate"))  # by other code']
+
+
+def story(proof: PathProof) -> PageContent:
+    """Compose the report: the proved fraction, its meaning, and its limits."""
+    claim, share = proof.claim, bind_percent_sign(format_percent(proof.tolerant))
+    tolerance_text = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
+    complete_joints = [_joint_name(proof, part) for part in proof.parts if part.proved == 1]
+    answer = "Nothing is proved for all locks: something is undecided at every instant."
+    if complete_joints:
+        answer = f"At no instant is it proved for all locks, but at every instant for those of {', '.join(complete_joints)}."
+    if proof.tolerant:
+        remainder = "nothing is undecided" if proof.tolerant == 1 else "the rest is undecided for some lock"
+        refuted_joints = [_joint_name(proof, part) for part in proof.parts if part.refuted]
+        if refuted_joints:
+            remainder = f"of the rest, some is refuted for locks of {', '.join(refuted_joints)}"
+        answer = (
+            f"Whichever joint locks, at {share} of the instants the {claim.task} path{tolerance_text} is proved to "
+            f"be finished; {remainder}."
+        )
+    undecided = [[_joint_name(proof, path), _format_undecided_intervals(proof, path)] for path in proof.parts]
+    return PageContent(
+        f"What {claim.arm.name} finishes after a lock",
+        f"{answer} {UNVERIFIED_NOTE}",
+        lines=proof.describe()[:1],
+        facts=[(share, "of the lock instants, whichever joint locks"), (f"{proof.leaves:,}", "cells, glued or empty")],
+        tables=[TextTable(["lock of", "undecided between knots"], undecided)],
+        figures={
+            "slices": (
+                "When it may lock",
+                "Blue: after a lock at this instant one continuous motion takes the tool to the end of the path; lines are the "
+                "faces at which cells are glued; darker where these are turned, by a singular configuration. Vermilion: "
+                "refuted: at some later place of the path no configuration within the limits has the tool. Hatched: undecided, "
+                "which does not say that it cannot be done. Nothing is claimed of the path before the lock.",
+            )
+        },
+        method=[
+            ("Proof", "cells of the path behind intervals of lock instants; in each there is one solution, and on the face "
+             "between two cells it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, "
+             "tool and base"),
+            ("Not said", "collisions, torques, speed, or how the healthy motion came about; links are rigid, the geometry is "
+             "the file's, locks do not slip, and the path is that of straight joint segments"),
+        ],
+        arm=claim.arm,
+    )  # fmt: skip
+
+
+def figures(proof: PathProof) -> dict[str, Figure]:
+    """Draw the lock instants against the path, one panel for each lock."""
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
+
+    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
+
+    column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
+    row_count = -(-len(proof.parts) // column_count)
+    with style():
+        figure = Figure(
+            figsize=(
+                WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS),
+                2.7 * row_count + 0.7,
+            ),
+            layout="constrained",
+        )
+        panels = np.ravel(figure.subplots(row_count, column_count, sharex=True, sharey=True, squeeze=False))
+        for panel, axes in enumerate(panels):
+            if panel < len(proof.parts):
+                _draw_panel(axes, proof, proof.parts[panel])
+            else:
+                axes.set_visible(False)
+        for panel in range(len(proof.parts)):
+            panels[panel].set_xlabel("path [knots]" if panel + column_count >= len(proof.parts) else "")
+            panels[panel].xaxis.set_tick_params(labelbottom=panel + column_count >= len(proof.parts))
+        for axes in panels[::column_count]:
+            axes.set_ylabel("lock [knots]")
+        patches = [
+            Patch(facecolor=SKY, edgecolor=INK, linewidth=0.6, label="proved to be finished"),
+            Patch(facecolor=BLUE, edgecolor=INK, linewidth=0.6, label="in turned cells"),
+            Patch(facecolor=ORANGE, edgecolor=INK, linewidth=0.6, label="refuted"),
+            Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
+        ]
+        figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
+        return {"slices": settle_layout(figure)}
+
+
+def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:
+    from matplotlib.collections import LineCollection, PolyCollection
+
+    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY
+
+    path_end = proof.claim.segments
+    proved, rotated, faces = [], [], []
+    for slab in part.slabs:
+        begin, stop = slab.begin / SEGMENT_INSTANTS, slab.stop / SEGMENT_INSTANTS
+        proved.append([(begin, begin), (path_end, begin), (path_end, stop), (stop, stop)])
+        faces += [
+            [(instant / SEGMENT_INSTANTS, begin), (instant / SEGMENT_INSTANTS, stop)]
+            for instant in slab.ends[:-1]
+            if instant > 0
+        ]
+        rotated += [
+            [(left_edge, begin), (right_edge, begin), (right_edge, stop), (left_edge, stop)]
+            for left_edge, right_edge in _rotated_intervals(slab, part.joint)
+        ]
+
+    def outline_intervals(spans: list[tuple[int, int]]) -> list[list[tuple[float, float]]]:
+        """Return the outlines of the path that follows intervals of lock instants."""
+        return [
+            [(a, a), (path_end, a), (path_end, b), (b, b)]
+            for a, b in ((first / SEGMENT_INSTANTS, last / SEGMENT_INSTANTS) for first, last in spans)
+        ]
+
+    axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="face", linewidth=0.2))
+    axes.add_collection(PolyCollection(rotated, facecolor=BLUE, edgecolor="face", linewidth=0.2))
+    axes.add_collection(
+        PolyCollection(outline_intervals(part.refuted_spans), facecolor=ORANGE, edgecolor="face", linewidth=0.2)
+    )
+    axes.add_collection(
+        PolyCollection(outline_intervals(proof.gaps(part)), facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3)
+    )
+    axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
+    axes.plot([0, path_end], [0, path_end], color=INK, linewidth=0.8)
+    axes.set(
+        xlim=(0, path_end), ylim=(0, path_end), title=f"{_joint_name(proof, part)}: {math.floor(1000 * part.proved) / 10:g} %"
+    )
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+
+
+def _rotated_intervals(slab: Slab, joint: int) -> list[tuple[float, float]]:
+    """Return the intervals of the path, in segments, over which the cells of a slab are rotated."""
+    intervals, position, run_start = [], slab.begin, -1
+    for end, center in zip(slab.ends, slab.centers, strict=True):
+        if end < 0:
+            run_start = position if run_start < 0 else run_start
+            continue
+        if run_start >= 0:
+            intervals.append(
+                (run_start / SEGMENT_INSTANTS, position // SEGMENT_INSTANTS + int(center[joint]) / SEGMENT_INSTANTS)
+            )
+        position, run_start = end, -1
+    return intervals

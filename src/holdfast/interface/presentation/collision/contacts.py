@@ -1,0 +1,52 @@
+"""JSON entries and table of the contacts of a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.model.collision.contacts import Contact
+
+
+def list_contacts(contacts: Sequence[Contact], unit: str = "s", many: bool = False) -> list[dict[str, Any]]:
+    """List every contact by name; with the number of its run, from 0, if there are many runs."""
+    return [({"run": contact.run} if many else {}) | _contact_entry(contact, unit) for contact in contacts]
+
+
+def _contact_entry(contact: Contact, unit: str) -> dict[str, Any]:
+    exact = contact.exact_time
+    exact_fields = (
+        {} if exact is None else {"exact": np.isfinite(exact), f"exact_time_{unit}": exact if np.isfinite(exact) else None}
+    )
+    return {
+        f"time_{unit}": contact.time,
+        "link": contact.link,
+        "object": contact.object,
+        "depth_m": contact.depth,
+        "by": "bound",
+        **exact_fields,
+    }
+
+
+def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TextTable:
+    """Tabulate the first contact time of each pair, by the bound and, where requested, exactly, and its depth."""
+    has_exact_times = any(contact.exact_time is not None for contact in contacts)
+    rows = [
+        [
+            contact.link,
+            contact.object,
+            format_significant(contact.time),
+            *([_format_exact_time(contact)] * has_exact_times),
+            format_significant(1000 * contact.depth),
+        ]
+        for contact in contacts
+    ]
+    return TextTable(["link", "touches", f"first at, {unit}", *(["exactly at"] * has_exact_times), "at most, mm deep"], rows)
+
+
+def _format_exact_time(contact: Contact) -> str:
+    exact = contact.exact_time
+    return "" if exact is None else format_significant(exact) if np.isfinite(exact) else "does not touch"

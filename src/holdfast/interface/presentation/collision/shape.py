@@ -1,0 +1,57 @@
+"""Collision model of an arm and its surroundings, as JSON and as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from holdfast.core.formatting import format_count
+from holdfast.model.collision.exact.exact_clearance import ExactClearance
+
+if TYPE_CHECKING:
+    from holdfast.model.cell.cell import Cell
+    from holdfast.model.collision.clearance import Clearance
+
+
+def summarize_shape(clearance: Clearance, margin: float) -> dict[str, Any]:
+    """Return the collision model of the arm and its cell as JSON data."""
+    arm, capsules = clearance.arm, clearance.capsules
+    radius = capsules.radius_along(arm)
+    capsule_origin = "given" if radius is None else "assumed radius" if capsules.is_assumed(arm) else "given radius"
+    source = "cover" if capsules.covers else capsule_origin
+    return {
+        "capsules": source,
+        "radius_m": radius,
+        "description": capsules.describe(arm),
+        "margin_m": margin,
+        "pairs_checked": clearance.pair_names,
+        "pairs_not_checked": {pair.name: pair.reason for pair in clearance.ignored},
+        "cell": None if clearance.cell is None else summarize_cell(clearance.cell) | _exact_entries(clearance),
+    }
+
+
+def _exact_entries(clearance: Clearance) -> dict[str, Any]:
+    return {"distances": "exact", "by": clearance.exact_by} if isinstance(clearance, ExactClearance) else {}
+
+
+def summarize_cell(cell: Cell) -> dict[str, Any]:
+    """Return the cell around the arm as JSON data; its distances are lower bounds."""
+    return {
+        "name": cell.name,
+        "sha256": cell.digest,
+        "objects": [solid.name for solid in cell],
+        "margin_m": cell.margin,
+        "distances": "bound",
+    }
+
+
+def describe_cell(cell: Cell, distances: str = "distances from it are lower bounds") -> str:
+    """Describe the cell around the arm in a phrase."""
+    return f"cell '{cell.name}' with {format_count(len(cell), 'object')} ({cell.digest[:12]}), {distances}"
+
+
+def describe_shape(clearance: Clearance, margin: float) -> str:
+    """Describe the collision model of the arm and its cell, for brackets after a sentence."""
+    exact_note = [f"small distances from it are exact ({clearance.exact_by})"] if isinstance(clearance, ExactClearance) else []
+    cell_note = "" if clearance.cell is None else f"; {describe_cell(clearance.cell, *exact_note)}"
+    margin_note = f"; margin {margin:g} m" if margin else ""
+    return f"capsules: {clearance.capsules.describe(clearance.arm)}{cell_note}{margin_note}"

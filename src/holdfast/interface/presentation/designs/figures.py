@@ -1,0 +1,159 @@
+"""Figures of a design search: the Pareto front of index quantile and reach, and the arm before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.stick_figure import choose_views
+from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.scenes import Scale, Scene, draw_view, fit_view_spans
+from holdfast.kinematics.regions.region import Region
+from holdfast.kinematics.solvers.inverse_kinematics import solver
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
+
+
+def draw_pareto_front(
+    reach: FloatArray,
+    quantiles: FloatArray,
+    front: Sequence[int],
+    best: int,
+    baseline: tuple[float, float] | None,
+    label: str,
+    bound: float | None,
+) -> Figure:
+    """Draw every design by its reach and its index quantile, with the non-dominated designs.
+
+    Args:
+        reach: (D,) m.
+        quantiles: (D,) lower quantiles of the index.
+        front: Numbers of the designs of the front, by reach.
+        best: Number of the design of the greatest value.
+        baseline: Reach and value of the given arm, if known.
+        label: Of the value.
+        bound: What no configuration can exceed, drawn if it is near.
+    """
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 4.6))
+        axes = figure.add_subplot()
+        axes.scatter(reach, quantiles, s=14, color=SKY, linewidths=0, rasterized=True)
+        front_rows = np.asarray(front, dtype=int)
+        axes.step(reach[front_rows], quantiles[front_rows], where="pre", color=BLUE, linewidth=1.4, zorder=2.5)
+        axes.plot(reach[front_rows], quantiles[front_rows], "o", color=BLUE, markersize=5, zorder=2.6)
+        if baseline is not None:
+            axes.plot(*baseline, "s", color=ORANGE, markeredgecolor="white", markersize=10, zorder=3)
+        axes.plot(reach[best], quantiles[best], "*", color=INK, markeredgecolor="white", markersize=17, zorder=3.1)
+        largest_value = max(float(quantiles.max(initial=0.0)), 0.0 if baseline is None else baseline[1])
+        if bound is not None and bound < 1.6 * largest_value:
+            axes.axhline(bound, color=SOFT, linewidth=1.3, linestyle=(0, (1.2, 1.6)))
+            axes.annotate(
+                f"no configuration can exceed {bound:.3f}",
+                (0.995, bound),
+                (0, 4),
+                xycoords=("axes fraction", "data"),
+                textcoords="offset points",
+                ha="right",
+                color=SOFT,
+            )
+        axes.set(xlabel="reach, m", ylabel=label)
+        axes.set_ylim(bottom=0.0)
+        axes.margins(y=0.1)
+        handles = [
+            Line2D([], [], marker="o", color=SKY, linestyle="", markersize=5, label=f"{len(reach):,} designs that were tried"),
+            Line2D([], [], marker="o", color=BLUE, markersize=5, label="the front: no design has more of both"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
+            Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="the best design"),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=2.0)
+        return settle_layout(figure)
+
+
+def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
+    """Draw the baseline arm and the best one, to one scale, with the tool at the region centre where the arm reaches it."""
+    box = None
+    if region.kind == "box":
+        c, s = np.array(region.center[:3]), np.array(region.size[:3])
+        box = np.array([c - s / 2, c + s / 2])
+    scenes = []
+    no_points = np.zeros((0, 3))
+    for arm in (baseline, best):
+        joint_positions = arm.frames(_choose_configuration(arm, task, region, seed))[:, :3, 3]
+        scenes.append(
+            Scene(
+                no_points,
+                np.zeros(0),
+                no_points,
+                chain=joint_positions,
+                nodes=joint_positions[1:-1],
+                square=arm.prismatic,
+                box=box,
+            )
+        )
+    view = choose_views(baseline, np.concatenate([scene.chain for scene in scenes]))[0]
+    # Both panels show the same part of the world.
+    extents = np.concatenate([s.extent for s in scenes])
+    common_scene = Scene(extents, np.full(len(extents), np.nan), no_points)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 5.4))
+        panels: Sequence[Axes] = figure.subplots(1, 2)
+        spans, height = fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
+        figure.set_figheight(height + 0.9)
+        middle = view.project(common_scene.extent.mean(axis=0))
+        for axes, scene, title in zip(panels, scenes, ("before: " + baseline.name, "after: " + best.name), strict=True):
+            draw_view(axes, scene, view, Scale(0.0, 1.0), 1.0, spans, 4.4)
+            axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
+            axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
+            axes.set_title(format_label(title, 44))
+        return settle_layout(figure)
+
+
+def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> FloatArray:
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+    if region.kind == "box":
+        poses = region.poses(np.array(region.center)[None])
+        solutions = solver(arm, task).solve(poses, np.random.SeedSequence(seed), 50, 1e-6)
+        if solutions.success[0]:
+            q: FloatArray = solutions.q[0]
+            return q
+    return np.asarray((lower + upper) / 2)
+
+
+def draw_parameters(
+    names: Sequence[str], values: FloatArray, quantiles: FloatArray, baseline: tuple[FloatArray, float] | None, label: str
+) -> Figure:
+    """Draw the index quantile against each parameter, one panel for each parameter.
+
+    Args:
+        names: Of the parameters, with their units.
+        values: (D, k) as people read them.
+        quantiles: (D,) lower quantiles of the index.
+        baseline: The given arm's values (k,), and its index quantile, if known.
+        label: Of the value.
+    """
+    column_count = 2 if len(names) == 4 else min(3, len(names))
+    row_count = -(-len(names) // column_count)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.5 * row_count + 0.5))
+        panels = figure.subplots(row_count, column_count, squeeze=False, sharey=True)
+        for index, axes in enumerate(panels.flat):
+            if index >= len(names):
+                axes.set_axis_off()
+                continue
+            axes.scatter(values[:, index], quantiles, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
+            if baseline is not None:
+                axes.plot(baseline[0][index], baseline[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
+            axes.set(xlabel=format_label(names[index]), ylim=(0, None))
+        figure.supylabel(label, fontsize=9.5)
+        handles = [
+            Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="a design"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
+        return settle_layout(figure)

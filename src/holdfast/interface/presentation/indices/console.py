@@ -1,0 +1,134 @@
+"""Text and JSON of indices and susceptibilities at one configuration (n,)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.status import Status
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.arm.console import format_positions, print_limit_violations
+from holdfast.interface.presentation.printing import format_column, format_significant
+from holdfast.kinematics.indices.index import Index
+from holdfast.kinematics.indices.objective import Objective
+from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
+    """Return the index after each failure, the worst of them, and its gradient."""
+    result, names = index.evaluate(q), index.arm.joint_names
+    singular = bool(result.status == Status.SINGULAR)
+    return {
+        **index.arm.entry(),
+        "index": index.label,
+        "task": index.task.name,
+        "characteristic_length_m": index.task.length,
+        "unit": index.unit,
+        "better": index.better,
+        "bound": index.bound,
+        "bound_note": index.bound_note,
+        "best_known": index.best_known,
+        "attained": index.is_attained,
+        "source": index.source,
+        "q": dict(zip(names, q.tolist(), strict=True)),
+        "value": result.value,
+        "by_failure": dict(zip(index.failure_names, result.by_failure.tolist(), strict=True)),
+        "worst": None if singular else index.failure_names[int(result.worst)],
+        "singular": singular,
+        "gradient": dict(zip(names, index.gradient(q).tolist(), strict=True)),
+    }
+
+
+def susceptibility_values(measure: Susceptibility, q: FloatArray) -> dict[str, Any]:
+    """Return the susceptibility, the contribution of each joint, and the gradient."""
+    result, names = measure.evaluate(q), measure.arm.joint_names
+    return {
+        **measure.arm.entry(),
+        "measure": measure.slug,
+        "unit": measure.unit,
+        "better": measure.better,
+        "source": measure.source,
+        "gravity_m_s2": measure.arm.gravity,
+        "weights": measure.weights,
+        "q": dict(zip(names, q.tolist(), strict=True)),
+        "value": result.value,
+        "by_joint": dict(zip(names, result.by_joint.tolist(), strict=True)),
+        "joint_unit": dict(zip(names, measure.joint_unit, strict=True)),
+        "joint_status": {
+            name: Status(int(status)).name.lower() for name, status in zip(names, result.joint_status, strict=True)
+        },
+        "gradient": dict(zip(names, measure.gradient(q).tolist(), strict=True)),
+    }
+
+
+def show_index(index: Index, q: FloatArray, out: Console) -> None:
+    """Print the worst case, then a table of the failures."""
+    from rich.markup import escape
+
+    results, unit = index_values(index, q), _unit_suffix(index)
+    verdict = "[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]"
+    if not results["singular"]:
+        bound = f"; at most {format_significant(index.bound)} for any configuration" if index.bound is not None else ""
+        if index.ceiling is not None:
+            bound = f"; {index.ceiling.compare_value(results['value'])}"
+        verdict = (
+            f"[bold]{format_significant(results['value'], 6)}{unit}[/], worst when "
+            f"[bold]{escape(results['worst'])}[/] locks{bound}"
+        )
+    values = zip(results["by_failure"], format_column(results["by_failure"].values(), digits=6), strict=True)
+    rows = [(name, value_text, "[bold]worst[/]" if name == results["worst"] else "") for name, value_text in values]
+    _show_measure(index, q, verdict, ("failure", f"{index.name}{unit}", ""), rows, out)
+    _show_gradient("worst case", results, out)
+
+
+def show_susceptibility(measure: Susceptibility, q: FloatArray, out: Console) -> None:
+    """Print the value, then a table of the joints, and the meaning of their states."""
+    results = susceptibility_values(measure, q)
+    kinds, values = list(results["joint_unit"].values()), list(results["by_joint"].values())
+    states = ["" if state == "ok" else state.replace("_", " ") for state in results["joint_status"].values()]
+    rows = list(zip(results["by_joint"], format_positions(np.array(values), kinds, 6), states, strict=True))
+    verdict = f"[bold]{format_significant(results['value'], 6)}{_unit_suffix(measure)}[/], smaller is better"
+    _show_measure(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
+    for state in dict.fromkeys(results["joint_status"].values()):
+        if state != "ok":
+            out.print(f"[yellow]{state.replace('_', ' ')}: {Status[state.upper()].sentence}[/]", soft_wrap=True)
+    _show_gradient("value", results, out)
+
+
+def _unit_suffix(measure: Objective) -> str:
+    from rich.markup import escape
+
+    return "" if measure.unit == "1" else f" {escape(measure.unit)}"
+
+
+def _show_measure(
+    measure: Index | Susceptibility,
+    q: FloatArray,
+    verdict: str,
+    head: tuple[str, ...],
+    rows: Iterable[tuple[str, ...]],
+    out: Console,
+) -> None:
+    from rich.markup import escape
+
+    from holdfast.interface.presentation.terminal import BandedTable
+
+    out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.title)}", soft_wrap=True)
+    out.print(verdict, soft_wrap=True)
+    print_limit_violations(measure.arm, q, out)
+    table = BandedTable(*head)
+    for name, *cells in rows:
+        table.add_row(escape(name), *cells)
+    out.print(table)
+
+
+def _show_gradient(quantity: str, results: dict[str, Any], out: Console) -> None:
+    from rich.markup import escape
+
+    gradient = ", ".join(f"{name} {format_significant(value)}" for name, value in results["gradient"].items())
+    out.print(f"gradient of the {quantity}, per rad or m: {escape(gradient)}", soft_wrap=True)

@@ -1,0 +1,305 @@
+"""Text, tables, JSON, and figure of a self-motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.formatting import format_count, format_percent, list_alternatives
+from holdfast.core.status import Status
+from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
+from holdfast.interface.presentation.page_content import PageContent
+from holdfast.interface.presentation.printing import TextTable, format_significant, print_table
+from holdfast.kinematics.solvers.joint_space import is_unlimited
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
+    from holdfast.interface.presentation.results import Drawings
+    from holdfast.kinematics.solvers.self_motions import SelfMotion
+    from holdfast.model.arm.machine import Joint
+
+_MAX_DRAWN_CURVES = 6  # the longest ones are drawn
+_DRAWN_CONFIGURATIONS = 6
+
+
+def to_dict(motion: SelfMotion) -> dict[str, Any]:
+    """Return the curves with the causes of their ends, and the allowed lock ranges of each joint, if known."""
+    names = motion.arm.joint_names
+    return {
+        **motion.arm.entry(),
+        "task": motion.task.name,
+        "status": motion.status.name.lower(),
+        "redundancy": motion.redundancy,
+        "spacing_rad": motion.spacing,
+        "points": len(motion.q),
+        "components": [
+            {
+                "closed": component.closed,
+                "length_rad": component.length,
+                "winding": dict(zip(names, component.winding, strict=True)),
+                "ranges": dict(zip(names, component.ranges, strict=True)),
+                "bounded_by": [None if limit_joint is None else names[limit_joint] for limit_joint in component.bounded_by],
+                "barred_by": [body_pair or None for body_pair in component.barred_by],
+                "points": len(component.q),
+            }
+            for component in motion.components
+        ],
+        "size_rad": motion.size if motion.redundancy == 1 else None,
+        "clearance": None if motion.clearance is None else summarize_shape(motion.clearance, motion.margin),
+        **({} if motion.bounds is None else {"bounds": dict(zip(names, motion.bounds, strict=True))}),
+    }
+
+
+def key_table(motion: SelfMotion) -> TextTable:
+    """Tabulate the curves; for a manifold of more dimensions the number of points."""
+    if not motion.components:
+        return TextTable(["", ""], [["configurations found", f"{len(motion.q):,}"], ["dimension", str(motion.redundancy)]])
+    numbered = enumerate(motion.components)
+    return TextTable(
+        ["curve", "length, rad", "points", ""],
+        [
+            [str(index + 1), format_significant(component.length), str(len(component.q)), motion.ends(index)]
+            for index, component in numbered
+        ],
+    )
+
+
+def next_steps(motion: SelfMotion, name: str) -> list[str]:
+    """Suggest the computation of the lock ranges of each joint."""
+    del motion
+    return [f"hf.joint_bounds({name}.arm, {name}.pose, {name}.task)  # where each joint may lock without losing the pose"]
+
+
+def story(motion: SelfMotion) -> PageContent:
+    """Compose the report: the number of curves that reach the target, and the locks that it survives."""
+    arm, count = motion.arm, len(motion.components)
+    if not len(motion.q):
+        proof = (
+            ", which does not prove that there is none" if motion.status == Status.NOT_FOUND else f": {motion.status.sentence}"
+        )
+        answer = f"No configuration of the target was found{proof}."
+    elif count:
+        closed_count = sum(component.closed for component in motion.components)
+        collision_text = "" if motion.clearance is None else f", by {motion.clearance.others}"
+        ends_text = (
+            "closed"
+            if closed_count == count
+            else f"ended by limits{collision_text} or singular configurations"
+            if not closed_count
+            else f"{closed_count} closed"
+        )
+        answer = f"The target is reached on {format_count(count, 'curve')} of configurations, {ends_text}"
+    else:
+        answer = (
+            f"The target is reached on a manifold of {motion.redundancy} dimensions, of which "
+            f"{len(motion.q):,} configurations were found"
+        )
+    facts = []
+    if len(motion.q) and motion.bounds is not None:
+        free, restricted = _classify_joints(motion)
+        answer += f"; {_describe_surviving_locks(free, restricted)}."
+        if restricted:
+            facts.append(
+                (
+                    format_percent(min(restricted.values())),
+                    f"of the range of {min(restricted, key=lambda joint_name: restricted[joint_name])} keeps the target, "
+                    f"the joint that is most bound",
+                )
+            )
+        if free:
+            facts.append((f"{len(free)} of {arm.n}", "joints may lock anywhere in their range"))
+    elif len(motion.q):
+        answer += "."
+    if count:
+        facts += [(f"{count}", f"separate {'curve' if count == 1 else 'curves'}; from one to another the target must be left")]
+        facts += [
+            (
+                f"{format_significant(max(component.length for component in motion.components))} rad",
+                "length of the longest in joint space",
+            )
+        ]
+    return PageContent(
+        f"All configurations of {arm.name} for one target",
+        answer,
+        about=f"Task {motion.task.describe()}, target {_format_target(motion)}",
+        facts=facts,
+        views=_animate_self_motion(motion),
+        figures={
+            "self-motion": (
+                "Where each joint may lock",
+                "Shaded: values at which a joint may lock and the target stays within reach; the curves are the "
+                "self-motions, and the arm is drawn in a few of their configurations.",
+            )
+        },
+        tables=_build_tables(motion),
+        method=[
+            ("Task", motion.task.describe()),
+            (
+                "Points",
+                f"{len(motion.q):,}, {motion.spacing:.3g} rad apart; curves that no random start converges to are missed",
+            ),
+            ("Where joints may lock", "the values that each joint takes over all configurations found"),
+            ("Clearance", "not looked at" if motion.clearance is None else describe_shape(motion.clearance, motion.margin)),
+        ],
+        arm=arm,
+    )
+
+
+def _format_target(motion: SelfMotion) -> str:
+    return f"({', '.join(f'{coordinate:.4g}' for coordinate in motion.pose[:3, 3])}) m"
+
+
+def _classify_joints(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
+    """Return the joints that may lock anywhere, and for the others the allowed fraction of their range."""
+    from holdfast.model.arm.configurations import finite_limits
+
+    free: list[str] = []
+    restricted: dict[str, float] = {}
+    lower, upper = finite_limits(motion.arm)
+    for index, (joint, lock_ranges) in enumerate(zip(motion.arm.joints, motion.bounds or [], strict=True)):
+        if _may_lock_anywhere(motion, index):
+            free.append(joint.name)
+        else:
+            restricted[joint.name] = float(
+                min(sum(end - begin for begin, end in lock_ranges) / max(upper[index] - lower[index], 1e-12), 1.0)
+            )
+    return free, restricted
+
+
+def _may_lock_anywhere(motion: SelfMotion, joint_index: int) -> bool:
+    joint, lock_ranges = motion.arm.joints[joint_index], list((motion.bounds or [])[joint_index])
+    return lock_ranges in ([(joint.lower, joint.upper)], [(-np.pi, np.pi)] if is_unlimited(motion.arm)[joint_index] else None)
+
+
+def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> str:
+    critical_joints = [name for name, fraction in restricted.items() if not fraction]
+    if critical_joints:
+        return f"it is lost wherever {list_alternatives(critical_joints)} locks"
+    if not restricted:
+        return "it stays within reach wherever a single joint locks"
+    worst = min(restricted, key=lambda joint_name: restricted[joint_name])
+    anywhere = f"anywhere of {list_alternatives(free)}, but " if free else ""
+    return (
+        f"it survives a lock {anywhere}in only {format_percent(restricted[worst])} of the range of {worst}, the joint "
+        f"that is most bound"
+    )
+
+
+def _build_tables(motion: SelfMotion) -> list[TextTable]:
+    result_tables = [key_table(motion)._replace(title="Self-motions")]
+    if motion.bounds is not None:
+        joint_ranges = enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
+        rows = [
+            [
+                joint.name,
+                "anywhere"
+                if _may_lock_anywhere(motion, index)
+                else format_ranges(lock_ranges, joint)
+                if lock_ranges
+                else "nowhere",
+            ]
+            for index, (joint, lock_ranges) in joint_ranges
+        ]
+        result_tables.append(
+            TextTable(["joint", "may lock at"], rows, "A lock keeps the target within reach if and only if it lies there")
+        )
+    return result_tables
+
+
+def _animate_self_motion(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
+    """Animate the arm on its longest self-motion; for a sample draw a few configurations."""
+    if not len(motion.q):
+        return []
+    from holdfast.interface.presentation.arm.view import scene
+    from holdfast.interface.report.page import Picture
+
+    if not motion.components:
+        configurations = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
+        caption = "The arm in a few of the configurations; the tool is at the target in each."
+        return [
+            (
+                "The arm at the target",
+                [Picture(scene(motion.arm, configurations, cell=motion.cell).to_html("motion", caption), caption)],
+            )
+        ]
+    longest = max(motion.components, key=lambda component: component.length)
+    time = np.linspace(0.0, 8.0, len(longest.q))
+    caption = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
+    if len(time) < 2:
+        return []
+    motion_scene = scene(motion.arm, longest.q, time=time, targets=[motion.pose], cell=motion.cell)
+    return [("The self-motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
+
+
+def show(motion: SelfMotion, out: Console) -> None:
+    """Print the tables of the page; the first line contains the number of configurations."""
+    from rich.markup import escape
+
+    out.print(escape(motion.describe()[0]), soft_wrap=True)
+    for table in _build_tables(motion)[0 if motion.components else 1 :]:
+        print_table(out, table)
+
+
+def format_ranges(intervals: Sequence[Sequence[float]], joint: Joint) -> str:
+    """Format ranges of a joint with their unit."""
+    if not intervals:
+        return "-"
+    factor, unit = joint.display_unit
+    return ", ".join(" to ".join(_format_bound(factor * bound) for bound in ends) for ends in intervals) + f" {unit}"
+
+
+def _format_bound(value: float) -> str:
+    return f"{value:.2f}" if abs(value) >= 0.005 else "0.00"
+
+
+def drawings(motion: SelfMotion) -> Drawings:
+    """Draw joint values along the curves with the allowed lock ranges, and the arm in a few of the configurations."""
+    from holdfast.kinematics.workspace.bounds import joint_bounds
+
+    if motion.bounds is not None or (motion.clearance is not None and motion.redundancy > 1):
+        return main_figure(motion)
+    has_clearance = motion.clearance is not None
+    lock_ranges = motion.arcs() if has_clearance else joint_bounds(motion.arm, motion.pose, motion.task)
+    return {"self-motion": partial(_draw_self_motion, motion, lock_ranges)}
+
+
+def main_figure(motion: SelfMotion) -> Drawings:
+    """Draw the same figure, with the lock ranges only if they are known, because their computation takes longest."""
+    return {"self-motion": partial(_draw_self_motion, motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
+
+
+def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:
+    from holdfast.interface.presentation.stick_figure import choose_views
+    from holdfast.interface.report.manifolds import JointPanel, self_motion_figure
+    from holdfast.model.arm.configurations import finite_limits
+
+    arm = motion.arm
+    lower, upper = finite_limits(arm)
+    factors = np.array([joint.display_unit[0] for joint in arm.joints])
+    panels = [
+        JointPanel(
+            f"{joint.name}, {joint.display_unit[1]}",
+            [(factor * begin, factor * finish) for begin, finish in joint_arcs],
+            (factor * lower_limit, factor * upper_limit),
+        )
+        for joint, factor, joint_arcs, lower_limit, upper_limit in zip(
+            arm.joints, factors, lock_ranges, lower, upper, strict=True
+        )
+    ]
+    longest = sorted(motion.components, key=lambda curve: -curve.length)[:_MAX_DRAWN_CURVES]
+    curves = []
+    for curve in longest:
+        step_lengths = np.linalg.norm(np.diff(curve.q, axis=0), axis=1)
+        curves.append((np.concatenate([[0.0], np.cumsum(step_lengths)]), factors * curve.q))
+    q, closed = (longest[0].q, longest[0].closed) if longest else (motion.q, False)
+    chosen = np.linspace(0, max(len(q) - 1, 0), _DRAWN_CONFIGURATIONS + closed).astype(int)[:_DRAWN_CONFIGURATIONS]
+    chains = arm.frames(q[chosen] if len(q) else q)[..., :3, 3]
+    views = choose_views(arm, chains) if len(q) else []
+    omission_note = f"; the {_MAX_DRAWN_CURVES} longest curves are drawn" if len(motion.components) > _MAX_DRAWN_CURVES else ""
+    caption = motion.describe()[0].replace(arm.title, arm.name, 1) + omission_note
+    return self_motion_figure(panels, curves, chains, views, caption)

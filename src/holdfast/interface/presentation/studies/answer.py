@@ -1,0 +1,95 @@
+"""Answer of a study in a few sentences: the arm that retains most, or the reason why no arm does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from holdfast.core.formatting import format_interval, format_percent, indefinite_article
+from holdfast.studies.study_files.ranking import ArmRanking, format_unit
+
+
+def headline(stand: Sequence[ArmRanking]) -> str:
+    """Compose the answer: the leader for the first index, as found and at its best, and the law and arm with the most
+    successes.
+    """
+    parts = []
+    index_standings = [standing for standing in stand if not standing.law]
+    if index_standings:
+        standing = index_standings[0]
+        best = (
+            index_standings[1]
+            if index_standings[1:] and index_standings[1].question.startswith(f"{standing.question}, ")
+            else None
+        )
+        parts.append(_explain_absence(standing, best) if standing.is_uninformative else _describe_leader(standing, best))
+    law_standings = [standing for standing in stand if standing.law]
+    if law_standings:
+        top = max(law_standings, key=lambda standing: standing.ranked_entries[0][1].value)
+        success_rate = format_interval(top.ranked_entries[0][1])
+        parts.append(
+            f"With a locked joint that nobody has noticed hardly any motion reaches its target under any law: of {top.about} "
+            f"{success_rate} for {name_leader(top)} under {top.law}."
+            if top.is_uninformative
+            else f"With a locked joint that nobody has noticed, {name_leader(top)} reaches its target most often, under "
+            f"{top.law}: "
+            f"{success_rate} of the motions."
+        )
+    return " ".join(parts)
+
+
+def _describe_leader(standing: ArmRanking, best: ArmRanking | None) -> str:
+    adverb = " most often" if len(standing.entries) > 1 else ""
+    text = (
+        f"After any failure considered, {name_leader(standing)}{adverb} keeps {indefinite_article(standing.question)} "
+        f"{standing.question}{format_unit(standing.unit)}: "
+    )
+    text += f"at {format_interval(standing.ranked_entries[0][1])} of the poses"
+    if best is not None:
+        text += f"; in the best configuration of each pose, {name_leader(best)}: {format_interval(best.ranked_entries[0][1])}"
+    return f"{text}."
+
+
+def _explain_absence(standing: ArmRanking, best: ArmRanking | None) -> str:
+    """Explain why hardly any pose meets the threshold, with the next informative numbers."""
+    text = (
+        f"After any failure considered, hardly any pose keeps {indefinite_article(standing.question)} "
+        f"{standing.question}{format_unit(standing.unit)}: at most "
+    )
+    text += f"{format_interval(standing.ranked_entries[0][1])} of an arm's poses"
+    if best is not None:
+        text += f", in the best configuration of each pose {format_interval(best.ranked_entries[0][1])}"
+    sentences = [f"{text}."]
+    if standing.median:
+        name, median = standing.median
+        sentences.append(f"{name} has the best median, {median}")
+        if best is not None and best.median:
+            leader_suffix = "" if best.median[0] == name else f" ({best.median[0]})"
+            sentences[-1] += f"; in the best configurations {best.median[1]}{leader_suffix}"
+        sentences[-1] += f". Its worst failure is most often a lock of {standing.worst}." if standing.worst else "."
+    sentences += [
+        f"{name} keeps nothing: once {joint} locks, it is singular everywhere." for name, joint in standing.ended.items()
+    ]
+    return " ".join(sentences)
+
+
+def name_leader(standing: ArmRanking) -> str:
+    """Name the arm that leads, with those that share the lead."""
+    leader, *others = standing.tied_with_first
+    return f"{leader} (level with {', '.join(others)})" if others else leader
+
+
+def list_facts(standings: Sequence[ArmRanking]) -> list[tuple[str, str]]:
+    """List the leaders of the first questions; the best median where hardly anything is retained."""
+    entries: list[tuple[str, str]] = []
+    for standing in standings[:4]:
+        (leader, fraction), *_ = standing.ranked_entries
+        if not standing.is_uninformative:
+            entries.append(
+                (
+                    format_percent(fraction.value),
+                    f"{leader}, {standing.question}; {format_percent(fraction.low)} to {format_percent(fraction.high)}, 95 %",
+                )
+            )
+        elif standing.median:
+            entries.append((standing.median[1], f"{standing.median[0]}, the best median; {standing.question}: hardly any pose"))
+    return entries

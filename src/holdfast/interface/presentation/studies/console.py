@@ -1,0 +1,123 @@
+"""Console text of a study: progress, results of verifying and merging, and estimated effort."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from holdfast.core.formatting import format_count, format_duration
+from holdfast.core.sweeps.merge import MergeReport
+from holdfast.core.sweeps.study import Study
+from holdfast.interface.presentation.printing import TextTable, print_table
+from holdfast.kernels.threads import thread_count
+from holdfast.studies.study_files.estimate import CellEstimate
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+_MAX_TABLE_CELLS = 40  # cells in a table
+
+
+def to_dict(study: Study) -> dict[str, Any]:
+    """Return the progress of a study, cell by cell, as JSON data."""
+    cells = study.status()
+    return {
+        "folder": str(study.path),
+        "name": study.name,
+        "seed": study.seed,
+        "digest": study.digest,
+        "complete": all(cell.is_complete for cell in cells),
+        "chunks": sum(cell.chunks for cell in cells),
+        "chunks_done": sum(cell.chunks_done for cell in cells),
+        "thread_seconds": sum(cell.seconds for cell in cells),
+        "cells": [
+            {
+                "name": cell.name,
+                "chunks": cell.chunks,
+                "chunks_done": cell.chunks_done,
+                "rows": cell.rows,
+                "rows_done": cell.rows_done,
+            }
+            for cell in cells
+        ],
+        "made_by": study.makers,
+    }
+
+
+def next_steps(result: Study | MergeReport, name: str) -> list[str]:
+    """Suggest the verification of the stored results."""
+    study = f"{name}.study" if isinstance(result, MergeReport) else name
+    return [f"{study}.verify()  # an empty list: everything that was computed is sound"]
+
+
+def tables(result: Study | MergeReport) -> list[TextTable]:
+    """Return a row for each cell; of many cells only those that are not complete."""
+    cells = (result.study if isinstance(result, MergeReport) else result).status()
+    listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
+    table_rows = [
+        (
+            cell.name,
+            f"{cell.rows_done:,} of {cell.rows:,}",
+            f"{cell.chunks_done:,} of {cell.chunks:,}",
+            format_duration(cell.seconds),
+        )
+        for cell in listed_cells[:_MAX_TABLE_CELLS]
+    ]
+    title = (
+        f"{_MAX_TABLE_CELLS} of {len(listed_cells)} cells that are not complete" if len(listed_cells) > _MAX_TABLE_CELLS else ""
+    )
+    return [TextTable(("cell", "rows", "chunks", "processor time"), table_rows, title)] if table_rows else []
+
+
+def summarize_estimates(estimates: Sequence[CellEstimate]) -> dict[str, Any]:
+    """Summarize the estimated effort of a study, cell by cell, as JSON data."""
+    return {
+        "cells": [
+            {
+                "name": estimate.cell.name,
+                "rows": estimate.cell.rows,
+                "chunks": estimate.cell.count,
+                "thread_seconds": estimate.seconds,
+                "bytes": estimate.size,
+            }
+            for estimate in estimates
+        ],
+        "chunks": sum(estimate.cell.count for estimate in estimates),
+        "thread_seconds": sum(estimate.seconds for estimate in estimates),
+        "bytes": sum(estimate.size for estimate in estimates),
+        "threads": thread_count(),
+    }
+
+
+def show_estimates(estimates: Sequence[CellEstimate], out: Console) -> None:
+    """Print the estimated effort of a study."""
+    total, threads = summarize_estimates(estimates), thread_count()
+    table_rows = [
+        (
+            estimate.cell.name,
+            f"{estimate.cell.rows:,}",
+            f"{estimate.cell.count:,}",
+            format_duration(estimate.seconds),
+            format_duration(estimate.seconds / estimate.cell.count),
+            _format_size(estimate.size),
+        )
+        for estimate in estimates
+    ]
+    print_table(out, TextTable(("cell", "rows", "chunks", "processor time", "a chunk", "size, at most"), table_rows))
+    seconds = total["thread_seconds"]
+    out.print(
+        f"{format_count(len(estimates), 'cell')}, {total['chunks']:,} chunks: about {format_duration(seconds)} of "
+        f"processor time, "
+        f"{format_duration(seconds / threads)} with the {threads} of this machine; at most {_format_size(total['bytes'])} "
+        f"on the disk "
+        f"(estimated from up to {max(estimate.tried for estimate in estimates)} rows of each cell)",
+        soft_wrap=True,
+    )
+
+
+def _format_size(count: float) -> str:
+    for unit in ("B", "kB", "MB", "GB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:.3g} TB"

@@ -1,0 +1,5 @@
+"""Pages, figures, and tables of teleoperation experiments."""
+
+from holdfast.core._lazy import offer
+
+offer(__name__)

@@ -1,0 +1,11 @@
+from holdfast.interface.presentation.teleop.allocation import write_allocation as write_allocation
+from holdfast.interface.presentation.teleop.bank import bank_figure as bank_figure
+from holdfast.interface.presentation.teleop.figures import Scatter as Scatter
+from holdfast.interface.presentation.teleop.figures import measures_figure as measures_figure
+from holdfast.interface.presentation.teleop.figures import scatter_figure as scatter_figure
+from holdfast.interface.presentation.teleop.figures import tasks_figure as tasks_figure
+from holdfast.interface.presentation.teleop.motions import Motion as Motion
+from holdfast.interface.presentation.teleop.motions import Ring as Ring
+from holdfast.interface.presentation.teleop.motions import motions_figure as motions_figure
+from holdfast.interface.presentation.teleop.motions import ring as ring
+from holdfast.interface.presentation.teleop.page import middle_tasks as middle_tasks

@@ -1,0 +1,168 @@
+"""Figure of the task bank: the difficulty of each task, and the law that performs better."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from holdfast.core.files.output import write_files
+from holdfast.core.files.spreadsheet import write_csv_text
+from holdfast.core.typing import IndexArray
+from holdfast.model import arms
+from holdfast.teleop.bank.selection import Binning, TaskChoice
+from holdfast.teleop.bank.tasks import TaskBank
+from holdfast.teleop.protocol.protocol import Protocol, read_protocol
+from holdfast.teleop.records.tables import bank_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def figures(choice: TaskChoice) -> dict[str, Figure]:
+    """Draw the bank with the chosen tasks."""
+    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.special_tasks)}
+
+
+def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
+    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
+
+    Args:
+        choice: What was chosen.
+        folder: Made if it is not there.
+        spec: What the protocol names the arm by: a built-in name or a file.
+    """
+    from holdfast.interface.report.figures import save_png
+
+    files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
+    protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")
+    return [*files, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+
+
+def _make_protocol(choice: TaskChoice, spec: str) -> Protocol:
+    """Return the protocol of the paper with this arm and the chosen tasks."""
+    bank, tasks = choice.bank, np.append(choice.chosen, choice.special_tasks)
+    file = None if spec in arms.names() else Path(spec)
+    protocol = replace(
+        read_protocol(),
+        name=f"{choice.arm.name}, {len(tasks)} tasks of a bank of {len(bank)}, seed {choice.seed}",
+        arm=choice.arm,
+        arm_spec=spec if file is None else file.name,
+        arm_file=file,
+        rows=choice.task,
+    )
+    with np.errstate(invalid="ignore"):
+        notes = [
+            f"bank task {task + 1}, CPM3 {bank.difficulty[task]:.3f}, CPM4/CPM3 {bank.ratio[task]:.3f}"
+            if np.isfinite(bank.ratio[task])
+            else f"bank task {task + 1}, not completed by the computer in every scenario"
+            for task in tasks
+        ]
+    return protocol.with_tasks(bank.tasks.take(tasks), notes)
+
+
+def bank_figure(
+    bank: TaskBank, cells: Binning, chosen: IndexArray | None = None, *, special: IndexArray | None = None
+) -> Figure:
+    """Draw CPM3 against CPM4/CPM3 with the grid of cells; chosen tasks have their numbers.
+
+    Args:
+        bank: The tasks as the computer did them.
+        cells: The grid.
+        chosen: (k,) indices into the bank: numbered from 1, in this order.
+        special: Indices into the bank of special tasks: numbered on from there, and marked otherwise. Those that were
+            not completed in every scenario have no place in the plane and are named below it.
+
+    Source: Goel et al. 2003, Fig. 2.
+    """
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.figures import WIDTH_IN, legend_below, settle_layout, style
+
+    chosen_tasks = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
+    special_tasks = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 6.2))
+        axes = figure.add_subplot()
+        _draw_bank(axes, bank, cells)
+        _label_tasks(axes, bank, chosen_tasks, 1, special=False)
+        is_drawable = bank.is_completed()[special_tasks]
+        _label_tasks(axes, bank, special_tasks[is_drawable], len(chosen_tasks) + 1 + np.flatnonzero(is_drawable), special=True)
+        missing_numbers = [str(len(chosen_tasks) + 1 + index) for index in np.flatnonzero(~is_drawable)]
+        incomplete_count = int((~bank.is_completed()).sum())
+        title = f"{len(bank)} tasks under computer control; {len(cells.occupied_cells)} of {_count_cells(cells)} cells hold one"
+        if incomplete_count:
+            title += f"; {incomplete_count} not completed in every scenario are not shown"
+        if missing_numbers:
+            title += f", task {' and '.join(missing_numbers)} among them"
+        axes.set_title(title, fontweight="normal", fontsize=9.5)
+        legend_below(figure, axes, 4)
+        return settle_layout(figure)
+
+
+def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
+    from holdfast.interface.report.figures import BLUE, FAINT, INK, SOFT
+
+    easiest, hardest = cells.difficulty[[0, -1]]
+    lower, upper = cells.ratio[[0, -1]]
+    tolerant_scenario = bank.scenarios[bank.scenario_index("failure-tolerant", failed=True)].number
+    pseudoinverse_scenario = bank.scenarios[bank.scenario_index("pseudoinverse", failed=True)].number
+    if lower < 1:
+        axes.axhspan(lower, min(1.0, upper), color="#e3eef7", zorder=0)
+        axes.annotate(
+            "failure-tolerant inverse does better",
+            (hardest, min(1.0, upper)),
+            (-6, -6),
+            textcoords="offset points",
+            ha="right",
+            va="top",
+            color=BLUE,
+        )
+    axes.axhline(1.0, color=INK, linewidth=1.0, zorder=1.5)
+    axes.vlines(cells.difficulty, lower, upper, color=FAINT, linewidth=0.8, zorder=1)
+    axes.hlines(cells.ratio, easiest, hardest, color=FAINT, linewidth=0.8, zorder=1)
+    axes.scatter(bank.difficulty, bank.ratio, s=7, color=SOFT, alpha=0.55, linewidths=0, zorder=2, label="task of the bank")
+    x_margin, y_margin = 0.02 * (hardest - easiest or 1.0), 0.02 * (upper - lower or 1.0)
+    axes.set(
+        xlabel=f"CPM{pseudoinverse_scenario}: failed arm, pseudoinverse (difficulty)",
+        ylabel=f"CPM{tolerant_scenario} / CPM{pseudoinverse_scenario}",
+        xlim=(easiest - x_margin, hardest + x_margin),
+        ylim=(lower - y_margin, upper + y_margin),
+    )
+    axes.grid(visible=False)
+
+
+def _label_tasks(axes: Axes, bank: TaskBank, rows: IndexArray, numbers: int | IndexArray, special: bool) -> None:
+    from matplotlib.patheffects import withStroke
+
+    from holdfast.interface.report.figures import BLUE, INK, ORANGE
+
+    if not len(rows):
+        return
+    difficulties, ratios = bank.difficulty[rows], bank.ratio[rows]
+    marker_style = {"marker": "D", "color": ORANGE, "s": 42} if special else {"marker": "o", "color": BLUE, "s": 34}
+    label = "special task" if special else "chosen task"
+    axes.scatter(difficulties, ratios, edgecolors="white", linewidths=0.8, zorder=4, label=label, **marker_style)
+    x_range, y_range = (np.diff(limits)[0] for limits in (axes.get_xlim(), axes.get_ylim()))
+    for index, task_number in enumerate(np.arange(len(rows)) + numbers):
+        is_near = (np.abs(difficulties[:index] - difficulties[index]) < 0.03 * x_range) & (
+            np.abs(ratios[:index] - ratios[index]) < 0.06 * y_range
+        )
+        axes.annotate(
+            str(task_number),
+            (difficulties[index], ratios[index]),
+            (5, -13) if is_near.any() else (5, 4),
+            textcoords="offset points",
+            fontsize=9,
+            color=INK,
+            fontweight="bold",
+            path_effects=[withStroke(linewidth=2.2, foreground="white")],
+            zorder=5,
+        )
+
+
+def _count_cells(cells: Binning) -> int:
+    return (len(cells.difficulty) - 1) * (len(cells.ratio) - 1)

@@ -1,0 +1,102 @@
+"""Text of an experiment: its protocol, its subjects, the allocation, and the results of simulated operators."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from holdfast.teleop.protocol.protocol import Protocol
+    from holdfast.teleop.records.records import Records
+
+
+def _make_grid(*head: str) -> Any:
+    from holdfast.interface.presentation.terminal import BandedTable
+
+    return BandedTable(*head)
+
+
+def show_experiment(records: Records, out: Console) -> None:
+    """Print the outcomes of the trials of simulated people."""
+    from holdfast.teleop.records.entries import TrialKind
+    from holdfast.teleop.trials.recordings import End
+
+    people = records.subjects()
+    finished = [scenario for scenario in people if scenario.state == "completed"]
+    training = len(records.entries(kind=TrialKind.TRAINING))
+    out.print(f"{len(people)} simulated operators, {len(finished)} trained and done; {training} training tasks", soft_wrap=True)
+    table = _make_grid("scenario", "", "completed", "aborted", "time over")
+    entries = records.entries(kind=TrialKind.TRIAL)
+    for index, scenario in enumerate(records.protocol.scenarios):
+        endings = [ending.end for ending in entries if ending.scenario == index]
+        table.add_row(
+            str(scenario.number),
+            scenario.label,
+            *(str(endings.count(ending)) for ending in (End.ARRIVED, End.ABORTED, End.TIME)),
+        )
+    out.print(table)
+    out.print(f"written: {records.folder}; next: holdfast teleop analyse {records.folder}", markup=False, soft_wrap=True)
+
+
+def show_subjects(records: Records, out: Console) -> None:
+    """Print the progress of the sessions."""
+    from rich.markup import escape
+
+    from holdfast.teleop.records.session import Session
+
+    table = _make_grid("subject", "kind", "row", "session", "done", "since")
+    people = records.subjects()
+    for subject in people:
+        progress = Session(records, subject.code).progress()
+        table.add_row(
+            escape(subject.code), subject.kind.value, str(subject.row + 1), subject.state.value, progress, subject.since[:10]
+        )
+    out.print(table if people else "no subjects yet")
+
+
+def show_protocol(protocol: Protocol, out: Console) -> None:
+    """Print the protocol."""
+    from rich.markup import escape
+
+    training = protocol.training
+    limit = "no limit" if protocol.cycle_limit is None else f"at most {protocol.cycle_limit} cycles"
+    for sentence in (
+        f"{protocol.name}",
+        f"arm {protocol.arm.name}, task {protocol.rows.name}, {protocol.rate:g} cycles/s, {protocol.substeps} "
+        f"sub-steps in each",
+        f"stick: up to {protocol.stick.limit:g} m/cycle ({protocol.stick.limit * protocol.rate:g} m/s), dead zone "
+        f"{protocol.stick.dead_zone:g} m/cycle",
+        f"a trial ends at rest within {protocol.radius:g} m of the target; {limit}",
+        f"training: {training.at_least} tasks or more of {training.distance:g} m, the last {training.in_a_row} in a row within "
+        f"{training.limit:g} cycles ({training.limit / protocol.rate:.3g} s), at most {training.most}",
+        f"{protocol.subjects} subjects, {len(protocol.task_order())} rows of the balanced square, "
+        f"{len(protocol.tasks) * len(protocol.scenarios)} trials each",
+        f"rating: {', '.join(protocol.rating)}",
+    ):
+        out.print(escape(sentence), soft_wrap=True)
+    table = _make_grid("scenario", "")
+    for scenario in protocol.scenarios:
+        options = ", ".join(
+            f"{key} {option:g}" if isinstance(option, float) else f"{key} {option}" for key, option in scenario.options.items()
+        )
+        table.add_row(str(scenario.number), escape(scenario.label + (f" ({options})" if options else "")))
+    out.print(table)
+    tasks = _make_grid("task", "joint that fails", "from start to target, m", "note")
+    start = protocol.arm.forward_kinematics(protocol.tasks.q0)[:, :3, 3] @ protocol.rows.rows[:, :3].T
+    for key, note in enumerate(protocol.notes):
+        joint = protocol.arm.joint_names[protocol.tasks.joint[key]] if protocol.tasks.joint[key] >= 0 else "none"
+        distance = float(((protocol.tasks.target[key] - start[key]) ** 2).sum() ** 0.5)
+        tasks.add_row(str(key + 1), escape(joint), f"{distance:.3f}", escape(note))
+    out.print(tasks)
+
+
+def show_allocation(protocol: Protocol, subjects: int | None, out: Console) -> None:
+    """Print a line for each subject: the row of the square, and the tasks with their scenarios in order."""
+    order = protocol.task_order()
+    table = _make_grid("subject", "row", "tasks in order, each with its scenarios in order")
+    for subject in range(protocol.subjects if subjects is None else subjects):
+        session = protocol.session_order(subject % len(order), subject).reshape(len(protocol.tasks), -1, 2) + 1
+        task_texts = " ".join(f"{trials[0, 0]}:{'/'.join(map(str, trials[:, 1]))}" for trials in session)
+        table.add_row(str(subject + 1), str(subject % len(order) + 1), task_texts)
+    out.print(table)

@@ -1,0 +1,104 @@
+"""Single tasks in the report: the motions in every scenario, and the distributions of the measures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.teleop import figures
+from holdfast.interface.presentation.teleop.motions import Motion, motions_figure, ring
+from holdfast.interface.report.figures import svg
+from holdfast.interface.report.page import Block, Picture
+from holdfast.teleop.analysis.observations import MEASURE_NAMES
+from holdfast.teleop.analysis.result import Analysis, Paths
+from holdfast.teleop.analysis.tables import median_operator
+
+if TYPE_CHECKING:
+    from holdfast.teleop.protocol.protocol import Protocol
+
+
+def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | None, paths: Paths | None) -> list[Block]:
+    """Build the motions of one task, if there are any, and the distributions of its measures.
+
+    Args:
+        analysis: The analysis.
+        task: Its number.
+        protocol: Of the experiment; task k there is number k + 1 here.
+        paths: See :meth:`holdfast.teleop.analysis.Analysis.report`.
+    """
+    task_index = analysis.observed.tasks.index(task)
+    blocks: list[Block] = []
+    group = analysis.groups.names[analysis.groups.of_task[task_index]]
+    operator_note = "Simulated operators. " if analysis.is_simulated else ""
+    if paths is not None and protocol is not None and protocol.rows.m == 2:
+        blocks += _draw_motions(analysis, task_index, protocol, paths, operator_note)
+    observed = analysis.observed
+    measures = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)[
+        :, task_index, :, : len(MEASURE_NAMES) + observed.has_ratings
+    ]
+    values = [
+        [measures[:, scenario, measure] for scenario in range(len(observed.conditions))]
+        for measure in range(measures.shape[-1])
+    ]
+    computer_values = None
+    if analysis.computer is not None:
+        computer_measures = np.concatenate(
+            [analysis.computer.cpm[0, task_index, :, None], analysis.computer.measures[0, task_index]], axis=-1
+        )
+        computer_values = [computer_measures[:, measure] for measure in range(len(MEASURE_NAMES))]
+    note = "" if protocol is None or task > len(protocol.notes) else protocol.notes[task - 1]
+    caption = (
+        f"{operator_note}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of "
+        f"{analysis.subject_phrase} in each scenario, of "
+        f"the trials that reached the target. Circles: the computer."
+    )
+    figure = figures.measures_figure(values, computer_values, [condition.scenario for condition in observed.conditions])
+    return [*blocks, Picture(svg(figure, f"task-{task}-measures", caption), caption)]
+
+
+def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths: Paths, operator_note: str) -> list[Block]:
+    """Draw the motions of the median operator and of the computer, as far as they were recorded."""
+    observed, task = analysis.observed, analysis.observed.tasks[task_index]
+    median_subject = median_operator(observed, task_index, observed.condition_index(analysis.conditions[0].scenario))
+    tasks, task_row = protocol.tasks, task - 1
+    healthy_ring = ring(protocol.arm, tasks.q0[task_row]) if protocol.rows.name == "planar" else None
+    failed_ring = (
+        ring(protocol.arm, tasks.q0[task_row], int(tasks.joint[task_row]))
+        if healthy_ring is not None and tasks.joint[task_row] >= 0
+        else None
+    )
+    motions = []
+    for name, title in (
+        (None if median_subject is None else observed.subjects[median_subject], "operator"),
+        (None, "computer"),
+    ):
+        if title == "operator" and name is None:
+            continue
+        for condition in observed.conditions:
+            path: FloatArray | None = paths(name, task, condition.scenario)
+            if path is not None and len(path):
+                label = f"{condition.label}" if title == "operator" else f"computer, {condition.label}"
+                motions.append(
+                    Motion(
+                        path=path,
+                        title=label,
+                        target=tasks.target[task_row],
+                        radius=protocol.radius,
+                        whole=healthy_ring,
+                        left=failed_ring if condition.failed else None,
+                    )
+                )
+    if not motions:
+        return []
+    joint = "" if tasks.joint[task_row] < 0 else f"; {protocol.arm.joint_names[int(tasks.joint[task_row])]} fails"
+    operator_text = "" if median_subject is None else f" of the median operator, {observed.subjects[median_subject]},"
+    caption = (
+        f"{operator_note}Motions{operator_text} and of the computer in task {task}{joint}: from light to dark, from the dot to "
+        f"the target circle, with "
+        "the straight way dashed."
+    )
+    if healthy_ring is not None:
+        caption += " Circle: what the healthy arm reaches; grey: what the failure takes away (not shown to operators)."
+    return [Picture(svg(motions_figure(motions), f"task-{task}-motions", caption), caption)]

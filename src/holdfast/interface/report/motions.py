@@ -1,0 +1,141 @@
+"""Figures of motions: an arm as a stick figure at its start and end, and quantities over time with levels for comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.interface.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.views import View
+
+
+@dataclass(frozen=True)
+class StickMotion:
+    """Chain of links over time.
+
+    Attributes:
+        chain: (F, K, 3) corners of the chain, base first and tool last, m.
+        square_corners: (K,) corners drawn as squares.
+        path: (P, 3) where the tool was to be, m.
+        filled_corners: (K,) corners that are drawn filled at the end, or None.
+        goal: (3,) a place marked by a ring, m, or None.
+    """
+
+    chain: FloatArray
+    square_corners: NDArray[np.bool_]
+    path: FloatArray
+    filled_corners: NDArray[np.bool_] | None = None
+    goal: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class TimePanel:
+    """One quantity over time.
+
+    Attributes:
+        time: (T,) s.
+        values: (T,) the quantity.
+        ylabel: What it is, with its unit.
+        title: One line.
+        reference_level: A value to compare it to, drawn across, and what that is; None if there is none.
+        moments: Times (s) and values of points picked out, each with a label.
+        log_scale: On a logarithmic scale.
+    """
+
+    time: FloatArray
+    values: FloatArray
+    ylabel: str
+    title: str
+    reference_level: tuple[float, str] | None = None
+    moments: tuple[tuple[float, float, str], ...] = ()
+    log_scale: bool = False
+
+
+def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s") -> Figure:
+    """Plot panels side by side over time, with one line of text below that states the computed quantity."""
+    with style():
+        figure = Figure(figsize=(WIDTH_IN * len(panels) / 2.4, 3.7))
+        for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
+            draw_panel(axes, panel, xlabel)
+        figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
+        return settle_layout(figure)
+
+
+def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
+    """Draw one panel."""
+    axes.plot(panel.time, panel.values, color=BLUE, linewidth=1.6)
+    if panel.reference_level is not None:
+        axes.axhline(
+            panel.reference_level[0],
+            color=INK,
+            linewidth=1.0,
+            linestyle=(0, (4.5, 2)),
+            label=format_label(panel.reference_level[1]),
+        )
+        axes.legend(loc="best")
+    for time, value, label in panel.moments:
+        axes.plot([time], [value], "o", color=ORANGE, markersize=5)
+        axes.annotate(format_label(label), (time, value), (6, 5), textcoords="offset points", fontsize=9, color=INK)
+    axes.set(xlabel=xlabel, ylabel=panel.ylabel, title=format_label(panel.title))
+    axes.set_xlim(0, float(panel.time[-1]) or 1.0)
+    if panel.log_scale and (panel.values > 0).any():
+        axes.set_yscale("log")
+    axes.margins(y=0.12)
+
+
+def stick_motion_figure(
+    motion: StickMotion, views: Sequence[View], panel: TimePanel, caption: str, xlabel: str, *, path_label: str = "straight way"
+) -> Figure:
+    """Plot a stick figure in projection, at its start (grey) and its end (black), next to one quantity over time.
+
+    The path of the motion, dashed, is what the tool was ``path_label`` to do.
+    """
+    with style():
+        figure = Figure(figsize=(WIDTH_IN * (1.0 if len(views) == 1 else 1.4), 4.4))
+        *view_axes, panel_axes = figure.subplots(1, len(views) + 1)
+        for axes, view in zip(view_axes, views, strict=True):
+            _draw_stick_figure(axes, motion, view, path_label)
+        draw_panel(panel_axes, panel, xlabel)
+        handles, labels = view_axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), columnspacing=2.0)
+        figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
+        return settle_layout(figure)
+
+
+def _draw_stick_figure(axes: Axes, motion: StickMotion, view: View, path_label: str) -> None:
+    def project_points(points: FloatArray) -> FloatArray:
+        return view.project(points).T
+
+    last_frame = len(motion.chain) - 1
+    marked = np.zeros(len(motion.square_corners), dtype=bool) if motion.filled_corners is None else motion.filled_corners
+    for frame, color, width, label in ((0, "#b9c0c7", 2.4, "at the start"), (last_frame, INK, 2.6, "at the end")):
+        chain = project_points(motion.chain[frame])
+        axes.plot(*chain, color=color, linewidth=width, solid_joinstyle="round", label=label, zorder=2 if frame else 1.5)
+        for marker, corners in (("s", motion.square_corners), ("o", ~motion.square_corners)):
+            inner_corners = corners.copy()
+            inner_corners[[0, -1]] = False
+            for filled, chosen in ((ORANGE, inner_corners & marked), ("white", inner_corners & ~marked)):
+                axes.plot(
+                    *chain[:, chosen], marker, color=filled, markeredgecolor=color, markersize=6, zorder=3 if frame else 1.6
+                )
+        axes.plot(*chain[:, :1], "s", color=color, markersize=8, zorder=3)
+    axes.plot(*project_points(motion.chain[:, -1]), color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
+    axes.plot(*project_points(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=path_label, zorder=2.4)
+    axes.plot(
+        *project_points(motion.chain[last_frame, -1:]), "D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=3.2
+    )
+    if motion.goal is not None:
+        axes.plot(
+            *project_points(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3
+        )
+    if marked.any():
+        axes.plot([], [], "o", color=ORANGE, markeredgecolor=INK, markersize=6, label="locked")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
+    axes.margins(0.08)

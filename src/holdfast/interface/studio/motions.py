@@ -1,0 +1,137 @@
+"""Motions for playback, from files, closed-loop simulations, and physics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.interface.studio.scene.machine import CompiledArm
+from holdfast.interface.studio.state import State
+from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
+from holdfast.model.arm.model import Arm
+
+TIME_COLUMNS = ("time_s", "time_cycles", "travel_rad")
+MOTION_SAMPLES = 240
+SHOWN_TIME_CONSTANTS = 15.0  # 1/Ke
+
+
+@dataclass(frozen=True)
+class PlayedMotion:
+    """Configurations over time.
+
+    Attributes:
+        label: What it is, for people.
+        time: (T,) increasing.
+        unit: Of the time: s, cycles, or rad of joint travel.
+        q: (T, n) rad and m.
+    """
+
+    label: str
+    time: FloatArray
+    unit: str
+    q: FloatArray
+
+    def configuration_at(self, time: float) -> FloatArray:
+        """Return the configuration (n,) at a time by linear interpolation, and the first or last one outside the motion."""
+        segment = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
+        if len(self.time) == 1 or self.time[segment + 1] <= self.time[segment]:
+            return np.array(self.q[segment])
+        fraction = float(np.clip((time - self.time[segment]) / (self.time[segment + 1] - self.time[segment]), 0.0, 1.0))
+        return np.asarray((1 - fraction) * self.q[segment] + fraction * self.q[segment + 1])
+
+
+def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:
+    """Read the motion from a CSV file of ``holdfast follow``, ``simulate`` or ``recover``, or from their output folder.
+
+    Raises:
+        InputError: There is no such file, or a column or number is missing or wrong; the message names it.
+    """
+    file = Path(path)
+    if file.is_dir():
+        names = ("trajectory.csv", "run.csv", "waypoints.csv", "motion.csv")
+        motion_files = [file / name for name in names if (file / name).is_file()]
+        if not motion_files:
+            raise InputError(
+                f"folder '{file}' holds no motion; give one that follow, simulate, recover or endure wrote with --out"
+            )
+        file = motion_files[0]
+    table = read_joint_table(arm, file, "motion", TIME_COLUMNS[0])
+    time_column = next((name for name in TIME_COLUMNS if name in table.header), None)
+    if time_column is None:
+        raise InputError(f"{table.title}: a column '{TIME_COLUMNS[0]}' is missing; it says when the arm is there")
+    samples = table.read_columns([time_column, *joint_columns(arm)])
+    if (np.diff(samples[:, 0]) < 0).any():
+        raise InputError(f"{table.title}: time must not run backwards; sort the lines by '{time_column}'")
+    return PlayedMotion(file.name, samples[:, 0], time_column.rpartition("_")[2], samples[:, 1:])
+
+
+def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> list[PlayedMotion]:
+    """Simulate the motion to a target under each of the two laws, with failed joints locked from the start, and describe its
+    end.
+
+    Args:
+        machine: The arm and its laws.
+        state: What has failed, where the arm is, where the end effector should go, and which laws.
+        progress: Told of (done, in all) between the parts; raises to give up.
+
+    Raises:
+        InputError: A law that is not known, or no target.
+    """
+    from holdfast.control.simulation.closed_loop import simulate
+    from holdfast.control.simulation.errors import error_history
+    from holdfast.interface.presentation.simulation.errors import format_errors
+    from holdfast.model.arm.poses import pose_from_quaternion
+
+    if state.target is None:
+        raise InputError("there is no target; choose one first")
+    target = pose_from_quaternion(state.target[:3], state.target[3:])
+    motions = []
+    for law_number, law_label in enumerate(state.laws):
+        progress(2 * law_number, 4)
+        law = machine.get_law(law_label)
+        runs = simulate(law, np.array(state.q), target, locked=list(state.failed_joints))
+        progress(2 * law_number + 1, 4)
+        # The last approach to rest takes most of the time and moves nothing.
+        sampled_path = runs.path(samples=MOTION_SAMPLES, until=min(float(runs.time), SHOWN_TIME_CONSTANTS / law.gain) or None)
+        history = error_history(runs)
+        error_note = f"error {format_errors(law, history.end.position, history.end.angle)}"
+        exceeded_joints = [name for name, is_exceeded in zip(state.names, runs.limits_passed, strict=True) if is_exceeded]
+        limits_note = f", past the limits of {' and '.join(exceeded_joints)}" if exceeded_joints else ""
+        motions.append(
+            PlayedMotion(
+                f"{law_label}: {runs.ending_sentence()}{limits_note} ({error_note})", sampled_path.time, "s", sampled_path.q
+            )
+        )
+    return motions
+
+
+def simulate_swing_motion(arm: Arm, state: State) -> PlayedMotion:
+    """Simulate the free swing of the first free joint with the physics engine, with the other joints fixed.
+
+    Raises:
+        InputError: No joint is free.
+        HoldfastError: MuJoCo is not installed, or the arm's bodies are not known.
+    """
+    from holdfast.control.physics.swing import free_swing
+
+    if not state.free:
+        raise InputError("no joint is free; set one free first")
+    joint = state.free[0]
+    free_motion = free_swing(arm, np.array(state.q), joint)
+    q = np.tile(np.array(state.q), (len(free_motion.time), 1))
+    q[:, joint] += free_motion.angle
+    stride = max(1, len(q) // (8 * MOTION_SAMPLES))
+    factor, unit = arm.joints[joint].display_unit
+    rest_note = f", rests {factor * free_motion.rest_angle:.3g} {unit} away" if free_motion.is_settled else ""
+    drop_notes = "".join(
+        f"; braked after {drop.after_ms:g} ms it has moved {factor * drop.angle:.3g} {unit}, the tool "
+        f"{1000 * drop.distance:.3g} mm"
+        for drop in free_motion.drops
+    )
+    label = f"{arm.joint_names[joint]} swings: farthest {factor * free_motion.peak:.3g} {unit}{rest_note}{drop_notes}"
+    return PlayedMotion(label, free_motion.time[::stride], "s", q[::stride])

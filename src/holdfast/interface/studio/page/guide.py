@@ -1,0 +1,158 @@
+"""Guided tour of at most six steps in a minute; each step explains an effect and demonstrates it on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+from holdfast.interface.studio.scene.bars import format_percent
+from holdfast.interface.studio.scene.machine import LiveReading
+from holdfast.kinematics.indices.lost_directions import remaining_manipulability
+
+Ask = tuple[str, Any]
+
+
+@dataclass(frozen=True)
+class GuideContext:
+    """Values that the text of a step can mention.
+
+    Attributes:
+        worst: The joint whose lock cost most when the tour began.
+        remaining: What is left of the manipulability now, if the worst joint locks or with what has failed.
+        remaining_before: The same when the joint was locked first.
+        is_hopeless: A direction is lost with that joint in every configuration.
+        is_busy: Something is being computed.
+    """
+
+    worst: str
+    remaining: str
+    remaining_before: str
+    is_hopeless: bool
+    is_busy: bool
+
+
+@dataclass(frozen=True)
+class TourStep:
+    """Step of the tour.
+
+    Attributes:
+        title: Its title.
+        text: What it says, from what is to be seen.
+        actions: What it asks of the window; ``worst`` in place of a joint is the worst one.
+        button_label: What the button for the next step says.
+        always: It makes sense where no configuration is better than another.
+    """
+
+    title: str
+    text: Callable[[GuideContext], str]
+    actions: tuple[Ask, ...]
+    button_label: str
+    always: bool = True
+
+
+def _explain_bars(context: GuideContext) -> str:
+    if context.is_hopeless:
+        return f"No configuration makes up for every joint: when {context.worst} locks, a direction of motion is lost for ever."
+    return f"A bar is what is left of the manipulability of the tool if that joint locks. Here {context.worst} costs most."
+
+
+def _explain_lock(context: GuideContext) -> str:
+    return (
+        f"{context.worst} is locked: {context.remaining} of the manipulability is left. The blue wire is how fast the "
+        f"tool could go, "
+        "the orange body how fast it still can. The orange line and ring are the motion that loses most."
+    )
+
+
+def _explain_optimisation(context: GuideContext) -> str:
+    if context.is_busy:
+        return "The same tool pose can be held in many configurations. Looking for the best and the worst ..."
+    return "Same tool pose, two other configurations: if its worst joint locks, the green ghost loses least, the orange most."
+
+
+def _explain_comparison(context: GuideContext) -> str:
+    return (
+        f"The arm took the green configuration without moving the tool, and {context.worst} is locked again: "
+        f"{context.remaining} of the "
+        f"manipulability is left, where it was {context.remaining_before}."
+    )
+
+
+def _explain_motion(context: GuideContext) -> str:
+    if context.is_busy:
+        return "Two controllers that know nothing of the lock bring the tool to the second handle. Compiling and simulating ..."
+    return "Two controllers that know nothing of the lock, side by side. The line on top says where each of them ends."
+
+
+def _explain_next_steps(_: GuideContext) -> str:
+    return "Drag the handle, click joints, or drop the URDF file or DH table of your own arm on the page."
+
+
+TOUR_STEPS = (
+    TourStep("Which joint matters most", _explain_bars, (), "Next: lock it"),
+    TourStep("A joint locks", _explain_lock, (("fail", ("worst", "locked")),), "Next"),
+    TourStep(
+        "Optimise before it fails", _explain_optimisation, (("heal", None), ("best-worst", None)), "Next: compare", always=False
+    ),
+    TourStep("Compare", _explain_comparison, (("take0", None), ("fail", ("worst", "locked"))), "Next: move", always=False),
+    TourStep("Move without knowing", _explain_motion, (("target", None), ("laws", None)), "Next: your own arm"),
+    TourStep("Your turn", _explain_next_steps, (("clear", None), ("heal", None), ("home", None)), "Done"),
+)
+LOST_MANIPULABILITY = 1e-6  # of the manipulability: what is left of a direction that is lost
+
+
+class TourGuide:
+    """Progress of the tour in one window.
+
+    Args:
+        request_action: ``ask(what, value)`` does something in the window.
+        show_html: Is given the HTML of a step and the label of the button after it; an empty text ends the tour.
+    """
+
+    def __init__(self, request_action: Callable[[str, Any], None], show_html: Callable[[str, str], None]) -> None:
+        self._request_action, self._show_html = request_action, show_html
+        self._steps: tuple[TourStep, ...] = ()
+        self._step: int | None = None
+        self._worst, self._before, self._hopeless = 0, "", False
+
+    def begin_tour(self, reading: LiveReading) -> None:
+        """Show the first step, about the joint that is the worst one now; steps without an effect are left out."""
+        bars = reading.bars
+        self._hopeless = isinstance(bars, str) or bool(bars.values[bars.worst] < LOST_MANIPULABILITY)
+        self._worst = 0 if isinstance(bars, str) else bars.worst
+        self._steps = tuple(step for step in TOUR_STEPS if step.always or not self._hopeless)
+        self._go_to_step(0)
+
+    def show_next(self) -> None:
+        """Show the next step, or end the tour after the last one."""
+        if self._step is not None:
+            self._go_to_step(self._step + 1)
+
+    def end_tour(self) -> None:
+        """Hide the tour; its effects remain."""
+        self._step = None
+        self._show_html("", "")
+
+    def _go_to_step(self, step: int) -> None:
+        if step >= len(self._steps):
+            self.end_tour()
+            return
+        self._step = step
+        for action, value in self._steps[step].actions:
+            self._request_action(action, (self._worst, value[1]) if action == "fail" else value)
+
+    def show_step(self, reading: LiveReading, names: tuple[str, ...], busy: bool) -> None:
+        """Show the text of the present step for the displayed reading."""
+        if self._step is None:
+            return
+        remaining = format_percent(remaining_manipulability(reading.losses))
+        if self._step == 1:
+            self._before = remaining
+        step = self._steps[self._step]
+        text = step.text(GuideContext(names[self._worst], remaining, self._before, self._hopeless, busy))
+        heading = f"<b>{self._step + 1} of {len(self._steps)}: {step.title}</b><br>"
+        self._show_html(
+            f'<div class="hf-tour" data-tour="{self._step + 1}" role="status">{heading}{escape(text)}</div>', step.button_label
+        )

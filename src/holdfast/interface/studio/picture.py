@@ -1,0 +1,88 @@
+"""Drawing of a view: the arm from the side and from above, with its failures marked."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.stick_figure import choose_views
+from holdfast.interface.report.figures import (
+    GREEN,
+    INK,
+    ORANGE,
+    PURPLE,
+    SOFT,
+    WIDTH_IN,
+    format_label,
+    settle_layout,
+    style,
+    svg,
+)
+from holdfast.interface.studio.scene.machine import CompiledArm
+from holdfast.interface.studio.state import State
+
+
+def encode_png(picture: NDArray[np.uint8]) -> bytes:
+    """Encode a rendered picture (H, W, 4) as a PNG on white, because the scene has no background of its own."""
+    import imageio.v3 as images
+
+    alpha = picture[..., 3:].astype(np.float64) / 255
+    on_white = (picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
+    buffer = io.BytesIO()
+    images.imwrite(buffer, on_white, extension=".png")
+    return buffer.getvalue()
+
+
+def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArray] = ()) -> str:
+    """Draw a view as SVG text.
+
+    Args:
+        machine: The arm.
+        state: Its configuration, and what has failed.
+        ghosts: (n,) configurations of other arms in the picture, green and orange.
+    """
+    from matplotlib.figure import Figure
+
+    chains = machine.arm.frames(np.array([*ghosts, state.q]))[..., :3, 3]
+    views = choose_views(machine.arm, chains)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, WIDTH_IN / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH_IN))
+        for position, view in enumerate(views, 1):
+            axes = figure.add_subplot(1, len(views), position)
+            for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
+                axes.plot(*view.project(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
+            _draw_arm(axes, view.project(chains[-1]), state)
+            axes.set_aspect("equal", adjustable="datalim")
+            axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
+        figure.suptitle(format_label(_format_caption(state)), x=0.01, ha="left", fontsize=9.5)
+        settle_layout(figure)
+    return svg(figure, "studio", _format_caption(state))
+
+
+def _draw_arm(axes: Axes, chain: FloatArray, state: State) -> None:
+    axes.plot(*chain.T, color=INK, linewidth=2.6, solid_capstyle="round", zorder=3)
+    axes.plot(*chain[0], marker="s", color=INK, markersize=8, zorder=3.1)
+    axes.plot(*chain[-1], marker="D", color=SOFT, markersize=6, zorder=3.5)
+    for joint, (point, condition) in enumerate(zip(chain[1:-1], state.conditions, strict=True)):
+        color, marker = {"healthy": ("white", "o"), "locked": (ORANGE, "X"), "free": (PURPLE, "P")}[condition]
+        size = 6 if condition == "healthy" else 11
+        axes.plot(*point, marker=marker, color=color, markeredgecolor=INK, markersize=size, zorder=3.2 + 0.1 * (size > 6))
+        if condition != "healthy":
+            axes.annotate(
+                format_label(f"{state.names[joint]} {condition}"),
+                tuple(point),
+                (8, 6),
+                textcoords="offset points",
+                color=INK,
+                zorder=4,
+            )
+
+
+def _format_caption(state: State) -> str:
+    failed = ", ".join(f"{state.names[k]} {state.conditions[k]}" for k in state.failed_joints)
+    return f"{state.arm}: {failed or 'all joints healthy'}"

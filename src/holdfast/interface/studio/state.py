@@ -1,0 +1,127 @@
+"""State of a studio window as one value that can be written as a command line."""
+
+from __future__ import annotations
+
+import shlex
+from dataclasses import KW_ONLY, dataclass, replace
+from typing import Literal
+
+from holdfast.core.errors import InputError
+
+Condition = Literal["healthy", "locked", "free"]
+Show = Literal["arm", "best-worst", "laws", "swing", "region", "file", "watch"]
+JOINT_CONDITIONS: tuple[Condition, ...] = ("healthy", "locked", "free")
+DISPLAY_MODES: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file", "watch")
+
+
+@dataclass(frozen=True)
+class State:
+    """View of the studio, without its camera position.
+
+    Attributes:
+        arm: The arm as given on the command line: a built-in name or a file.
+        names: (n,) names of its joints.
+        q: (n,) configuration, rad and m.
+        task: Rows of the pose that matter, as on the command line.
+        base, tip: Links of the file, if chosen.
+        hold: Joints of the file that are held, and where, rad or m.
+        conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
+        index: The index of the bars.
+        susceptibility: The susceptibility of the bars.
+        objective: What best and worst configurations are chosen by: an index or a susceptibility, by name.
+        laws: Two control laws side by side, as ``slug`` or ``slug:setting``.
+        target: Where they should bring the end effector: x, y, z (m) and quaternion x, y, z, w; None: not chosen.
+        show: What is shown beside the arm: nothing else (``arm``), ghosts in the ``best-worst`` configuration of this pose, a
+            motion under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
+        file: A motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
+        region: A results folder of ``assess``, or None: then a region around the end effector.
+        time: Where a motion is shown, s (or whatever its first column counts).
+        cell: A cell file, or None: no objects.
+        meshes: A folder in which meshes that the arm's file names are looked for first, or None.
+        fault: What is injected and watched: its kind, the joint and when, s. No joint: the middle one. It is not in the
+            command line.
+        moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
+    """
+
+    arm: str
+    names: tuple[str, ...]
+    q: tuple[float, ...]
+    _: KW_ONLY
+    task: str = "pose"
+    base: str | None = None
+    tip: str | None = None
+    hold: tuple[tuple[str, float], ...] = ()
+    conditions: tuple[Condition, ...] = ()
+    index: str = "relative-manipulability"
+    susceptibility: str = "torque"
+    objective: str = "relative-manipulability"
+    laws: tuple[str, str] = ("pseudoinverse", "failure-tolerant")
+    target: tuple[float, ...] | None = None
+    show: Show = "arm"
+    file: str | None = None
+    region: str | None = None
+    time: float = 0.0
+    cell: str | None = None
+    meshes: str | None = None
+    moved: tuple[tuple[str, tuple[float, ...]], ...] = ()
+    fault: tuple[str, str, float] = ("locked", "", 1.0)
+
+    def __post_init__(self) -> None:
+        n = len(self.names)
+        if len(self.q) != n:
+            raise InputError(f"q has {len(self.q)} values; '{self.arm}' has {n} joints, so it must have {n}")
+        conditions = self.conditions or ("healthy",) * n
+        if len(conditions) != n or any(condition not in JOINT_CONDITIONS for condition in conditions):
+            raise InputError(
+                f"conditions are {conditions}; give one of {', '.join(JOINT_CONDITIONS)} for each of the {n} joints"
+            )
+        if self.show not in DISPLAY_MODES:
+            raise InputError(f"show is '{self.show}'; use one of {', '.join(DISPLAY_MODES)}")
+        if self.target is not None and len(self.target) != 7:
+            raise InputError(f"target has {len(self.target)} numbers; it needs x,y,z in m and the quaternion x,y,z,w")
+        object.__setattr__(self, "conditions", tuple(conditions))
+        kind, joint, onset = self.fault
+        object.__setattr__(self, "fault", (kind, joint or self.names[n // 2], onset))
+
+    @property
+    def failed_joints(self) -> tuple[int, ...]:
+        """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes catch them."""
+        return tuple(k for k, c in enumerate(self.conditions) if c != "healthy")
+
+    @property
+    def free(self) -> tuple[int, ...]:
+        """Indices from 0 of the joints that swing freely."""
+        return tuple(k for k, c in enumerate(self.conditions) if c == "free")
+
+    def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
+        """Return the same view with an object of the cell in another pose."""
+        return replace(self, moved=(*(entry for entry in self.moved if entry[0] != name), (name, numbers)))
+
+    def arguments(self) -> list[str]:
+        """Return the arguments of ``holdfast`` that restore this state: q and the differences from the defaults."""
+        defaults = State(self.arm, self.names, self.q)
+        options = ["studio", self.arm, f"--q={','.join(repr(float(number)) for number in self.q)}", f"--task={self.task}"]
+        for option, value in (("base", self.base), ("tip", self.tip)):
+            options += [] if value is None else [f"--{option}={value}"]
+        options += [f"--hold={name}={value!r}" for name, value in self.hold]
+        for name, condition in zip(self.names, self.conditions, strict=True):
+            options += [] if condition == "healthy" else [f"--{'lock' if condition == 'locked' else 'free'}={name}"]
+        for option in ("index", "susceptibility", "objective", "show"):
+            value = getattr(self, option)
+            value = defaults.show if value == "watch" else value
+            options += [] if value == getattr(defaults, option) else [f"--{option}={value}"]
+        if self.laws != defaults.laws:
+            options += [f"--law={law}" for law in self.laws]
+        if self.target is not None:
+            options.append(f"--target={','.join(repr(float(number)) for number in self.target)}")
+        for option in ("file", "region", "cell", "meshes"):
+            text = getattr(self, option)
+            options += [] if text is None else [f"--{option}={text}"]
+        options += [f"--move={name}={','.join(repr(float(number)) for number in numbers)}" for name, numbers in self.moved]
+        if self.time:
+            options.append(f"--time={self.time!r}")
+        return options
+
+    def to_command(self) -> str:
+        """Return the command line that restores this state."""
+        return f"holdfast {shlex.join(self.arguments())}"

@@ -1,5 +1,0 @@
-"""Constraints on the tool's pose along a whole motion: an upright tray, a drawer's rail, a plane."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,0 +1,90 @@
+"""Cache kernels and texts on disk, so that a second start need not build their expressions."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from collections.abc import Callable
+from functools import wraps
+from typing import TypeVar, cast
+
+from holdfast.core.typing import P, T
+from holdfast.kernels import cache
+from holdfast.kernels.input_digest import fingerprint
+from holdfast.kernels.kernel import Kernel, default_backend
+from holdfast.kernels.loop import Loop
+from holdfast.kernels.program import Program
+
+K = TypeVar("K", Kernel, Loop)
+
+_making: dict[str, threading.RLock] = {}  # by recipe: what a build needs in turn is of another recipe
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_making.clear)  # a child process has none of the threads that hold them
+
+
+def cached_kernel(build: Callable[P, K]) -> Callable[P, K]:
+    """Wrap a function or method that builds a kernel or a loop, so that it is called only where its result is not cached.
+
+    What it builds may depend on nothing but its arguments and the sources of holdfast. Where an argument has no digest
+    (``holdfast.kernels.input_digest``), and outside of holdfast, whose sources count, it is called as ever.
+    """
+
+    @wraps(build)
+    def build_or_load(*args: P.args, **kwargs: P.kwargs) -> K:
+        recipe = _digest_of_call(build, args, kwargs) if default_backend() != "casadi" else None
+        if recipe is None:
+            return build(*args, **kwargs)
+        entry = cache.cache_key(recipe, "facts")
+        with _making.setdefault(recipe, threading.RLock()):  # threads that need it at once: one builds, the others find it
+            facts = cache.load_entry(entry)
+            if facts is None:
+                kernel = build(*args, **kwargs)
+                cache.store_entry(entry, _write_facts(kernel))
+                _kernel_of(kernel).program.recipe = recipe
+                return kernel
+            return cast(K, _read_facts(facts, recipe, lambda: _kernel_of(build(*args, **kwargs)).program))
+
+    return build_or_load
+
+
+def cached_json(build: Callable[P, T]) -> Callable[P, T]:
+    """Wrap a function that returns JSON data (a text, a number, or a dictionary of texts), cached as by
+    :func:`cached_kernel`.
+    """
+
+    @wraps(build)
+    def build_or_load(*args: P.args, **kwargs: P.kwargs) -> T:
+        recipe = _digest_of_call(build, args, kwargs)
+        if recipe is None:
+            return build(*args, **kwargs)
+        data = cache.load_entry(recipe)
+        if data is None:
+            content = build(*args, **kwargs)
+            cache.store_entry(recipe, json.dumps(content).encode())
+            return content
+        return cast(T, json.loads(data))
+
+    return build_or_load
+
+
+def _digest_of_call(build: Callable[..., object], args: object, kwargs: object) -> str | None:
+    is_own = build.__module__.partition(".")[0] == "holdfast"
+    return fingerprint(build.__module__, build.__qualname__, args, kwargs) if is_own else None
+
+
+def _kernel_of(built: Kernel | Loop) -> Kernel:
+    return built.step if isinstance(built, Loop) else built
+
+
+def _write_facts(built: Kernel | Loop) -> bytes:
+    loop = [built.ahead, built.times] if isinstance(built, Loop) else None
+    return json.dumps([loop, *_kernel_of(built).program.facts()]).encode()
+
+
+def _read_facts(facts: bytes, recipe: str, build: Callable[[], Program]) -> Kernel | Loop:
+    loop, *program_facts = json.loads(facts)
+    program = Program.from_facts(program_facts, build)
+    program.recipe = recipe
+    kernel = Kernel.from_program(program)
+    return kernel if loop is None else Loop.from_step(kernel, *loop)

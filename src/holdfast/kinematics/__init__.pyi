@@ -1,0 +1,9 @@
+from holdfast.kinematics import index_bounds as index_bounds
+from holdfast.kinematics import indices as indices
+from holdfast.kinematics import interval_search as interval_search
+from holdfast.kinematics import path_following as path_following
+from holdfast.kinematics import paths as paths
+from holdfast.kinematics import regions as regions
+from holdfast.kinematics import solvers as solvers
+from holdfast.kinematics import tool_constraints as tool_constraints
+from holdfast.kinematics import workspace as workspace

@@ -1,0 +1,185 @@
+"""Upper bounds of the least singular value after joints lock; it has a unit, so the lengths of the columns count."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, isfinite, sqrt
+from typing import Protocol
+
+import numpy as np
+
+from holdfast.core.errors import InputError
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.index_bounds.frames import equal_row_frame
+from holdfast.kinematics.index_bounds.manipulability_bounds import (
+    ArmSize,
+    FailureProblem,
+    TaskSize,
+    count_rows,
+    failure_phrase,
+    simultaneous_failures,
+    upper_bound,
+)
+
+BOUND_REASONS = {
+    "S0": "the mean over all sets of joints",
+    "S1": "one failure: isotropy and columns of one length",
+    "S2": "every two failures: blocks of two rows",
+    "S3": "the three angular rows, whatever the lengths",
+}
+_POSE_ROWS = 6
+
+
+class JointGeometry(Protocol):
+    """Joint of an arm."""
+
+    @property
+    def origin(self) -> FloatArray:
+        """Pose (4, 4) in the frame of the joint before, m."""
+
+    @property
+    def prismatic(self) -> bool:
+        """True for a prismatic joint."""
+
+    @property
+    def lower(self) -> float:
+        """Limit, rad or m."""
+
+    @property
+    def upper(self) -> float:
+        """Limit, rad or m."""
+
+
+class JointedArm(ArmSize, Protocol):
+    """Arm whose geometry bounds the levers, such as an index's arm."""
+
+    @property
+    def joints(self) -> Sequence[JointGeometry]:
+        """In order."""
+
+    @property
+    def tool(self) -> FloatArray:
+        """(4, 4) of the tool in the last joint's frame, m."""
+
+
+class TaskGeometry(TaskSize, Protocol):
+    """Task whose rows determine the unit, such as an index's task."""
+
+    @property
+    def rows(self) -> FloatArray:
+        """(m, 6) linear columns first."""
+
+    @property
+    def length(self) -> float:
+        """Characteristic length, m."""
+
+
+class SingularValueProblem(FailureProblem, Protocol):
+    """Arm, task, and failures for which an upper bound of the least singular value is requested, such as an index."""
+
+    @property
+    def arm(self) -> JointedArm:
+        """Its arm."""
+
+    @property
+    def task(self) -> TaskGeometry:
+        """Its task."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SingularValueBound(Result):
+    """Upper bound of the worst-case least singular value of n columns in m rows.
+
+    Attributes:
+        n, m, k: Joints, rows of the task, joints that lock at once.
+        lever: Root mean square, over the joints, of how far the tool point is from their axes at most: m, or characteristic
+            lengths where rows are mixed; infinite if it may be anything.
+        angular: True where angular rows are among the rows: three linear and three angular ones of a pose, for example.
+        bound: No Jacobian has more, in the unit of ``lever``.
+        bound_by: S0 to S3 of ``docs/ceilings.md``.
+    """
+
+    n: int
+    m: int
+    k: int
+    lever: float
+    angular: bool
+    bound: float
+    bound_by: str
+
+    @property
+    def jacobian(self) -> FloatArray | None:
+        """(m, n) that attains the bound: where one joint locks, rows of one unit; None where none is known."""
+        if self.angular or self.k > 1:
+            return None
+        return sqrt(self.n / self.m) * self.lever * equal_row_frame(self.n, self.m).T
+
+    def describe(self) -> list[str]:
+        """The bound, why, and what it supposes."""
+        unit = " in characteristic lengths" if self.angular else ""
+        lengths = "any lengths" if self.lever == inf else f"mean lever of the joints {self.lever:.4g}{unit or ' m'}"
+        reason = f"{self.bound_by}, {BOUND_REASONS[self.bound_by]}{', attained' if self.jacobian is not None else ''}"
+        return [
+            f"{self.n} joints, a task of {count_rows(self.m)}, {lengths}: when {failure_phrase(self.k)}, no least "
+            f"singular value is above "
+            f"{self.bound:.6g} ({reason})"
+        ]
+
+
+def bound_singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angular: bool = False) -> SingularValueBound:
+    """Return the upper bound of the least singular value that remains after the worst k of n joints lock.
+
+    Args:
+        n: Joints.
+        m: Rows of the task.
+        k: Every set of k joints may lock.
+        lever: How far the tool point is from the joints' axes at most, such as the reach of the arm, m; with angular rows in
+            characteristic lengths. The root mean square over the joints will do. Infinite for a pose: any lengths.
+        angular: Angular rows are among the rows, so that columns are longer by their unit.
+
+    Raises:
+        InputError: As :func:`upper_bound`; a lever that is not positive, or infinite where the task is no pose.
+
+    Source: derived here (``docs/ceilings.md``, S0 to S3).
+    """
+    upper_bound(n=n, m=m, k=k)  # the same sizes have one
+    is_pose = angular and m == _POSE_ROWS
+    if not lever > 0 or not (is_pose or isfinite(lever)):
+        raise InputError(f"the lever is {lever:g}; give a positive length in m, infinite for a pose alone")
+    square = lever**2 + angular
+    bounds = {"S0": square * (n - k) / m}
+    if k == 1:
+        bounds["S1"] = square * (n - m) / m
+    else:
+        trace = n * (n - 1) / (n - 1 + sqrt((n - 1) * (n / m - 1)))
+        bounds["S2"] = square * (n / m) * (1 - m / trace)
+    if is_pose:
+        bounds["S3"] = n * (n - 6) / (3 * (n - 3))
+    theorem = min(bounds, key=lambda name: bounds[name])
+    return SingularValueBound(n=n, m=m, k=k, lever=lever, angular=angular, bound=sqrt(bounds[theorem]), bound_by=theorem)
+
+
+def bound_singular_value_of_index(index: SingularValueProblem) -> SingularValueBound | None:
+    """Return the upper bound for the arm, the task, and the failures of an index; the lengths of the links bound the levers.
+
+    Args:
+        index: Of the least singular value, :func:`holdfast.kinematics.indices.minimum_singular_value`.
+
+    Returns:
+        SingularValueCeiling, or None: Not every set of so many joints is among the failures, or a prismatic joint has no limit.
+
+    Source: derived here.
+    """
+    k, arm, rows = simultaneous_failures(index), index.arm, index.task.rows
+    lever, square = float(np.linalg.norm(arm.tool[:3, 3])), 0.0
+    for joint in reversed(arm.joints):
+        travel = max(abs(joint.lower), abs(joint.upper)) if joint.prismatic else 0.0
+        square += 1.0 if joint.prismatic else lever**2
+        lever += float(np.linalg.norm(joint.origin[:3, 3])) + travel
+    if k is None or not isfinite(square):
+        return None
+    mean = sqrt(square / arm.n) / index.task.length if abs(rows[:, :3]).max() > 0 else 1.0
+    has_both_units = abs(rows[:, :3]).max() > 0 and abs(rows[:, 3:]).max() > 0
+    return bound_singular_value(n=arm.n, m=index.task.m, k=k, lever=mean, angular=bool(has_both_units))

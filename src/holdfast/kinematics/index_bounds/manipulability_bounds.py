@@ -1,0 +1,305 @@
+"""Upper bounds of relative manipulability after k failures, and the best values known to be attainable."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from math import comb
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_percent
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.index_bounds.closed_forms import CLOSED_FORMS
+from holdfast.kinematics.index_bounds.frames import known_null_space, orthogonal_complement
+from holdfast.kinematics.index_bounds.minor_programmes import bounds_by_arrangement
+from holdfast.kinematics.index_bounds.minors import measure_orthonormality_error, worst_relative_manipulability
+from holdfast.kinematics.index_bounds.pair_kernels import stored_certificates
+from holdfast.kinematics.index_bounds.theorems import (
+    ARRANGEMENT_BOUNDS,
+    PAIR_BOUNDS,
+    THEOREM_TEXTS,
+    ProvedBound,
+    best_proved_bound,
+)
+
+_ATTAINED_TOLERANCE = 1e-9  # relative: the bounds by programmes are rounded up in the last digits
+_ORTHONORMAL_TOLERANCE = 1e-12
+_MAX_JOINTS = 200  # joints
+
+
+class TaskSize(Protocol):
+    """Task with a number of rows, such as an index's task."""
+
+    @property
+    def m(self) -> int:
+        """Rows."""
+
+
+class ArmSize(Protocol):
+    """Arm with a number of joints, such as an index's arm."""
+
+    @property
+    def n(self) -> int:
+        """Joints."""
+
+
+class FailureProblem(Protocol):
+    """Arm, task, and failures for which an upper bound is requested, such as an index."""
+
+    @property
+    def arm(self) -> ArmSize:
+        """Its arm."""
+
+    @property
+    def task(self) -> TaskSize:
+        """Its task."""
+
+    @property
+    def failures(self) -> tuple[tuple[int, ...], ...]:
+        """Sets of joints that fail together."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class UpperBound(Result):
+    """Upper bound of relative manipulability after the worst k failures of n joints under a task of m rows.
+
+    Attributes:
+        n, m, k: Joints, rows of the task, joints that fail at once.
+        bound: No configuration of any arm has more.
+        bound_by: The theorems that prove it, names of ``docs/ceilings.md``.
+    """
+
+    n: int
+    m: int
+    k: int
+    bound: float
+    bound_by: str
+
+    @cached_property
+    def null_space(self) -> FloatArray | None:
+        """(n, n - m) orthonormal columns, the best null space known; None where nothing is stored and no theorem gives one."""
+        return _best_null_space(self.n, self.m, self.k)
+
+    @cached_property
+    def best_known(self) -> float | None:
+        """Largest value that a known Jacobian attains, the worst case of :attr:`null_space`; None where nothing is known."""
+        if self.null_space is None:
+            return None
+        return min(
+            worst_relative_manipulability(self.null_space, self.k), self.bound
+        )  # which it passes by rounding where it attains it
+
+    @property
+    def is_attained(self) -> bool:
+        """True where some Jacobian reaches the bound (relative 1e-9): then it is the ceiling itself."""
+        return self.best_known is not None and self.best_known >= self.bound * (1 - _ATTAINED_TOLERANCE)
+
+    @property
+    def closed_form(self) -> str:
+        """Best known value in roots, where recognised; it is identified by its digits unless a theorem T proves it."""
+        own, complementary = ((self.n, *pair) for pair in ((self.m, self.k), (self.k, self.m)))
+        return CLOSED_FORMS.get(own) or (CLOSED_FORMS.get(complementary, "") if self.k == self.n - self.m else "")
+
+    @property
+    def gap(self) -> float | None:
+        """Fraction by which the bound is above the best known value; 0 where it is attained."""
+        return None if self.best_known is None else 0.0 if self.is_attained else self.bound / self.best_known - 1
+
+    @property
+    def gap_phrase(self) -> str:
+        """Phrase with the distance between the best known value and the bound; empty where the bound is attained."""
+        if self.is_attained:
+            return ""
+        if self.best_known is None:
+            return "an upper bound; whether it is attained is not known"
+        return f"an upper bound; the best known is {self.best_known:.4f}"
+
+    def compare_value(self, value: float) -> str:
+        """Return a value in relation to the bound, as ``69 % of the best known 0.2474; no arm can beat 0.2582``."""
+        if self.is_attained or self.best_known is None:
+            return f"{format_percent(value / self.bound)} of {self.bound:.4g}, which no arm can beat"
+        return (
+            f"{format_percent(value / self.best_known)} of the best known {self.best_known:.4g}; no arm can beat "
+            f"{self.bound:.4g}"
+        )
+
+    def describe(self) -> list[str]:
+        """Return the proved bound and the best known value in sentences."""
+        head = f"{self.n} joints, a task of {count_rows(self.m)}: when {failure_phrase(self.k)}"
+        proof = " and ".join(
+            f"{name}, {THEOREM_TEXTS[name]}" for name in self.bound_by.replace(" with ", " and ").split(" and ")
+        )
+        if self.is_attained:
+            return [f"{head}, the ceiling is {self.bound:.10g}: proven, and attained ({proof})"]
+        lines = [f"{head}, no arm keeps more than {self.bound:.6g} of its manipulability ({proof})"]
+        if self.best_known is None:
+            lines.append("what can be attained is not stored for this size: search for it")
+        else:
+            form = f" = {self.closed_form}" if self.closed_form else ""
+            above = format_percent(self.gap or 0.0)
+            lines.append(f"the best that is known is {self.best_known:.10g}{form}; the bound is {above} above it")
+        return lines
+
+    def verify(self, *, proof: bool = False) -> UpperBound:
+        """Recompute the value of the stored null space by singular values and compare it with the bound; return the object
+        itself.
+
+        Args:
+            proof: Also replay the certificates that the bound rests on, of R3 in integers and of R4 in ball arithmetic:
+                seconds, minutes for nine joints by R4.
+
+        Raises:
+            InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong; or the
+                certificates prove less than what is said.
+            ValueError: A certificate proves nothing.
+            ImportError: The proof by R4 needs python-flint (``pip install "holdfast-arms[certify]"``).
+        """
+        for theorem, n, p in best_proved_bound(self.n, self.m, self.k).replayed if proof else ():
+            stored_bound = ARRANGEMENT_BOUNDS[n] if theorem == "R4" else PAIR_BOUNDS[n, n - p]
+            replayed_bound = (
+                max(bounds_by_arrangement(n)) if theorem == "R4" else stored_certificates()[n, n - p].proved_bound()
+            )
+            if replayed_bound > stored_bound:
+                raise InputError(
+                    f"the certificates of {theorem} for {n} joints prove {replayed_bound:.12g} and not {stored_bound:.12g}"
+                )
+        if self.null_space is None:
+            return self
+        orthonormality_error, value = (
+            measure_orthonormality_error(self.null_space),
+            worst_relative_manipulability(self.null_space, self.k),
+        )
+        if orthonormality_error > _ORTHONORMAL_TOLERANCE:
+            raise InputError(
+                f"the null space of {self.n},{self.m},{self.k} is not orthonormal: N'N - I is {orthonormality_error:.1e}"
+            )
+        if value > self.bound * (1 + 1e-12):
+            raise InputError(f"{value:.12g} beats the proven bound {self.bound:.12g}: one of both is wrong")
+        return self
+
+
+def upper_bound(*, n: int, m: int, k: int = 1) -> UpperBound:
+    """The ceiling for n joints, a task of m rows and k joints that fail at once.
+
+    Args:
+        n: Joints, revolute or prismatic.
+        m: Rows of the task.
+        k: Every set of k joints may lock.
+
+    Raises:
+        InputError: Not whole numbers, no redundancy, or fewer joints left than the task has rows.
+    """
+    for name, value in (("n", n), ("m", m), ("k", k)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+            raise InputError(f"{name} is {value!r}; it must be a whole number")
+    if m < 1:
+        raise InputError(f"m is {m}; a task has at least 1 row")
+    if n > _MAX_JOINTS:
+        raise InputError(f"{n} joints are more than the {_MAX_JOINTS} that ceilings are computed for")
+    if n <= m:
+        raise InputError(f"{n} joints for {count_rows(m)} of the task: there is no redundancy, nothing can be lost")
+    if k < 1:
+        raise InputError(f"k is {k}; at least one joint must fail")
+    if k > n - m:
+        raise InputError(
+            f"after {k} failures the task has {n - k} joints for {count_rows(m)}: the ceiling is 0; give k of at most {n - m}"
+        )
+    bound: ProvedBound = best_proved_bound(int(n), int(m), int(k))
+    return UpperBound(n=int(n), m=int(m), k=int(k), bound=bound.value, bound_by=bound.by)
+
+
+def bound_of_index(index: FailureProblem) -> UpperBound | None:
+    """Return the upper bound for the arm, the task, and the failures of an index of relative manipulability.
+
+    Of failures of several sizes the largest counts: what locks besides only takes more.
+
+    Returns:
+        Ceiling, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
+    """
+    k = simultaneous_failures(index)
+    return None if k is None else upper_bound(n=index.arm.n, m=index.task.m, k=k)
+
+
+def simultaneous_failures(index: FailureProblem) -> int | None:
+    """Return the largest number of joints for which every set is among the failures; None if the largest sets are
+    incomplete.
+    """
+    k = max(map(len, index.failures))
+    return None if sum(len(s) == k for s in index.failures) < comb(index.arm.n, k) or index.arm.n > _MAX_JOINTS else k
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class UpperBoundTable(Result):
+    """The stored ceilings.
+
+    Attributes:
+        ceilings: By rows, failures and joints.
+    """
+
+    ceilings: list[UpperBound]
+
+    def describe(self) -> list[str]:
+        """Return the number of stored bounds in a sentence."""
+        reached = sum(bound.is_attained for bound in self.ceilings)
+        return [
+            f"{len(self.ceilings)} sizes; of {reached} the ceiling is known, of the others the best known is below the bound"
+        ]
+
+
+def bound_table(m: int | None = None) -> UpperBoundTable:
+    """Return the stored upper bounds of two and three failures: up to ten joints, tasks of two to six rows.
+
+    Args:
+        m: Those of tasks of m rows alone.
+
+    Raises:
+        InputError: Nothing is stored for tasks of m rows.
+    """
+    bounds = [upper_bound(n=n, m=rows, k=k) for n, rows, k in _read_null_spaces() if m in (None, rows)]
+    if not bounds:
+        raise InputError(f"nothing is stored for tasks of {m} rows; stored are those of 2 to 6")
+    return UpperBoundTable(ceilings=bounds)
+
+
+@cache
+def _read_null_spaces() -> dict[tuple[int, int, int], list[list[float]]]:
+    text = (Path(__file__).parent / "null_spaces.json").read_text(encoding="utf-8")
+    null_spaces: dict[tuple[int, int, int], list[list[float]]] = {}
+    for key, rows in json.loads(text).items():
+        n, m, k = map(int, key.split(","))
+        null_spaces[n, m, k] = rows
+    return dict(sorted(null_spaces.items(), key=lambda item: (item[0][1], item[0][2], item[0][0])))
+
+
+def _best_null_space(n: int, m: int, k: int) -> FloatArray | None:
+    """Find the best null space known, by theorem T3 also the complement of the one for n - m rows and m failures."""
+    candidates = [_own_null_space(n, m, k)]
+    if k == n - m:
+        complement_space = _own_null_space(n, k, m)
+        candidates.append(None if complement_space is None else orthogonal_complement(complement_space))
+    return max((x for x in candidates if x is not None), key=lambda x: worst_relative_manipulability(x, k), default=None)
+
+
+def _own_null_space(n: int, m: int, k: int) -> FloatArray | None:
+    known_space = known_null_space(n, m, k)
+    if known_space is not None:
+        return known_space
+    rows = _read_null_spaces().get((n, m, k))
+    return None if rows is None else np.array(rows)
+
+
+def failure_phrase(k: int) -> str:
+    """Return ``any one joint locks``, or the phrase for several joints."""
+    return "any one joint locks" if k == 1 else f"any {k} joints lock at once"
+
+
+def count_rows(m: int) -> str:
+    """Return the number of rows of a task in words."""
+    return "1 row" if m == 1 else f"{m} rows"

@@ -1,0 +1,71 @@
+"""Relative manipulability as a fraction of the best attainable value, so that failures of several sizes can be compared."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import comb
+
+from holdfast.core.registry import constructor
+from holdfast.kernels.linalg import HouseholderQR
+from holdfast.kernels.program import SX
+from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
+from holdfast.kinematics.indices.determinants import RelativeManipulability
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
+from holdfast.model.failure_modes import FailureSpec
+
+_ATTAINED_TOLERANCE = 1e-9  # relative
+
+
+class CeilingFraction(RelativeManipulability):
+    r"""Smallest relative manipulability after any failure, as a fraction of the best value known for the number of locked
+    joints.
+
+    :math:`\min_S \rho_S / c(n, m, |S|)` with the best known :math:`c` (:func:`holdfast.kinematics.index_bounds.upper_bound`),
+    or the least proven bound where nothing is known. One number for failures of one, two and three joints at once.
+
+    Source: derived here.
+    """
+
+    source = "derived here"
+
+    def __init__(
+        self,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        *,
+        length: float | None = None,
+    ) -> None:
+        super().__init__(arm, task, failures, length=length)
+        self.name = "ceiling fraction"
+        self.ceiling, self.bound, self.bound_note = None, None, ""
+        ceilings = {count: upper_bound(n=arm.n, m=self.task.m, k=count) for count in {len(s) for s in self.failures}}
+        self._attainable = {count: bound.best_known or bound.bound for count, bound in ceilings.items()}
+        complete = [count for count in ceilings if sum(len(s) == count for s in self.failures) == comb(arm.n, count)]
+        if complete:
+            self.bound = min(ceilings[count].bound / self._attainable[count] for count in complete)
+            self.bound_note = "" if self.bound <= 1 + _ATTAINED_TOLERANCE else "an upper bound; the best known is 1"
+
+    def _squared_ratios(self, qr: HouseholderQR) -> list[SX]:
+        squares = super()._squared_ratios(qr)
+        return [square / self._attainable[len(s)] ** 2 for square, s in zip(squares, self.failures, strict=True)]
+
+    def _combine_derivative(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        return super()._combine_derivative(qr, rho, a, p) / self._attainable[1]
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """Squares of the fractions and their derivatives; see :meth:`Index.scores`."""
+        values, derivatives = super().scores(q, j, qr, directions)
+        if any(len(s) != 1 for s in self.failures):
+            return values, derivatives  # of _squares
+        factor = self._attainable[1] ** -2
+        return [factor * x for x in values], [[factor * x for x in row] for row in derivatives]
+
+
+@constructor(formula="min<sub>S</sub> ρ<sub>S</sub> / c(n, m, |S|)", properties=("base-free",))
+def ceiling_fraction(
+    arm: Arm, task: str | Task | Sequence[str] = "pose", failures: FailureSpec = "single", *, length: float | None = None
+) -> CeilingFraction:
+    """Relative manipulability of the best known for so many joints that lock, the least over all failures; derived here."""
+    return CeilingFraction(arm, task, failures, length=length)

@@ -1,0 +1,9 @@
+from holdfast.kinematics.indices.susceptibility.formulas import SusceptibilityFormula as SusceptibilityFormula
+from holdfast.kinematics.indices.susceptibility.measure import Susceptibility as Susceptibility
+from holdfast.kinematics.indices.susceptibility.measure import SusceptibilityBatch as SusceptibilityBatch
+from holdfast.kinematics.indices.susceptibility.measure import SusceptibilityEvaluation as SusceptibilityEvaluation
+from holdfast.kinematics.indices.susceptibility.measure import acceleration as acceleration
+from holdfast.kinematics.indices.susceptibility.measure import by_name as by_name
+from holdfast.kinematics.indices.susceptibility.measure import swing_angle as swing_angle
+from holdfast.kinematics.indices.susceptibility.measure import torque as torque
+from holdfast.kinematics.indices.susceptibility.weights import largest_static_torque as largest_static_torque

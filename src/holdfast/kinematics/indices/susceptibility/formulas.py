@@ -1,0 +1,189 @@
+"""Symbolic formulas of the three measures of every joint and of their derivatives (English and Maciejewski 1998).
+
+A formula takes the arm and q and returns what each joint's failure brings (n,) and which joints are degenerate (n,): 1
+where the measure has no meaning there and is 0 by convention.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass
+
+import casadi as ca
+import numpy as np
+
+from holdfast.core.errors import ArmError
+from holdfast.kernels.program import SX
+from holdfast.model.arm import statics
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.soundness import require_masses, require_possible_inertia
+from holdfast.model.arm.statics import CompositeBodies
+
+DEGENERATE_RATIO = 1e-9
+"""A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small against the arm."""
+
+
+@dataclass(frozen=True)
+class SusceptibilityFormula:
+    """Measure of a susceptibility: its symbols, its derivatives as the paper prints them, and its descriptions.
+
+    Attributes:
+        name: For people.
+        source: Paper and equations.
+        turning, sliding: Unit of the measure of a revolute and of a prismatic joint.
+        slides: Defined for prismatic joints too.
+        check: Raises ArmError for an arm that has no such measure.
+        values: ``(arm, q) -> f (n,), degenerate (n,)``.
+        jacobian: ``(arm, q) -> Df (n, n)`` by the paper's formulas, for configurations without a degenerate joint.
+    """
+
+    name: str
+    source: str
+    turning: str
+    _: KW_ONLY
+    sliding: str
+    slides: bool
+    check: Callable[[Arm], None]
+    values: Callable[[Arm, SX], tuple[SX, SX]]
+    jacobian: Callable[[Arm, SX], SX]
+
+
+# ---- torque --------------------------------------------------------------------------------------------------------
+
+
+def _torque_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+    """Return the holding torques and their status; eq. (7), (8), (12)."""
+    return statics.gravity_torques(arm, statics.composite_bodies(arm, q)), ca.DM.zeros(arm.n)
+
+
+def _torque_derivative(arm: Arm, w: CompositeBodies, i: int, j: int) -> SX:
+    """``d tau_i / d q_j``; eq. (11), (13)."""
+    z, s, g = w.axes[i], w.moments[i], w.gravity[i]
+    dz = statics.axis_derivative(arm, w, i, j)
+    if arm.joints[i].prismatic:
+        return w.masses[i] * ca.dot(dz, g)
+    ds = statics.moment_derivative(arm, w, i, j)
+    return ca.dot(dz, ca.cross(s, g)) + ca.dot(z, ca.cross(ds, g))
+
+
+def _torque_jacobian(arm: Arm, q: SX) -> SX:
+    w = statics.express_in_world(statics.composite_bodies(arm, q))
+    return _symbolic_matrix(arm.n, lambda i, j: _torque_derivative(arm, w, i, j))
+
+
+# ---- acceleration --------------------------------------------------------------------------------------------------
+
+
+def _require_inertia(arm: Arm) -> None:
+    require_possible_inertia(arm)
+    mass = sum(body.mass for body in statics.links_with_payload(arm))
+    for joint, body in zip(arm.joints, statics.links_with_payload(arm), strict=True):
+        if mass <= 0 and joint.armature == 0:
+            raise ArmError(
+                f"arm '{arm.name}': nothing behind joint '{joint.name}' has mass, so its acceleration after a failure is not "
+                "defined; give the links after it their masses, or the joint an armature"
+            )
+        mass -= body.mass
+
+
+def _acceleration_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+    """Return the accelerations, eq. (22); NaN for a revolute joint on whose axis all the carried mass lies."""
+    c = statics.composite_bodies(arm, q)
+    tau, m = statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
+    length = statics.length_scale(arm)
+    for i, joint in enumerate(arm.joints):
+        if not joint.prismatic:
+            m[i] = ca.if_else(m[i] <= DEGENERATE_RATIO * c.masses[i] * length**2, np.nan, m[i])
+    return -tau / m, ca.DM.zeros(arm.n)
+
+
+def _acceleration_jacobian(arm: Arm, q: SX) -> SX:
+    """Eq. (24)."""
+    c = statics.composite_bodies(arm, q)
+    w, tau, m = statics.express_in_world(c), statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
+
+    def entry(i: int, j: int) -> SX:
+        rise = m[i] * _torque_derivative(arm, w, i, j) - tau[i] * statics.inertia_derivative(arm, w, i, j)
+        return -rise / (m[i] * m[i])
+
+    return _symbolic_matrix(arm.n, entry)
+
+
+# ---- swing angle ---------------------------------------------------------------------------------------------------
+
+
+def _swing_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+    """Return the swing angles; eq. (36)-(39), (42), (43)."""
+    c = statics.composite_bodies(arm, q)
+    length, weight = statics.length_scale(arm), float(np.linalg.norm(arm.gravity))
+    angles, flags = [], []
+    for i, joint in enumerate(arm.joints):
+        z, s, g = c.axes[i], c.moments[i], c.gravity[i]
+        if joint.prismatic:
+            angles.append(ca.SX(0))
+            flags.append(ca.SX(1))
+            continue
+        u, v = ca.cross(s, z), ca.cross(z, g)
+        balanced = ca.sumsqr(u) <= (DEGENERATE_RATIO * c.masses[i] * length) ** 2
+        upright = ca.sumsqr(v) <= (DEGENERATE_RATIO * weight) ** 2
+        degenerate = ca.logic_or(balanced, upright)
+        # The arguments are replaced rather than the result, so that the derivative is 0 there too and never 0/0.
+        angle = ca.atan2(ca.if_else(degenerate, 0, -ca.dot(z, ca.cross(s, g))), ca.if_else(degenerate, 1, ca.dot(u, v)))
+        # -pi and pi are one and the same rest; adding a turn keeps the derivative.
+        angles.append(angle + ca.if_else(angle <= -np.pi, 2 * np.pi, 0))
+        flags.append(degenerate)
+    return ca.vertcat(*angles), ca.vertcat(*flags)
+
+
+def _swing_jacobian(arm: Arm, q: SX) -> SX:
+    """Eq. (41)-(45)."""
+    w = statics.express_in_world(statics.composite_bodies(arm, q))
+
+    def entry(i: int, j: int) -> SX:
+        if arm.joints[i].prismatic:
+            return ca.SX(0)
+        z, s, g = w.axes[i], w.moments[i], w.gravity[i]
+        dz, ds = statics.axis_derivative(arm, w, i, j), statics.moment_derivative(arm, w, i, j)
+        a, b = -ca.dot(z, ca.cross(s, g)), ca.dot(ca.cross(s, z), ca.cross(z, g))
+        da = -_torque_derivative(arm, w, i, j)
+        db = ca.dot(ca.cross(ds, z) + ca.cross(s, dz), ca.cross(z, g)) + ca.dot(ca.cross(s, z), ca.cross(dz, g))
+        return (b * da - a * db) / (a * a + b * b)
+
+    return _symbolic_matrix(arm.n, entry)
+
+
+def _symbolic_matrix(n: int, entry: Callable[[int, int], SX]) -> SX:
+    return ca.vertcat(*[ca.horzcat(*[entry(i, j) for j in range(n)]) for i in range(n)])
+
+
+SOURCE_PAPER = "English and Maciejewski 1998"
+TORQUE_FORMULA = SusceptibilityFormula(
+    "torque",
+    f"{SOURCE_PAPER}, eq. (7), (8), (12)",
+    "N m",
+    sliding="N",
+    slides=True,
+    check=require_masses,
+    values=_torque_values,
+    jacobian=_torque_jacobian,
+)
+ACCELERATION_FORMULA = SusceptibilityFormula(
+    "acceleration",
+    f"{SOURCE_PAPER}, eq. (22)",
+    "rad/s^2",
+    sliding="m/s^2",
+    slides=True,
+    check=_require_inertia,
+    values=_acceleration_values,
+    jacobian=_acceleration_jacobian,
+)
+SWING_ANGLE_FORMULA = SusceptibilityFormula(
+    "swing angle",
+    f"{SOURCE_PAPER}, eq. (38), (39)",
+    "rad",
+    sliding="rad",
+    slides=False,
+    check=require_masses,
+    values=_swing_values,
+    jacobian=_swing_jacobian,
+)

@@ -1,0 +1,4 @@
+from holdfast.kinematics.interval_search.along_leg import prove_leg_impossible as prove_leg_impossible
+from holdfast.kinematics.interval_search.search import Configurations as Configurations
+from holdfast.kinematics.interval_search.search import SearchOutcome as SearchOutcome
+from holdfast.kinematics.interval_search.search import all_configurations as all_configurations

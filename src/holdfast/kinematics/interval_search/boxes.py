@@ -1,0 +1,148 @@
+"""Batches of joint boxes: contracted to the part that can hold solutions, then bisected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import TaskError
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kernels.kernel import Kernel
+from holdfast.kinematics.interval_search.box_bounds import BoundedTask, box_kernel, is_last_joint_idle
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
+
+Blocked = Callable[[FloatArray, FloatArray], BoolArray]
+"""Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
+
+_BATCH_ROWS = 4096  # boxes looked at together
+_CONTRACTION_RATIO = 0.6  # of its volume: a box that was cut to less is looked at again before it is halved
+_MAX_TILT = 1e-6  # what it does to the bounds is its square
+
+
+@dataclass(frozen=True, eq=False)
+class ContractedBoxes:
+    """Non-empty boxes, contracted to the part that can hold solutions.
+
+    Attributes:
+        box: (N, 2, n) centres and half widths.
+        original: (N, 2, n) as they were.
+        inside: (N,) True where what a box can hold lies strictly inside of it.
+        volume: (N,) how much of it that is.
+        widest_joint: (N,) joint to be halved.
+    """
+
+    box: FloatArray
+    original: FloatArray
+    inside: BoolArray
+    volume: FloatArray
+    widest_joint: NDArray[np.intp]
+
+    def __getitem__(self, selection: BoolArray) -> ContractedBoxes:
+        return ContractedBoxes(
+            self.box[selection],
+            self.original[selection],
+            self.inside[selection],
+            self.volume[selection],
+            self.widest_joint[selection],
+        )
+
+    def bisect(self) -> FloatArray:
+        """Return the boxes (K, 2, n) to check next: contracted ones as they are, the others in two halves."""
+        shrunk = self.volume < _CONTRACTION_RATIO
+        upper = self.box[~shrunk]
+        row, joint_index = np.arange(len(upper)), self.widest_joint[~shrunk]
+        upper[row, 1, joint_index] /= 2
+        lower = upper.copy()
+        lower[row, 0, joint_index] -= upper[row, 1, joint_index]
+        upper[row, 0, joint_index] += upper[row, 1, joint_index]
+        return np.concatenate([self.box[shrunk], lower, upper])
+
+
+class BoxContractor:
+    """Contractor of boxes of an arm's joints, for a pose or along a straight leg from it.
+
+    Args:
+        arm: The arm.
+        task: Whose rows are to be met.
+        pose: (4, 4) of the end effector, world, m.
+        tolerance: m and rad by which each row may be missed, whatever the frame in which rows are taken.
+        limits: (n,) and (n,) of the joints, rad and m.
+        blocked: Which boxes hold nothing that counts.
+        way: (3,) m; where on it the pose is, 0 to 1, is then the last of all joints.
+
+    Attributes:
+        parts: The task's rows.
+        kernel, kernel_inputs: What tells of boxes, and what it is given beside them.
+        lower, upper: (n,) of all boxes; a joint that moves no row is in the middle.
+        checked, blocked_count: How many boxes, and how many of them as blocked.
+
+    Raises:
+        TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        task: Task,
+        pose: FloatArray,
+        *,
+        tolerance: tuple[float, float],
+        limits: tuple[FloatArray, FloatArray],
+        blocked: Blocked | None,
+        way: FloatArray | None = None,
+    ) -> None:
+        lower, upper = limits[0].copy(), limits[1].copy()
+        self.parts = parts = BoundedTask.from_task(arm, task)
+        if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
+            tilted_normal = pose[:3, :3] @ arm.forward_kinematics((lower + upper) / 2)[:3, :3].T @ parts.normal
+            if np.abs(tilted_normal - parts.normal).max() > _MAX_TILT:
+                raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
+        self.kernel: Kernel = box_kernel(arm, parts, way is not None)
+        counts = len(parts.linear), parts.m - len(parts.linear)
+        row_tolerances = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # rows of other frames miss by no more
+        self.kernel_inputs = (pose[:3, 3], pose[:3, :3], row_tolerances, *([] if way is None else [way]))
+        self._n, self._blocked = arm.n, blocked
+        self._idle_half_width = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
+        if is_last_joint_idle(arm, parts):
+            self._idle_half_width[-1] = (upper[-1] - lower[-1]) / 2
+            lower[-1] = upper[-1] = (lower[-1] + upper[-1]) / 2
+        if way is not None:
+            lower, upper = np.append(lower, 0.0), np.append(upper, 1.0)
+        self.low, self.high = lower, upper
+        self.checked = self.blocked_count = 0
+
+    def pop_batch(self, stack: list[FloatArray]) -> FloatArray:
+        """Remove the last boxes of a stack, up to the size of a batch, and return them."""
+        boxes = stack.pop()
+        while len(boxes) < _BATCH_ROWS and stack:
+            boxes = np.concatenate([stack.pop(), boxes])
+        if len(boxes) > _BATCH_ROWS:
+            stack.append(boxes[:-_BATCH_ROWS])
+        return boxes[-_BATCH_ROWS:]
+
+    def contract(self, boxes: FloatArray) -> ContractedBoxes:
+        """Contract boxes (N, 2, n) and leave out those that are empty."""
+        self.checked += len(boxes)
+        n = boxes.shape[2]
+        outputs = self.kernel.rows(boxes[:, 0], boxes[:, 1], *self.kernel_inputs, first=2 * n + 4)
+        nonempty = np.flatnonzero(outputs[:, 0] <= 0)
+        outputs = outputs[nonempty]
+        return ContractedBoxes(
+            outputs[:, 1:-3].reshape(-1, 2, n),
+            boxes[nonempty],
+            outputs[:, -3] < 0,
+            outputs[:, -2],
+            outputs[:, -1].astype(np.intp),
+        )
+
+    def drop_blocked(self, contracted: ContractedBoxes) -> ContractedBoxes:
+        """Leave out the boxes that are blocked."""
+        if self._blocked is None or not len(contracted.box):
+            return contracted
+        is_free = ~self._blocked(contracted.box[:, 0, : self._n], contracted.box[:, 1, : self._n] + self._idle_half_width)
+        self.blocked_count += len(is_free) - int(is_free.sum())
+        return contracted if is_free.all() else contracted[is_free]

@@ -1,0 +1,270 @@
+"""Branch and bound over boxes of joints."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.core.errors import InputError
+from holdfast.core.progress import report_work, reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.kinematics.interval_search.box_bounds import ROUNDING_M_RAD
+from holdfast.kinematics.interval_search.boxes import Blocked, BoxContractor, ContractedBoxes
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task, target_pose
+
+MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not halved any more
+_POLISHING_STEPS = 30
+_ISOLATION_SIZE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
+_LOOSE_TOLERANCE = 1e-4  # m and rad: what is met within more fills boxes that are as small as boxes get
+_SOLUTION_TOLERANCE = 1e-5  # rad and m: solutions nearer than this are one
+
+
+class SearchOutcome(IntEnum):
+    """Outcome of a search for configurations."""
+
+    NONE = 0
+    ALL = 1
+    SOME = 2
+    OPEN = 3
+
+    @property
+    def sentence(self) -> str:
+        """Explanation of the outcome."""
+        return _OUTCOME_SENTENCES[self]
+
+
+_OUTCOME_SENTENCES = {
+    SearchOutcome.NONE: "there is no configuration, proved up to floating point",
+    SearchOutcome.ALL: "these are all configurations, proved up to floating point",
+    SearchOutcome.SOME: "there are configurations; whether there are others was not asked",
+    SearchOutcome.OPEN: "undecided: time or boxes were spent first",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Configurations(Result):
+    """Configurations and outcome of :func:`all_configurations`.
+
+    Attributes:
+        arm: The arm.
+        task: Whose rows are met.
+        pose: (4, 4) of the end effector, m.
+        lower, upper: (n,) limits that were looked into, rad and m; equal where a joint is locked.
+        finding: What is known.
+        q: (K, n) configurations found, rad and m.
+        boxes: How many were looked at.
+        blocked: Of these, how many were left out as blocked: what is said to be absent is absent elsewhere.
+        open: How many were left undecided.
+        widest: Of these, the largest half width of a joint, rad or m; 0 if none is left.
+        seconds: Measured.
+    """
+
+    arm: Arm
+    task: Task
+    pose: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    finding: SearchOutcome
+    q: FloatArray
+    boxes: int
+    open: int
+    widest: float
+    seconds: float
+    blocked: int = 0
+
+    @property
+    def proved_empty(self) -> bool:
+        """True if it is proved that there is no configuration."""
+        return self.finding == SearchOutcome.NONE
+
+    def describe(self) -> list[str]:
+        """Describe the result in sentences."""
+        open_phrase = f", {self.open:,} of them left, up to {2 * self.widest:.2g} wide" if self.open else ""
+        blocked_phrase = f", {self.blocked:,} of them blocked and left out" if self.blocked else ""
+        return [
+            f"{len(self.q)} configurations of '{self.arm.name}', task {self.task.name}: {self.finding.sentence}",
+            f"{self.boxes:,} boxes of joints{blocked_phrase}{open_phrase}, {self.seconds:.2g} s",
+        ]
+
+
+@check_arguments
+@reports_progress("looking for every configuration")
+def all_configurations(
+    arm: Arm,
+    pose: ArrayLike,
+    task: str | Task | Sequence[str] = "pose",
+    *,
+    limits: tuple[ArrayLike, ArrayLike] | None = None,
+    tolerance: float | tuple[float, float] = 0.0,
+    time_limit: float = 10.0,
+    most_boxes: int = 20_000_000,
+    first: bool = False,
+    blocked: Blocked | None = None,
+) -> Configurations:
+    """Find every configuration of a pose within limits, or prove that there is none.
+
+    Boxes of joints are cut to what they can hold and halved until none is left but those around configurations. No start, no
+    sample and no closed form is needed: what is said to be absent is absent. If more joints move than the task has rows, the
+    configurations are no points, and one of them ends the search. A last joint that moves no row of the task, as one along a
+    tool that points, is left in the middle of its limits.
+
+    Args:
+        arm: The arm.
+        pose: (4, 4) of the end effector in the world, m; for a task without orientation also its rows of the position.
+        task: ``pose``, ``pointing``, ``position``, ``planar``, ``planar-pose``, or position rows in the world frame.
+        limits: (n,) lower and (n,) upper limits, rad and m; equal where a joint is locked, as ``lo`` and ``hi`` of
+            :class:`holdfast.Degraded`. Default: the arm's; joints without limits turn once.
+        tolerance: By which each row may be missed, m and rad, or one number for both: the proof is about all these.
+        time_limit: s after which the answer is ``OPEN``.
+        most_boxes: After which it is.
+        first: One configuration ends the search.
+        blocked: Given boxes, centres (N, n) and half widths (N, n), says of which (N,) nothing counts, as where the arm
+            certainly is within an object: these are left out.
+
+    Raises:
+        InputError: A pose, limits or numbers that are invalid.
+        TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
+
+    Source: interval Newton methods (Krawczyk 1969); the bounds are ours, derived in
+        ``holdfast/kinematics/interval_search/box_bounds.py``.
+    """
+    resolved_task = as_task(arm, task)
+    requested_pose = target_pose(resolved_task, pose)
+    lower, upper = _read_limits(arm, limits)
+    allowed = np.broadcast_to(tolerance, 2)
+    if not ((allowed >= 0).all() and np.isfinite(allowed).all()) or not time_limit > 0 or most_boxes < 1:
+        raise InputError(
+            f"tolerance is {tolerance}, time_limit {time_limit:g} and most_boxes {most_boxes}; give a finite tolerance of 0 or "
+            "more, a time above 0 and 1 box or more"
+        )
+    contractor = BoxContractor(
+        arm,
+        resolved_task,
+        requested_pose,
+        tolerance=(float(allowed[0]), float(allowed[1])),
+        limits=(lower, upper),
+        blocked=blocked,
+    )
+    search = _BoxSearch(contractor)
+    start_time = time.perf_counter()
+    finding = search.run(start_time + time_limit, most_boxes, first)
+    return Configurations(
+        arm=arm,
+        task=resolved_task,
+        pose=requested_pose,
+        lower=lower,
+        upper=upper,
+        finding=finding,
+        q=search.solutions,
+        boxes=contractor.checked,
+        open=search.open_count,
+        widest=search.widest_half_width,
+        seconds=time.perf_counter() - start_time,
+        blocked=contractor.blocked_count,
+    )
+
+
+def _read_limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[FloatArray, FloatArray]:
+    arm_limits = finite_limits(arm)
+    if limits is None:
+        return arm_limits
+    bounds = [np.asarray(bound, dtype=np.float64) for bound in limits]
+    if len(bounds) != 2 or any(bound.shape != (arm.n,) or np.isnan(bound).any() for bound in bounds):
+        raise InputError(f"limits must be two arrays of {arm.n} numbers, lower and upper, without NaN")
+    lower, upper = (np.where(np.isfinite(bound), bound, arm_limit) for bound, arm_limit in zip(bounds, arm_limits, strict=True))
+    inverted = np.flatnonzero(lower > upper)
+    if inverted.size:
+        raise InputError(
+            f"limits of joint '{arm.joint_names[inverted[0]]}' are upside down: {lower[inverted[0]]:g} to "
+            f"{upper[inverted[0]]:g}"
+        )
+    return lower, upper
+
+
+class _BoxSearch:
+    """A search over a stack of boxes that checks the last boxes first."""
+
+    def __init__(self, boxes: BoxContractor) -> None:
+        self._boxes, self._n = boxes, len(boxes.low)
+        self._low, self._high, self._free = boxes.low, boxes.high, boxes.high > boxes.low
+        self._is_square = int(self._free.sum()) == boxes.parts.m
+        self._is_redundant = int(self._free.sum()) > boxes.parts.m
+        self._has_loose_tolerance = bool(boxes.kernel_inputs[2].max() > _LOOSE_TOLERANCE)
+        self._stack = [np.stack([(self._low + self._high) / 2, (self._high - self._low) / 2])[None]]
+        self._small_boxes: list[FloatArray] = []  # boxes that are not halved any more, (K, 2, n)
+        self.solutions = np.zeros((0, self._n))
+
+    @property
+    def _open_boxes(self) -> FloatArray:
+        return np.concatenate([*self._stack, *self._small_boxes, np.zeros((0, 2, self._n))])
+
+    @property
+    def open_count(self) -> int:
+        """Number of boxes that are not decided."""
+        return len(self._open_boxes)
+
+    @property
+    def widest_half_width(self) -> float:
+        """Half width of the widest undecided box."""
+        return float(self._open_boxes[:, 1].max(initial=0.0))
+
+    def run(self, deadline: float, max_boxes: int, first: bool) -> SearchOutcome:
+        """Search until all boxes are decided or a limit is reached."""
+        stops_at_first, contractor = first or self._is_redundant, self._boxes
+        with report_work("halving boxes of joints") as advance:
+            while self._stack:
+                if time.perf_counter() > deadline or contractor.checked >= max_boxes:
+                    return SearchOutcome.OPEN
+                self._process_boxes(contractor.contract(contractor.pop_batch(self._stack)))
+                advance(contractor.checked, max_boxes)
+                if stops_at_first and len(self.solutions):
+                    return SearchOutcome.SOME
+                if self._small_boxes and self._has_loose_tolerance:
+                    return SearchOutcome.OPEN  # as it would be in the end, after all boxes of that size
+        if self._small_boxes:
+            return SearchOutcome.OPEN
+        return SearchOutcome.ALL if len(self.solutions) else SearchOutcome.NONE
+
+    def _process_boxes(self, contracted: ContractedBoxes) -> None:
+        """Check contracted boxes again, bisect them, or set them aside."""
+        if self._is_square:
+            holds_solution = contracted.inside & (contracted.original[:, 1].max(axis=1, initial=0.0) < _ISOLATION_SIZE)
+            if holds_solution.any():
+                self._refine_solutions(contracted.box[holds_solution, 0], contracted.original[holds_solution])
+                contracted = contracted[~holds_solution]
+        contracted = self._boxes.drop_blocked(contracted)
+        tiny = contracted.box[:, 1].max(axis=1, initial=0.0) < MIN_BOX_SIZE
+        if tiny.any():
+            self._refine_solutions(contracted.box[tiny, 0], contracted.box[tiny])
+            contracted = contracted[~tiny]
+        halves = contracted.bisect()
+        if len(halves):
+            self._stack.append(halves)
+
+    def _refine_solutions(self, q: FloatArray, boxes: FloatArray) -> None:
+        """Refine q (N, n) in boxes (N, 2, n) by Newton's method; a box without a solution stays open."""
+        start_half_width = np.where(self._free, 1e-4, 0.0)
+        for _ in range(_POLISHING_STEPS):
+            outputs = self._boxes.kernel.rows(q, np.broadcast_to(start_half_width, q.shape), *self._boxes.kernel_inputs)
+            step = outputs[:, 2 * self._n + 4 : 3 * self._n + 4]
+            q = np.clip(q + step, self._low, self._high)
+            if np.abs(step).max() < 1e-13:
+                break
+        errors = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.kernel_inputs)[:, 3 * self._n + 4 :]
+        within_tolerance = (np.abs(errors) <= self._boxes.kernel_inputs[2] + ROUNDING_M_RAD).all(axis=1)
+        in_box = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + MIN_BOX_SIZE).all(axis=1)
+        is_solution = in_box & within_tolerance
+        for solution in q[is_solution]:
+            if not len(self.solutions) or np.abs(self.solutions - solution).max(axis=1).min() > _SOLUTION_TOLERANCE:
+                self.solutions = np.concatenate([self.solutions, solution[None]])
+        if not is_solution.all():
+            self._small_boxes.append(boxes[~is_solution])

@@ -1,0 +1,12 @@
+from holdfast.kinematics.path_following.events import Curvature as Curvature
+from holdfast.kinematics.path_following.redundancy import AugmentedJacobian as AugmentedJacobian
+from holdfast.kinematics.path_following.redundancy import ExtendedJacobian as ExtendedJacobian
+from holdfast.kinematics.path_following.redundancy import GradientProjection as GradientProjection
+from holdfast.kinematics.path_following.resolution import Rates as Rates
+from holdfast.kinematics.path_following.resolution import Resolution as Resolution
+from holdfast.kinematics.path_following.slow_motion import SlowMotion as SlowMotion
+from holdfast.kinematics.path_following.slow_motion import slow_enough as slow_enough
+from holdfast.kinematics.path_following.tracking import METHOD_NAMES as METHOD_NAMES
+from holdfast.kinematics.path_following.tracking import follow as follow
+from holdfast.kinematics.path_following.trajectory import Event as Event
+from holdfast.kinematics.path_following.trajectory import Trajectory as Trajectory

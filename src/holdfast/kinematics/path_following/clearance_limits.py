@@ -1,0 +1,123 @@
+"""Clearance along a motion: limits of the joint rates at every step, and the nearest pair along the whole motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.objects.one_row import SingleConfigurationClearance
+
+ENFORCED_LIMITS = 2  # that a step keeps: what is nearest, and what was a moment ago
+_NO_LIMIT_RATE = -1e9  # m/s: less than any rate makes of a distance
+_GRADIENT_RANGE = 0.05  # rad and m: so far a slope is taken to hold
+_SIMILARITY_FRACTION = 0.05  # of a slope: nearer ones are of one thing
+_MEMORY_SIZE = 6  # slopes that are remembered
+_DISTANCE_SLACK_M = 2e-5  # m: a step along something round is off by its square, and the next one makes up for it
+_STEP_FRACTIONS = (1.0, 0.5)  # of a step that are tried before none of it
+
+
+@dataclass(frozen=True, eq=False)
+class ClearanceHistory:
+    """Distances of a motion to obstacles and links at N instants.
+
+    Attributes:
+        margin: (N,) smallest distance beyond what is to be kept, the margin included, m.
+        nearest_pair: (N,) position in ``pair_names`` of the pair that has it.
+        pair_names: Of the pairs, ``joint3 & table``.
+        min_distances: (P,) what is kept of each pair, m.
+    """
+
+    margin: FloatArray
+    nearest_pair: NDArray[np.int64]
+    pair_names: list[str]
+    min_distances: FloatArray
+
+
+class ClearanceRateLimit:
+    """The clearance of a motion above the required margin, and how fast it may shrink.
+
+    One pair is the nearest, and its slope jumps where another gets nearer: in a corner the motion would go to and fro between
+    the two. So the slopes of the last moments are remembered, and each is a limit of its own as long as the arm is near by.
+
+    Args:
+        clearance: What is looked at.
+        margin: Kept beyond its own margins, m.
+        rate: The room may shrink by this share of itself in a second, 1/s.
+    """
+
+    def __init__(self, clearance: Clearance, margin: float, rate: float) -> None:
+        self.clearance, self.margin, self.rate = clearance, margin, rate
+        self._nearest = SingleConfigurationClearance(clearance)
+        self._gradient_bounds = clearance.lipschitz_bounds(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
+        self._samples: list[tuple[FloatArray, float, FloatArray]] = []
+
+    def _evaluate(self, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:
+        """Return the configuration (n,), its clearance and the gradient (n,), and remember them, the latest first."""
+        if self._samples and np.array_equal(self._samples[0][0], q):
+            return self._samples[0]
+        clearance, gradient = self._nearest(q)
+        sample = (q.copy(), clearance - self.margin, gradient)
+        others = [
+            other
+            for other in self._samples
+            if np.abs(other[0] - q).max() < _GRADIENT_RANGE and not _are_similar(other[2], sample[2])
+        ]
+        self._samples = [sample, *others[: _MEMORY_SIZE - 1]]
+        return sample
+
+    def is_inactive(self, q: FloatArray, rates: FloatArray) -> bool:
+        """Return True if no remembered pair can be near enough to limit the rates (n,), so that no distance is computed."""
+        if not self._samples:
+            return False
+        sample_q, clearance, _ = self._samples[0]
+        smallest_clearance = clearance - float(self._gradient_bounds @ np.abs(q - sample_q))
+        return float(self._gradient_bounds @ np.abs(rates)) < self.rate * smallest_clearance
+
+    def rate_limits(self, q: FloatArray) -> FloatArray:
+        """Return the limits (K, n + 1) at a configuration (n,): gradients, and after each the smallest product with the rates,
+        m/s.
+
+        The first is what is nearest, the second what is nearest of the things that were seen a moment ago; one at least is
+        of something, and slopes of 0 limit nothing.
+        """
+        latest = self._evaluate(q)
+        around = sorted(
+            ((clearance + float(gradient @ (q - sample_q)), gradient) for sample_q, clearance, gradient in self._samples[1:]),
+            key=_extrapolated_clearance,
+        )
+        entries = [(latest[1], latest[2]), *around, (np.inf, np.zeros(len(q)))]
+        return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
+
+    def allowed_fraction(self, q: FloatArray, step_end: FloatArray) -> float:
+        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up on the
+        way.
+        """
+        step_start = self._evaluate(q)
+        for fraction in _STEP_FRACTIONS:
+            if self._evaluate(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):
+                return fraction
+        self._samples = [step_start, *self._samples[: _MEMORY_SIZE - 1]]
+        return 0.0
+
+    def trace_clearance(self, q: FloatArray) -> ClearanceHistory:
+        """Return the nearest pairs at configurations (N, n)."""
+        clearance = self.clearance
+        return ClearanceHistory(
+            clearance.margin_left(q) - self.margin,
+            clearance.closest_pair(q),
+            clearance.pair_names,
+            clearance.margins + self.margin,
+        )
+
+
+def _extrapolated_clearance(entry: tuple[float, FloatArray]) -> float:
+    return entry[0]
+
+
+def _are_similar(gradient: FloatArray, reference: FloatArray) -> bool:
+    return float(np.linalg.norm(gradient - reference)) <= _SIMILARITY_FRACTION * float(np.linalg.norm(reference))

@@ -1,0 +1,5 @@
+"""Solvers for configurations: inverse kinematics, the best one of a pose, self-motions, and the best path."""
+
+from holdfast.core._lazy import offer
+
+offer(__name__)

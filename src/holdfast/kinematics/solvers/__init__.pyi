@@ -1,0 +1,12 @@
+from holdfast.kinematics.solvers.curve_tracing import Component as Component
+from holdfast.kinematics.solvers.fibre_paths import FibrePath as FibrePath
+from holdfast.kinematics.solvers.fibre_paths import best_path as best_path
+from holdfast.kinematics.solvers.fibre_paths import best_path_over as best_path_over
+from holdfast.kinematics.solvers.inverse_kinematics import PoseSolutions as PoseSolutions
+from holdfast.kinematics.solvers.inverse_kinematics import solve_ik as solve_ik
+from holdfast.kinematics.solvers.inverse_kinematics import solver as solver
+from holdfast.kinematics.solvers.optima import Optima as Optima
+from holdfast.kinematics.solvers.optima import optimise as optimise
+from holdfast.kinematics.solvers.self_motions import SelfMotion as SelfMotion
+from holdfast.kinematics.solvers.self_motions import fibres as fibres
+from holdfast.kinematics.solvers.self_motions import self_motion as self_motion

@@ -1,0 +1,120 @@
+"""The parts of a curve of configurations that meet an inequality such as a clearance, proved between the points too."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.curve_tracing import Component, ManifoldTracer
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.collision.clearance import Clearance
+
+MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
+_MAX_STRAY_FRACTION = (
+    0.25  # of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it
+)
+_LENGTH_FACTOR = 1.1  # a curve is longer than the straight piece between two of its points by less than this
+
+
+@dataclass(frozen=True)
+class CurveConstraint:
+    """Inequalities on configurations, and how fast they can change.
+
+    Attributes:
+        evaluate_margins: Of configurations (N, n) what is left (N, P) of each of P rooms, m or rad; below 0 it is not clear.
+        lipschitz_bounds: (P, n) how fast they can change, m or rad per rad and m.
+        pair_names: (P,) of what ends a part where the room is used up.
+    """
+
+    evaluate_margins: Callable[[FloatArray], FloatArray]
+    lipschitz_bounds: FloatArray
+    pair_names: Sequence[str]
+
+    @classmethod
+    def from_clearance(cls, clearance: Clearance, margin: float) -> CurveConstraint:
+        """Return the distance of every pair of a clearance above its margin, for configurations within the limits
+        of its arm.
+        """
+
+        def evaluate_margins(q: FloatArray) -> FloatArray:
+            return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
+
+        return cls(evaluate_margins, clearance.lipschitz_bounds(*finite_limits(clearance.arm)), clearance.pair_names)
+
+    def is_satisfied(self, q: FloatArray) -> BoolArray:
+        """Return (N,) True where all inequalities are met at q (N, n)."""
+        return np.asarray((self.evaluate_margins(q) >= 0).all(axis=1))
+
+    def find_free_parts(self, tracer: ManifoldTracer, pose: FloatArray, curve: Component) -> list[Component]:
+        """Return the parts of a curve of a pose (4, 4) that meet the inequalities, in order, with the names of the pairs at
+        their ends.
+
+        Between two of its points, at which d_1 and d_2 of a room are left, no less than ``(d_1 + d_2 - L) / 2`` is, L the
+        most that it can change on the way (of a distance :meth:`Clearance.lipschitz_bounds`). Pieces for which that does not do
+        are halved, by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
+        """
+        q = curve.q
+        if curve.closed:
+            q = np.concatenate([q, q[-1] + joint_space.joint_difference(tracer.arm, q[:1], q[-1])])
+        margins = self.evaluate_margins(q)
+        while True:
+            is_free = margins.min(axis=1) >= 0
+            max_change = _LENGTH_FACTOR * np.abs(np.diff(q, axis=0)) @ self.lipschitz_bounds.T
+            proved = is_free[1:] & is_free[:-1] & ((margins[1:] + margins[:-1] - max_change).min(axis=1) >= 0)
+            undecided = np.flatnonzero(~proved & (is_free[1:] | is_free[:-1]) & (max_change.max(axis=1) >= MIN_BOUNDED_CHANGE))
+            if not undecided.size:
+                break
+            segments, midpoints = q[undecided + 1] - q[undecided], (q[undecided] + q[undecided + 1]) / 2
+            middle, on_curve, _ = tracer.correct(midpoints, np.broadcast_to(pose, (undecided.size, 4, 4)))
+            # Near a singular configuration it may land anywhere, and halves would not get shorter.
+            on_curve &= np.linalg.norm(middle - midpoints, axis=1) <= _MAX_STRAY_FRACTION * np.linalg.norm(segments, axis=1)
+            middle[~on_curve] = midpoints[~on_curve]
+            middle_margins = self.evaluate_margins(middle)
+            middle_margins[~on_curve] = -np.inf
+            q = np.insert(q, undecided + 1, middle, axis=0)
+            margins = np.insert(margins, undecided + 1, middle_margins, axis=0)
+        if proved.all():
+            return [curve]
+        return self._proved_parts(curve, q, margins, proved)
+
+    def _proved_parts(self, curve: Component, q: FloatArray, margins: FloatArray, proved: BoolArray) -> list[Component]:
+        """Return the runs of proved segments between points q (K, n)."""
+        if curve.closed:  # begin behind a piece that is not clear
+            cut_index = int(np.flatnonzero(~proved)[0]) + 1
+            continued = q[1:] + (q[-1] - q[0])
+            q = np.concatenate([q[cut_index:], continued[:cut_index]])
+            margins = np.concatenate([margins[cut_index:], margins[1 : cut_index + 1]])
+            proved = np.concatenate([proved[cut_index:], proved[:cut_index]])
+        edges = np.flatnonzero(np.diff(np.r_[False, proved, False].astype(np.int8)))
+        parts = []
+        for start, end in zip(edges[::2], edges[1::2], strict=True):
+            is_cut = (start > 0 or curve.closed, end < len(q) - 1 or curve.closed)
+            end_names = tuple(
+                self._name_end(margins[index], margins[outer_index % len(margins)]) if cut else ""
+                for cut, index, outer_index in ((is_cut[0], start, start - 1), (is_cut[1], end, end + 1))
+            )
+            bounds = tuple(None if cut else joint for cut, joint in zip(is_cut, curve.bounded_by, strict=True))
+            part = q[start : end + 1]
+            length = float(np.linalg.norm(np.diff(part, axis=0), axis=1).sum())
+            parts.append(
+                replace(
+                    curve,
+                    q=part,
+                    closed=False,
+                    bounded_by=(bounds[0], bounds[1]),
+                    barred_by=(end_names[0], end_names[1]),
+                    length=length,
+                )
+            )
+        return parts
+
+    def _name_end(self, inside: FloatArray, outside: FloatArray) -> str:
+        """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is
+        known beyond.
+        """
+        margins = outside if np.isfinite(outside).all() else inside
+        return self.pair_names[int(np.argmin(margins))]

@@ -1,0 +1,277 @@
+"""The best joint motion along a path of the end effector: dynamic programming over sampled self-motion manifolds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.core.errors import InputError
+from holdfast.core.progress import reports_progress
+from holdfast.core.status import Status, require_ok
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
+
+Objective = Callable[[FloatArray], ArrayLike]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FibrePath:
+    """Configurations along a path of T poses.
+
+    Attributes:
+        q: (T, n) rad and m, one configuration of each pose; joints that turn without limits run on beyond pi. NaN where
+            ``status`` is not OK.
+        value: (T,) of the objective at q.
+        global_value: (T,) the smallest value over all points of the pose's manifold, whether a path leads there or not.
+        global_q: (T, n) where that is.
+        gaps: (G,) every index t at which no continuous motion leads on from ``q[t]`` to pose t + 1: the best path for the
+            poses up to t ends there, and another begins behind it.
+        reach: (T - 1,) largest distance in joint space allowed from one pose to the next, rad (and m).
+        status: (T,) ``OK``, ``NOT_FOUND`` (no configuration of the pose was found), ``UNDEFINED`` (the objective is NaN or
+            infinite at all of them) or ``BAD_INPUT``.
+    """
+
+    q: FloatArray
+    value: FloatArray
+    global_value: FloatArray
+    global_q: FloatArray
+    gaps: IndexArray
+    reach: FloatArray
+    status: NDArray[np.uint8]
+
+    @property
+    def continuous(self) -> bool:
+        """True if one motion leads along the whole path."""
+        return not self.gaps.size and bool((self.status == Status.OK).all())
+
+    def require_ok(self) -> FibrePath:
+        """Return the path, or raise :class:`holdfast.HoldfastError` naming the first pose without a configuration."""
+        require_ok(self.status, "best path")
+        return self
+
+
+@reports_progress("looking for the best path")
+def best_path(
+    arm: Arm,
+    poses: ArrayLike,
+    objective_value: Objective,
+    *,
+    task: str | Task | Sequence[str] = "pose",
+    spacing: float = 0.05,
+    rate_limit: ArrayLike | None = None,
+    cost: Literal["mean", "max"] = "mean",
+    motion: float = 1e-2,
+    seed: int = 0,
+    starts: int = TRACING_STARTS,
+) -> FibrePath:
+    """Find the configurations along a path of poses whose objective is smallest, on average or at its largest.
+
+    Global, up to the spacing and up to curves that no start of inverse kinematics found. Gradient projection follows one
+    minimum of the objective; this also finds a motion that gives way early to be better later.
+
+    Args:
+        arm: The arm.
+        poses: (T, 4, 4) in the world, T at least 2, close together.
+        objective_value: (N, n) configurations to (N,) values, smaller is better, for example a susceptibility. NaN forbids.
+        task: Rows of the poses that matter.
+        spacing: Of the points of each manifold, rad; see :func:`holdfast.kinematics.solvers.fibres`.
+        rate_limit: Largest motion of each joint from one pose to the next (speed times time step), rad or m, one number or
+            (n,). The spacing comes on top, as the points are no finer. Without it the distance in joint space must be at
+            most 3 times the spacing and twice what the points of one manifold typically need to reach the next.
+        cost: ``mean`` of the values, or ``max``: the largest value as small as can be, and among those paths the best mean.
+        motion: Weight of the motion: a step as long as allowed costs this share of what the median of all values lies above the
+            smallest; half as long a step, a quarter.
+        seed: Of the starts.
+        starts: Of inverse kinematics per pose.
+
+    Returns:
+        A :class:`FibrePath`; where no continuous path exists it says so and does not jump.
+
+    Raises:
+        InputError: Fewer than 2 poses, an objective of the wrong shape, or options out of range.
+        TaskError: The arm has no redundancy for the task.
+    """
+    if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
+        raise InputError(f"poses have shape {np.shape(poses)}; a path needs (T, 4, 4) with T of 2 or more")
+    manifolds = fibres(arm, poses, task, spacing=spacing, seed=seed, starts=starts, follow=True)
+    return best_path_over(arm, manifolds, objective_value, rate_limit=rate_limit, cost=cost, motion=motion)
+
+
+def best_path_over(
+    arm: Arm,
+    found: Sequence[SelfMotion],
+    objective_value: Objective,
+    *,
+    rate_limit: ArrayLike | None = None,
+    cost: Literal["mean", "max"] = "mean",
+    motion: float = 1e-2,
+) -> FibrePath:
+    """Find the best path over self-motion manifolds of its poses that are already computed (:func:`fibres`, ``follow=True``).
+
+    So several objectives can share them.
+    """
+    if cost not in ("mean", "max"):
+        raise InputError(f"cost is '{cost}'; use 'mean' or 'max'")
+    if not (np.isfinite(motion) and motion >= 0):
+        raise InputError(f"motion is {motion:g}; it must be 0 or more")
+    step_limit = _read_rate_limit(arm, rate_limit)
+    points = [manifold.q for manifold in found]
+    values = _evaluate_points(objective_value, points)
+    steps = [
+        _Transitions(arm, from_points, to_points, manifold.spacing, step_limit)
+        for from_points, to_points, manifold in zip(points[:-1], points[1:], found, strict=False)
+    ]
+    best = [int(np.argmin(pose_values)) if np.isfinite(pose_values).any() else -1 for pose_values in values]
+    smallest = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, best, strict=True)])
+    finite_values = np.concatenate(values)[np.isfinite(np.concatenate(values))]
+    weight = motion * float(np.median(finite_values) - finite_values.min()) if finite_values.size else 0.0
+    chosen, gaps = _choose_points(values, steps, weight, cost)
+    no_configuration = np.full(arm.n, np.nan)
+    q = np.array(
+        [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, chosen, strict=True)]
+    )
+    global_q = np.array(
+        [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, best, strict=True)]
+    )
+    value = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, chosen, strict=True)])
+    status = np.array([manifold.status for manifold in found], dtype=np.uint8)
+    status[(np.array(best) < 0) & (status == Status.OK)] = Status.UNDEFINED
+    return FibrePath(
+        q=_unwrap_path(arm, q),
+        value=value,
+        global_value=smallest,
+        global_q=global_q,
+        gaps=np.array(gaps, dtype=np.int64),
+        reach=np.array([step.reach for step in steps]),
+        status=status,
+    )
+
+
+class _Transitions:
+    """The allowed moves from the points of one manifold to those of the next.
+
+    Attributes:
+        reach: Largest distance.
+        source, target: (P,) the points of each allowed move.
+        size: (P,) its length, as a share of the reach.
+    """
+
+    def __init__(
+        self, arm: Arm, from_points: FloatArray, to_points: FloatArray, spacing: float, limit: FloatArray | None
+    ) -> None:
+        self.source = self.target = np.empty(0, dtype=np.int64)
+        self.size, self.reach = np.empty(0), np.nan
+        if not len(from_points) or not len(to_points):
+            return
+        if limit is None:
+            self.reach = 3 * spacing + 2 * float(np.median(joint_space.find_nearest(arm, to_points, from_points)[0]))
+        else:
+            self.reach = float(np.linalg.norm(limit + spacing))
+        target_tree = joint_space.build_tree(arm, to_points)
+        pairs = joint_space.build_tree(arm, from_points).sparse_distance_matrix(target_tree, self.reach, output_type="ndarray")
+        self.source, self.target = pairs["i"].astype(np.int64), pairs["j"].astype(np.int64)
+        self.size = pairs["v"] / self.reach
+        if limit is not None:
+            within_limit = (
+                np.abs(joint_space.joint_difference(arm, to_points[self.target], from_points[self.source])) <= limit + spacing
+            )
+            allowed = within_limit.all(axis=1)
+            self.source, self.target, self.size = self.source[allowed], self.target[allowed], self.size[allowed]
+
+
+def _choose_points(
+    values: list[FloatArray], steps: list[_Transitions], weight: float, cost: str
+) -> tuple[list[int], list[int]]:
+    """Choose a point at each pose (-1: none exists), and return the gaps too."""
+    chosen: list[int] = [-1] * len(values)
+    gaps: list[int] = []
+    t = 0
+    while t < len(values):
+        if np.isfinite(values[t]).any():
+            end = _last_reached(values, steps, t)
+            stretch_values, stretch_steps = values[t : end + 1], steps[t:end]
+            if cost == "max":
+                largest_value, _ = _cheapest_path(stretch_values, stretch_steps, np.maximum, 0.0)
+                stretch_values = [np.where(pose_values <= largest_value, pose_values, np.inf) for pose_values in stretch_values]
+            chosen[t : end + 1] = _cheapest_path(stretch_values, stretch_steps, np.add, weight)[1]
+            t = end
+        if t + 1 < len(values):
+            gaps.append(t)
+        t += 1
+    return chosen, gaps
+
+
+def _last_reached(values: list[FloatArray], steps: list[_Transitions], start: int) -> int:
+    """Return the last pose to which some point of pose ``start`` leads."""
+    is_reached = np.isfinite(values[start])
+    for t in range(start, len(steps)):
+        next_reached = np.zeros(values[t + 1].size, dtype=bool)
+        next_reached[steps[t].target[is_reached[steps[t].source]]] = True
+        next_reached &= np.isfinite(values[t + 1])
+        if not next_reached.any():
+            return t
+        is_reached = next_reached
+    return len(steps)
+
+
+def _cheapest_path(
+    values: list[FloatArray], steps: list[_Transitions], join: Callable[[FloatArray, FloatArray], FloatArray], weight: float
+) -> tuple[float, list[int]]:
+    """Return the smallest joined value of the paths from the first pose to the last, and the points of one such path."""
+    total = values[0]
+    predecessors: list[IndexArray] = []
+    for value, step in zip(values[1:], steps, strict=True):
+        costs = total[step.source] + weight * step.size**2
+        order = np.lexsort((costs, step.target))
+        target, first = np.unique(step.target[order], return_index=True)
+        previous = np.full(value.size, -1)
+        previous[target] = step.source[order[first]]
+        total = np.full(value.size, np.inf)
+        total[target] = join(costs[order[first]], value[target])
+        predecessors.append(previous)
+    last_point = int(np.argmin(total))
+    points = [last_point]
+    for previous in reversed(predecessors):
+        points.append(int(previous[points[-1]]))
+    return float(total[last_point]), points[::-1]
+
+
+def _evaluate_points(objective_value: Objective, points: list[FloatArray]) -> list[FloatArray]:
+    """Evaluate the objective at the points of each pose; infinite where it is NaN."""
+    all_points = np.concatenate(points)
+    value = np.asarray(objective_value(all_points), dtype=np.float64)
+    if value.shape != (len(all_points),):
+        raise InputError(
+            f"the objective gives shape {value.shape} for {len(all_points)} configurations; it must give one value each"
+        )
+    value = np.where(np.isnan(value), np.inf, value)
+    return np.split(value, np.cumsum([len(pose_points) for pose_points in points])[:-1])
+
+
+def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> FloatArray | None:
+    if rate_limit is None:
+        return None
+    limit = np.asarray(rate_limit, dtype=np.float64)
+    if limit.shape not in ((), (arm.n,)) or not (np.isfinite(limit) & (limit > 0)).all():
+        raise InputError(
+            f"rate_limit is {limit.tolist()}; it must be one number or {arm.n}, above 0, rad or m from pose to pose"
+        )
+    return np.broadcast_to(limit, (arm.n,))
+
+
+def _unwrap_path(arm: Arm, q: FloatArray) -> FloatArray:
+    """Make joints without limits take the short way from one pose to the next, also across -pi to pi."""
+    displacements = np.nan_to_num(joint_space.joint_difference(arm, q[1:], q[:-1]))
+    unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
+    unwrapped = q.copy()
+    for t in range(1, len(q)):
+        if unbroken[t] and unbroken[t - 1]:
+            unwrapped[t] = np.where(joint_space.is_unlimited(arm), unwrapped[t - 1] + displacements[t - 1], q[t])
+    return unwrapped

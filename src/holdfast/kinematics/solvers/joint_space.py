@@ -1,0 +1,92 @@
+"""Distances between configurations, in which joints without limits have period 2 pi."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+
+if TYPE_CHECKING:
+    from scipy.spatial import KDTree
+
+
+_MAX_PAIRWISE_DISTANCES = 1 << 20
+
+
+def is_unlimited(arm: Arm) -> NDArray[np.bool_]:
+    """Return (n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
+    return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
+
+
+def joint_difference(arm: Arm, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return ``a - b`` (..., n), the short way round where a joint has no limits."""
+    raw_difference = a - b
+    return np.where(is_unlimited(arm), np.arctan2(np.sin(raw_difference), np.cos(raw_difference)), raw_difference)
+
+
+def build_tree(arm: Arm, q: FloatArray) -> KDTree:
+    """Build a k-d tree for neighbors of configurations (N, n) in that distance."""
+    from scipy.spatial import KDTree
+
+    return KDTree(fold_joints(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
+
+
+def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
+    that point.
+    """
+    if _are_few(q, points):
+        distances = _pairwise_distances(arm, q, points)
+        index = distances.argmin(axis=1)
+        return distances[np.arange(len(q)), index], index
+    distance, index = build_tree(arm, points).query(fold_joints(arm, q))
+    return np.asarray(distance), np.asarray(index)
+
+
+def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> NDArray[np.intp]:
+    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
+    m, in order.
+    """
+    if _are_few(q, q):
+        return np.argwhere(np.triu(_pairwise_distances(arm, q, q) <= max_distance, 1))
+    close_pairs = build_tree(arm, q).query_pairs(max_distance, output_type="ndarray")
+    return np.asarray(close_pairs[np.lexsort(close_pairs.T[::-1])])
+
+
+def _are_few(a: FloatArray, b: FloatArray) -> bool:
+    """Return True if computing all distances takes less time than importing SciPy's trees; the bits are the same."""
+    return 0 < len(a) * len(b) <= _MAX_PAIRWISE_DISTANCES
+
+
+def _pairwise_distances(arm: Arm, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the distances (N, P) of configurations a (N, n) from b (P, n)."""
+    squares = np.zeros((len(a), len(b)))
+    for first, second, periodic in zip(fold_joints(arm, a).T, fold_joints(arm, b).T, is_unlimited(arm), strict=True):
+        distance = np.abs(first[:, None] - second)
+        squares += (np.where(distance > np.pi, np.abs(distance - 2 * np.pi), distance) if periodic else distance) ** 2
+    return np.sqrt(squares)
+
+
+def wrap_joints(arm: Arm, q: FloatArray) -> FloatArray:
+    """Return configurations (..., n) with joints without limits in -pi to pi."""
+    return np.where(is_unlimited(arm), np.arctan2(np.sin(q), np.cos(q)), q)
+
+
+def unwind_joints(arm: Arm, q: FloatArray) -> FloatArray:
+    """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without
+    limits.
+    """
+    unlimited = is_unlimited(arm)
+    middle = (np.where(unlimited, 0.0, arm.lower) + np.where(unlimited, 0.0, arm.upper)) / 2
+    revolutions = np.rint((q - middle) / (2 * np.pi))
+    return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, revolutions)
+
+
+def fold_joints(arm: Arm, q: FloatArray) -> FloatArray:
+    """Return configurations (N, n) with joints without limits in 0 to 2 pi, 2 pi excluded."""
+    remainder = q % (2 * np.pi)
+    return np.where(is_unlimited(arm), np.where(remainder >= 2 * np.pi, 0.0, remainder), q)

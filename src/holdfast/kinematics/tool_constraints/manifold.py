@@ -1,0 +1,261 @@
+"""The manifold of configurations that meet all path constraints: margins, proved straight segments, and projection.
+
+Of each :class:`ToolConstraint` two vectors of the tool's pose are looked at: ``v`` across its line or plane, and of the
+orientation the part of the tool's axis across its direction (as long as the sine of their angle), or the difference of both
+rotation matrices (``2 sqrt(2) sin(angle / 2)`` long). Each must be no longer than a bound. Along a straight piece of joint
+space, passed through in time 1, none of them is longer than at the longer end and ``|v''| / 8``, as a straight line between
+the ends is convex. With ``d`` the joints' motion, ``|v''|`` is at most ``sum_kl r_max(k,l) |d_k| |d_l|`` for the place,
+``r_l`` the farthest that the tool can be from axis l, since ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l`` (zero for
+a slide k, and without ``r_l`` for a slide l); and at most ``(sum |d_k|)^2`` for an axis of the tool, ``sqrt(2)`` times that
+for the matrix.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_vectors
+
+More = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray]]
+"""Errors (N, k) and slopes (N, k, n) of what must be met too, for configurations (N, n) and which of those given they are."""
+
+_ROUNDING_M_RAD = 1e-9  # m and rad
+_EQUALITY_TOLERANCE = 1e-8  # m and rad: a row that is kept exactly is met
+_CONE_FRACTION = 0.9  # of a cone's opening: what is outside is brought back to there, which leaves room for the next piece
+_PROJECTION_STEPS = 12  # steps
+_MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one of them
+_MAX_PIECE_BISECTIONS = 8  # times, until a piece that is not proved counts as breaking a row
+
+
+class ConstraintManifold:
+    """The configurations that meet the path constraints, for an arm with locked joints and limits.
+
+    Args:
+        arm: With the limits in force.
+        keep: What is kept, through the pose at the start; see :meth:`ToolConstraint.anchor`.
+        free: (n,) joints that move.
+        limits: (n,) and (n,) between which they do; of a locked slide where it is.
+
+    Attributes:
+        has_equalities: Some row is kept exactly, so that no straight way through joint space keeps it for long.
+    """
+
+    def __init__(
+        self, arm: Arm, keep: Sequence[ToolConstraint], free: BoolArray, limits: tuple[FloatArray, FloatArray]
+    ) -> None:
+        self.arm, self.keep, self.free = arm, tuple(keep), free
+        self._low, self._high = limits
+        joint_index, lever_arms = np.arange(arm.n), _lever_arms(arm, *limits)
+        self._revolute = (~arm.prismatic).astype(np.float64)
+        self._lever_arms = lever_arms
+        self._second_derivative_bounds = (
+            lever_arms[np.maximum.outer(joint_index, joint_index)] * self._revolute[np.minimum.outer(joint_index, joint_index)]
+        )
+        bounds, is_equality = [], []
+        for constraint in self.keep:
+            if len(constraint.normals):
+                bounds.append(constraint.within[0])
+                is_equality.append(True)
+            if constraint.turned:
+                bounds.append(2 * np.sqrt(2) * np.sin(constraint.widest / 2))
+                is_equality.append(True)
+            elif constraint.direction is not None:
+                bounds.append(np.sin(constraint.widest))
+                is_equality.append(constraint.angle == 0)
+        self._bounds = np.array(bounds)
+        self._slack = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
+        self.has_equalities = any(is_equality)
+
+    # ---- room --------------------------------------------------------------------------------------------------------
+
+    def constraint_margins(self, q: FloatArray) -> FloatArray:
+        """Return the margins (N, R) of the constraints at q (N, n), m and about rad; below 0 where one is violated."""
+        return np.asarray(self._bounds + _ROUNDING_M_RAD - self._error_lengths(self.arm.forward_kinematics(q)))
+
+    def is_satisfied(self, q: FloatArray) -> BoolArray:
+        """Return (N,) True where all constraints are met at q (N, n)."""
+        return np.asarray((self.constraint_margins(q) >= 0).all(axis=1))
+
+    def _error_lengths(self, poses: FloatArray) -> FloatArray:
+        """Return the lengths (N, R) of the error vectors, which must not exceed the bounds."""
+        lengths = []
+        for constraint in self.keep:
+            assert constraint.pose is not None
+            if len(constraint.normals):
+                lengths.append(np.linalg.norm((poses[:, :3, 3] - constraint.pose[:3, 3]) @ constraint.normals.T, axis=1))
+            if constraint.turned:
+                lengths.append(np.linalg.norm(poses[:, :3, :3] - constraint.pose[:3, :3], axis=(1, 2)))
+            elif constraint.direction is not None:
+                axis = poses[:, :3, :3] @ constraint.axis
+                cosine = axis @ constraint.direction
+                sine = np.linalg.norm(axis - cosine[:, None] * constraint.direction, axis=1)
+                lengths.append(np.where(cosine > 0, sine, 2 - sine))  # beyond 90 deg it is turned away, however small the sine
+        return np.stack(lengths, axis=1)
+
+    def bound_curvature(self, d: FloatArray) -> FloatArray:
+        """Bound the second derivatives (N, R) of the error vectors for motions d (N, n)."""
+        joint_travel = np.abs(d)
+        position_bound, rotation_bound = (
+            ((joint_travel @ self._second_derivative_bounds) * joint_travel).sum(axis=1),
+            (joint_travel @ self._revolute) ** 2,
+        )
+        bounds = []
+        for constraint in self.keep:
+            if len(constraint.normals):
+                bounds.append(position_bound)
+            if constraint.turned:
+                bounds.append(np.sqrt(2) * rotation_bound)
+            elif constraint.direction is not None:
+                bounds.append(rotation_bound)
+        return np.stack(bounds, axis=1)
+
+    def bound_changes(self, d: FloatArray) -> FloatArray:
+        """Bound how much the error vectors (N, R) change where joints move by d (N, n)."""
+        joint_travel, bounds = np.abs(d), []
+        for constraint in self.keep:
+            if len(constraint.normals):
+                bounds.append(joint_travel @ self._lever_arms)
+            if constraint.turned or constraint.direction is not None:
+                bounds.append((np.sqrt(2) if constraint.turned else 1.0) * (joint_travel @ self._revolute))
+        return np.stack(bounds, axis=1)
+
+    def prove_edges(self, a: FloatArray, b: FloatArray, deviation: FloatArray | None = None) -> BoolArray:
+        """Return (E,) True where all constraints are proved to hold on the whole straight segment from a to b (E, n).
+
+        With ``deviation`` (E, n) also everything whose joints are off it by no more.
+        """
+        reserve = 0.0 if deviation is None else self.bound_changes(deviation)
+        start_margins, end_margins = self.constraint_margins(a) - reserve, self.constraint_margins(b) - reserve
+        is_proved = np.asarray((start_margins.min(axis=1) >= 0) & (end_margins.min(axis=1) >= 0))
+        curvature_term = self.bound_curvature(b - a) / 8
+        edge_index, start = np.flatnonzero(is_proved), np.zeros(int(is_proved.sum()))
+        start_margins, end_margins, length = start_margins[edge_index], end_margins[edge_index], 1.0
+        for _ in range(_MAX_PIECE_BISECTIONS):
+            undecided = (np.minimum(start_margins, end_margins) - length**2 * curvature_term[edge_index] < 0).any(
+                axis=1
+            ) & is_proved[edge_index]
+            if not undecided.any():
+                return is_proved
+            edge_index, start, start_margins, end_margins = (
+                edge_index[undecided],
+                start[undecided],
+                start_margins[undecided],
+                end_margins[undecided],
+            )
+            length /= 2
+            middle_margins = self.constraint_margins(a[edge_index] + (start + length)[:, None] * (b - a)[edge_index])
+            if deviation is not None:
+                middle_margins -= self.bound_changes(deviation[edge_index])
+            is_proved[edge_index[middle_margins.min(axis=1) < 0]] = False
+            edge_index, start = np.concatenate([edge_index, edge_index]), np.concatenate([start, start + length])
+            start_margins, end_margins = (
+                np.concatenate([start_margins, middle_margins]),
+                np.concatenate([middle_margins, end_margins]),
+            )
+        is_proved[edge_index] = False
+        return is_proved
+
+    def step_fraction(self, d: FloatArray) -> FloatArray:
+        """Return fractions (N,) of motions d (N, n) that use up at most half the margin of a constraint."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.minimum(1.0, np.sqrt(4 * self._slack / self.bound_curvature(d)).min(axis=1)))
+
+    # ---- the way back ------------------------------------------------------------------------------------------------
+
+    def project(self, q: FloatArray, extra_equations: More | None = None) -> FloatArray:
+        """Project configurations q (N, n) onto the constraints within the limits by Newton's method; it may fail for some.
+
+        Args:
+            q: (N, n), rad and m; those that keep everything exactly are left as they are.
+            extra_equations: Errors and slopes of rows that must be met beside those kept; None: there are none.
+        """
+        q = q.copy()
+        moving = np.arange(len(q))
+        for _ in range(_PROJECTION_STEPS):
+            errors, jacobians = self._constraint_errors(q[moving])
+            if extra_equations is not None:
+                extra_terms = extra_equations(q[moving], moving)
+                errors, jacobians = (
+                    np.concatenate([errors, extra_terms[0]], axis=1),
+                    np.concatenate([jacobians, extra_terms[1]], axis=1),
+                )
+            unmet = np.abs(errors).max(axis=1) > _EQUALITY_TOLERANCE
+            moving, errors, jacobians = moving[unmet], errors[unmet], jacobians[unmet]
+            if not moving.size:
+                break
+            q[moving] = self._newton_step(q[moving], errors, jacobians)
+        return q
+
+    def _newton_step(self, q: FloatArray, errors: FloatArray, jacobians: FloatArray) -> FloatArray:
+        """Take one step of least length; joints that it would push over their limits do not move."""
+        movable: BoolArray = np.broadcast_to(self.free, q.shape)
+        for _ in range(2):
+            masked = jacobians * movable[:, None, :]
+            gram = masked @ masked.transpose(0, 2, 1)
+            gram += (1e-10 * np.trace(gram, axis1=1, axis2=2) + 1e-14)[:, None, None] * np.eye(gram.shape[1])
+            step = (masked.transpose(0, 2, 1) @ np.linalg.solve(gram, errors[:, :, None]))[:, :, 0]
+            beyond_limits = ((q <= self._low) & (step < 0)) | ((q >= self._high) & (step > 0))
+            if not (beyond_limits & movable).any():
+                break
+            movable = movable & ~beyond_limits
+        step *= np.minimum(1.0, _MAX_NEWTON_STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        return np.asarray(np.where(movable, np.clip(q + step, self._low, self._high), q))
+
+    def _constraint_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the errors (N, k) of equality constraints, and of cones that are left, with their Jacobians (N, k, n)."""
+        poses, jacobian = self.arm.forward_kinematics(q), self.arm.jacobian(q)
+        errors, jacobians = [], []
+        for constraint in self.keep:
+            assert constraint.pose is not None
+            if len(constraint.normals):
+                errors.append((constraint.pose[:3, 3] - poses[:, :3, 3]) @ constraint.normals.T)
+                jacobians.append(constraint.normals @ jacobian[:, :3])
+            if constraint.turned:
+                errors.append(rotation_vectors(constraint.pose[:3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)))
+                jacobians.append(jacobian[:, 3:])
+            elif constraint.direction is not None:
+                cone_error, rotation_axes = _cone_error(constraint, poses[:, :3, :3] @ constraint.axis)
+                errors.append(cone_error)
+                jacobians.append(rotation_axes @ jacobian[:, 3:])
+        return np.concatenate(errors, axis=1), np.concatenate(jacobians, axis=1)
+
+
+def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the angles by which axes (N, 3) must rotate to their direction or back into the cone, and the rotation axes (N, k,
+    3).
+    """
+    assert constraint.direction is not None
+    across = np.cross(axis, constraint.direction)
+    sine = np.linalg.norm(across, axis=1)
+    angle = np.arctan2(sine, axis @ constraint.direction)
+    rotation_axis = np.where(sine[:, None] > 1e-9, across / np.maximum(sine, 1e-12)[:, None], _perpendicular_vectors(axis))
+    if constraint.angle == 0:
+        return angle[:, None] * rotation_axis, np.eye(3) - axis[:, :, None] * axis[:, None, :]
+    outside = angle > constraint.angle - _ROUNDING_M_RAD
+    return np.where(outside, angle - _CONE_FRACTION * constraint.angle, 0.0)[:, None], np.where(
+        outside[:, None], rotation_axis, 0.0
+    )[:, None, :]
+
+
+def _perpendicular_vectors(axis: FloatArray) -> FloatArray:
+    """Return unit vectors perpendicular to axes (N, 3)."""
+    least_aligned = np.eye(3)[np.abs(axis).argmin(axis=1)]
+    across = np.cross(axis, least_aligned)
+    return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True))
+
+
+def _lever_arms(arm: Arm, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Bound the distance (n,) of the tool point from each joint axis, m, by the lengths beyond it; 1 for a prismatic joint."""
+    length, lever_arms = float(np.linalg.norm(arm.tool[:3, 3])), []
+    for index, joint in reversed(list(enumerate(arm.joints))):
+        if joint.prismatic:
+            length += float(max(abs(low[index]), abs(high[index])))
+        lever_arms.append(1.0 if joint.prismatic else length)
+        length += float(np.linalg.norm(joint.origin[:3, 3]))
+    return np.array(lever_arms[::-1])

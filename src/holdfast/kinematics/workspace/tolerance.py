@@ -1,0 +1,375 @@
+"""The points that the arm reaches before and after any joint locks, with artificial joint limits that enlarge the region."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.core.errors import InputError, TaskError
+from holdfast.core.probability.intervals import Interval, check_confidence
+from holdfast.core.progress import ProgressCount, reports_progress, track
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.kinematics.workspace import closed_form as tolerant_planar
+from holdfast.kinematics.workspace import samples as tolerant_sampled
+from holdfast.kinematics.workspace.closed_form import ThreeLinks
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Limits = ArrayLike | Mapping[str | int, ArrayLike] | Mapping[int, ArrayLike]
+
+DEFAULT_POINTS = 1000
+DEFAULT_ANGLES = 24
+_GRID_POINTS = 161  # points along each edge of the map of the exact region
+_AREA_RADII = 1600
+_SEARCH_RADII = 32
+_POLISH_RADII = 160
+_MAX_SEARCH_POINTS = 250  # at most, of which the limits are chosen
+_MAX_GENERATIONS = 60  # of a search for limits at most
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TolerantWorkspace(Result):
+    """The failure-tolerant workspace of an arm under artificial joint limits.
+
+    Attributes:
+        arm: The arm, with its own limits.
+        task: What must be met at each point.
+        limits: (n, 2) artificial limits that hold until a joint locks, rad and m.
+        size: Area (m^2) or volume (m^3) of the region.
+        size_interval: Between which it lies: the confidence interval of the sample; for the exact region the error of the
+            integral.
+        healthy_size: The same for all points that the healthy arm reaches within its own limits.
+        points: (N, 3) m, world: the sample, or the points of a map of the exact region.
+        healthy: (N,) points that the healthy arm reaches within its own limits.
+        within: (N,) those that it reaches within the artificial limits.
+        survives: (N, n) those of ``within`` that it reaches wherever joint k locks within its artificial limits.
+        inside: (N,) the region: ``within`` and all of ``survives``.
+        exact: In closed form, for planar arms of three revolute joints that turn all the way.
+        angles: Locked values per joint that were tried; 0 where the region is exact.
+        optimised: The limits were looked for, not given.
+        confidence: Of the interval; 1 where the region is exact.
+    """
+
+    arm: Arm
+    task: Task
+    limits: FloatArray
+    size: float
+    size_interval: tuple[float, float]
+    healthy_size: float
+    points: FloatArray
+    healthy: NDArray[np.bool_]
+    within: NDArray[np.bool_]
+    survives: NDArray[np.bool_]
+    inside: NDArray[np.bool_]
+    exact: bool
+    angles: int
+    optimised: bool
+    confidence: float
+
+    @property
+    def unit(self) -> str:
+        """Unit of the size, ``m^2`` or ``m^3``."""
+        return "m^2" if np.linalg.matrix_rank(self.task.rows[:, :3], tol=1e-9) == 2 else "m^3"
+
+    @property
+    def share(self) -> float:
+        """Fraction of the healthy arm's workspace; NaN if that is empty."""
+        return self.size / self.healthy_size if self.healthy_size > 0 else float("nan")
+
+    @property
+    def lost_to(self) -> FloatArray:
+        """Fraction (n,) of the points within the artificial limits that some lock of each joint loses; NaN without points."""
+        count = int(self.within.sum())
+        return 1 - self.survives.sum(axis=0) / count if count else np.full(self.arm.n, np.nan)
+
+    def describe(self) -> list[str]:
+        """Describe the size of the region and the points that the locks of each joint lose, in sentences."""
+        lower, upper = self.size_interval
+        method = (
+            "in closed form for each radius"
+            if self.exact
+            else f"{len(self.points)} points, {self.angles} locked values per joint, {self.confidence:.0%} interval "
+            f"{lower:.3g} to {upper:.3g}"
+        )
+        size = f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({method})"
+        lines = [f"{self.arm.title}, task {self.task.name}: {size}"]
+        for joint, (lower_limit, upper_limit), lost_fraction in zip(self.arm.joints, self.limits, self.lost_to, strict=True):
+            factor, unit = joint.display_unit
+            ranged = f"{factor * lower_limit:.2f} to {factor * upper_limit:.2f} {unit}"
+            lines.append(
+                f"{joint.name} within {ranged}: its locks lose {lost_fraction:.1%} of the points within the artificial limits"
+            )
+        return lines
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the results at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``."""
+        import xarray as xr
+
+        count = round(np.sqrt(len(self.points)))
+        shape, dimensions = ((count, count), ["v", "u"]) if self.exact else ((len(self.points),), ["point"])
+        reached = {name: (dimensions, getattr(self, name).reshape(shape)) for name in ("healthy", "within", "inside")}
+        dataset = xr.Dataset(
+            {
+                **reached,
+                "survives": ([*dimensions, "joint"], self.survives.reshape(*shape, -1)),
+                "limits": (["joint", "end"], self.limits),
+            },
+            {
+                "position": ([*dimensions, "axis"], self.points.reshape(*shape, 3), {"units": "m"}),
+                "joint": list(self.arm.joint_names),
+                "end": ["lower", "upper"],
+                "axis": list("xyz"),
+            },
+            {"arm": self.arm.name, "task": self.task.name, "size": self.size, "unit": self.unit, "exact": int(self.exact)},
+        )
+        if self.exact:
+            plane = (self.points @ self.task.rows[:, :3].T).reshape(count, count, 2)
+            dataset = dataset.assign_coords(u=("u", plane[0, :, 0], {"units": "m"}), v=("v", plane[:, 0, 1], {"units": "m"}))
+        return dataset
+
+
+@check_arguments
+@reports_progress("measuring the failure-tolerant workspace")
+def tolerant_workspace(
+    arm: Arm,
+    task: str | Task | Sequence[str] = "position",
+    limits: Limits | None = None,
+    *,
+    optimise: bool = False,
+    rotation: ArrayLike | None = None,
+    points: int = DEFAULT_POINTS,
+    angles: int = DEFAULT_ANGLES,
+    seed: int = 0,
+    confidence: float = 0.95,
+) -> TolerantWorkspace:
+    """Compute the points that the arm is guaranteed to reach before and after any single joint locks.
+
+    Artificial joint limits hold until a joint locks. A point is in the region if the healthy arm reaches it within them and,
+    for each joint and every value within its artificial limits, the arm with the joint locked there reaches it, the other
+    joints within the arm's own limits. Narrow limits leave fewer values to lock at, but less to reach before.
+
+    For planar arms of three revolute joints that turn all the way (task ``planar``) the region is known in closed form for
+    each radius: with joint 2 or 3 locked the arm reaches an annulus about its foot, with joint 1 locked one about its elbow,
+    and the directions that the healthy arm reaches end at twelve critical ones. For other arms points are drawn in a box about
+    what the arm reaches and tried with inverse kinematics, each joint locked at ``angles`` equally spaced values of its
+    range. Then values between those are not tried, which makes the region look larger, and configurations that inverse
+    kinematics misses make it look smaller; neither is in the interval.
+
+    Args:
+        arm: The arm.
+        task: What must be met at each point; with angular rows the tool has the ``rotation`` given.
+        limits: (n, 2) artificial limits, rad and m, or a mapping from joints (names or indices) to pairs; the arm's own, or a
+            whole turn, for joints that are not given.
+        optimise: Look for the limits that make the region largest: by differential evolution and a simplex where it is
+            exact, else by coordinate ascent on a sample of its own of at most 250 points. Nothing proves that they are the
+            best.
+        rotation: (3, 3) of the end effector, for tasks with angular rows; the identity if not given.
+        points: In the sample.
+        angles: Per joint; also the grid of limits that are tried.
+        seed: Of all draws.
+        confidence: Of the interval.
+
+    Raises:
+        InputError: Limits that are reversed or beyond those of the arm, or options out of range.
+        TaskError: The arm has no redundancy for the task, or the task does not hold a point of space or of a plane.
+
+    Source: Lewis and Maciejewski 1997; Hoover et al. 2015; Bader and Maciejewski 2020 for optimal limits of planar arms.
+    """
+    resolved_task = as_task(arm, task)
+    if arm.n <= resolved_task.m:
+        raise TaskError(
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
+            f"redundancy no region survives "
+            "a lock; choose a task with fewer rows"
+        )
+    check_confidence(confidence)
+    if points < 1 or angles < 2:
+        raise InputError(f"points is {points} and angles {angles}; give at least 1 point and 2 angles")
+    orientation = np.eye(3) if rotation is None else np.asarray(rotation, dtype=np.float64)
+    if (
+        orientation.shape != (3, 3)
+        or not np.allclose(orientation @ orientation.T, np.eye(3), atol=1e-6)
+        or np.linalg.det(orientation) < 0
+    ):
+        raise InputError("rotation must be a (3, 3) rotation matrix: orthonormal, with determinant +1")
+    if optimise and limits is not None:
+        raise InputError("give limits, or optimise=True to look for them, not both")
+    planar_arm = ThreeLinks.from_task(arm, resolved_task)
+    if planar_arm is not None:
+        chosen_limits = _find_best_limits(arm, planar_arm, seed) if optimise else _read_limits(arm, limits)
+        return _exact_workspace(arm, resolved_task, planar_arm, chosen_limits, optimise)
+    sampling_box = tolerant_sampled.SamplingBox.from_arm(arm, resolved_task, orientation)
+    if optimise:
+        chosen_limits = tolerant_sampled.find_best_limits(
+            arm, resolved_task, sampling_box, min(points, _MAX_SEARCH_POINTS), angles, seed
+        )
+    else:
+        chosen_limits = _read_limits(arm, limits)
+    # Limits are judged by other points than those they were chosen for.
+    return _sampled_workspace(
+        arm, resolved_task, sampling_box, chosen_limits, optimise, points, angles, seed + 1 if optimise else seed, confidence
+    )
+
+
+def _read_limits(arm: Arm, limits: Limits | None) -> FloatArray:
+    ranges = np.stack(finite_limits(arm), axis=1)
+    if limits is None:
+        return ranges
+    if isinstance(limits, Mapping):
+        for name, pair in limits.items():
+            ranges[arm.joint_index(name)] = pair
+    else:
+        array = np.asarray(limits, dtype=np.float64)
+        if array.shape != (arm.n, 2):
+            raise InputError(f"limits have shape {array.shape}; they must be ({arm.n}, 2), lower and upper of each joint")
+        ranges = array.copy()
+    for index, (lower, upper) in enumerate(ranges):
+        joint = arm.joints[index]
+        if not (np.isfinite([lower, upper]).all() and lower <= upper):
+            raise InputError(f"limits of joint '{joint.name}' are {lower:g} to {upper:g}; give finite ones, the lower first")
+        if lower < joint.lower - 1e-9 or upper > joint.upper + 1e-9:
+            raise InputError(
+                f"limits of joint '{joint.name}' are {lower:g} to {upper:g}, beyond the arm's own, {joint.lower:g} to "
+                f"{joint.upper:g} {joint.unit}"
+            )
+    return ranges
+
+
+# ---- any arm -----------------------------------------------------------------------------------------------------
+
+
+def _sampled_workspace(
+    arm: Arm,
+    task: Task,
+    sampling_box: tolerant_sampled.SamplingBox,
+    limits: FloatArray,
+    optimised: bool,
+    points: int,
+    angles: int,
+    seed: int,
+    confidence: float,
+) -> TolerantWorkspace:
+    poses = sampling_box.sample_poses(points, seed)
+    healthy = tolerant_sampled.check_reached(arm, task, poses, seed)
+    within = healthy.copy()
+    within[healthy] = tolerant_sampled.check_reached(
+        tolerant_sampled.with_artificial_limits(arm, limits), task, poses[healthy], seed
+    )
+    values = [np.linspace(lower, upper, angles) for lower, upper in limits]
+    survives = np.zeros((points, arm.n), dtype=bool)
+    survival_tables = tolerant_sampled.check_survival(arm, task, poses[within], values, seed)
+    survives[within] = np.stack([table.all(axis=1) for table in survival_tables], axis=1)
+    inside = np.asarray(survives.all(axis=1))
+    fraction = Interval.from_counts(int(inside.sum()), points, confidence)
+    return TolerantWorkspace(
+        arm=arm,
+        task=task,
+        limits=limits,
+        size=sampling_box.size * fraction.value,
+        size_interval=(sampling_box.size * fraction.low, sampling_box.size * fraction.high),
+        healthy_size=sampling_box.size * float(healthy.mean()),
+        points=poses[:, :3, 3],
+        healthy=healthy,
+        within=within,
+        survives=survives,
+        inside=inside,
+        exact=False,
+        angles=angles,
+        optimised=optimised,
+        confidence=confidence,
+    )
+
+
+# ---- three links in a plane --------------------------------------------------------------------------------------
+
+
+def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: FloatArray, optimised: bool) -> TolerantWorkspace:
+    links = planar_arm.link_limits(limits)
+    links[:, 1] = np.minimum(links[:, 1], links[:, 0] + tolerant_planar.FULL_TURN_RAD)
+    area, coarse = (
+        float(tolerant_planar.workspace_area(planar_arm, links[None], radii)[0]) for radii in (_AREA_RADII, _AREA_RADII // 2)
+    )
+    error = abs(area - coarse)
+    outer_radius, inner_radius = _reach_radii(planar_arm)
+    coordinates = np.linspace(-outer_radius, outer_radius, _GRID_POINTS)
+    plane_points = np.stack(np.meshgrid(coordinates, coordinates), axis=-1).reshape(-1, 2)
+    radius = np.hypot(*plane_points.T)
+    healthy = (radius <= outer_radius) & (radius >= inner_radius)
+    flags = tolerant_planar.classify_points(planar_arm, links, plane_points + planar_arm.center)
+    normal = np.cross(*task.rows[:, :3])
+    plane_offset = normal * float(normal @ arm.forward_kinematics(np.zeros(arm.n))[:3, 3])
+    return TolerantWorkspace(
+        arm=arm,
+        task=task,
+        limits=limits,
+        size=area,
+        size_interval=(max(area - error, 0.0), area + error),
+        healthy_size=float(np.pi * (outer_radius**2 - inner_radius**2)),
+        points=(plane_points + planar_arm.center) @ task.rows[:, :3] + plane_offset,
+        healthy=healthy,
+        within=flags[0],
+        survives=np.stack(flags[1:], axis=1) & flags[0][:, None],
+        inside=np.asarray(np.stack(flags).all(axis=0)),
+        exact=True,
+        angles=0,
+        optimised=optimised,
+        confidence=1.0,
+    )
+
+
+def _reach_radii(planar_arm: ThreeLinks) -> tuple[float, float]:
+    total = float(planar_arm.lengths.sum())
+    return total, max(0.0, 2 * float(planar_arm.lengths.max()) - total)
+
+
+def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> FloatArray:
+    """Find limits (3, 2) of the largest region; joint 1 is centered at 0, because the region rotates with it."""
+    from scipy import optimize
+
+    search: Any = optimize.differential_evolution  # its stubs know no vectorized cost
+    polish: Any = optimize.minimize
+
+    arm_limits = np.stack([arm.lower, arm.upper], axis=1)
+
+    def decode_limits(x: FloatArray) -> FloatArray:
+        """Return limits (P, 3, 2) from half the ranges of the joints and the middles of the last two (P, 5)."""
+        half_range, middle = np.abs(x[:, [0, 2, 4]]), np.stack([np.zeros(len(x)), x[:, 1], x[:, 3]], axis=1)
+        return np.stack([middle - half_range, middle + half_range], axis=2)
+
+    def negative_area(x: FloatArray, radii: int) -> FloatArray:
+        joints = decode_limits(x)
+        beyond = ((joints[..., 0] < arm_limits[:, 0]) | (joints[..., 1] > arm_limits[:, 1])).any(axis=1)
+        links = np.array([planar_arm.link_limits(joint_limits) for joint_limits in joints])
+        return np.where(beyond, 0.0, -tolerant_planar.workspace_area(planar_arm, links, radii))
+
+    with ProgressCount("generations", _MAX_GENERATIONS, most=True) as advance:
+        best = search(
+            lambda x: negative_area(x.T, _SEARCH_RADII),
+            # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
+            [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
+            vectorized=True,
+            updating="deferred",
+            popsize=12,
+            maxiter=_MAX_GENERATIONS,
+            callback=lambda x, convergence: advance(1),
+            rng=np.random.default_rng(seed),
+            polish=False,
+        ).x
+    for _ in track("simplex searches", range(3)):  # a simplex that has shrunk onto a ridge starts again
+        best = polish(
+            lambda x: float(negative_area(x[None], _POLISH_RADII)[0]),
+            best,
+            method="Nelder-Mead",
+            options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": best + np.vstack([np.zeros(5), 0.05 * np.eye(5)])},
+        ).x
+    return np.asarray(np.clip(decode_limits(best[None])[0], arm_limits[:, :1], arm_limits[:, 1:]))

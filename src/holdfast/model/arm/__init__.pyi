@@ -1,0 +1,10 @@
+from holdfast.model.arm.dh import DH as DH
+from holdfast.model.arm.machine import GRAVITY as GRAVITY
+from holdfast.model.arm.machine import Chain as Chain
+from holdfast.model.arm.machine import Joint as Joint
+from holdfast.model.arm.machine import Link as Link
+from holdfast.model.arm.model import Arm as Arm
+from holdfast.model.arm.poses import check_poses as check_poses
+from holdfast.model.arm.poses import pose_numbers as pose_numbers
+from holdfast.model.arm.postures import generic_configuration as generic_configuration
+from holdfast.model.arm.task import as_task as as_task

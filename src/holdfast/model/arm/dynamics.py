@@ -1,0 +1,143 @@
+"""Symbolic inverse dynamics of a serial arm: the torques of a motion.
+
+The recursion of Newton and Euler runs out along the arm for velocities and accelerations and back for forces, each in the
+axes of its own link. It carries no gravity: what gravity asks comes from :mod:`holdfast.model.arm.statics`, so that the torques
+of slow and of fast motions differ by what is computed here and by no rounding of the weight.
+
+Source: English and Maciejewski 1998, eq. (5); Luh, Walker and Paul 1980 for the recursion.
+"""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.kernels.disk_cache import cached_kernel
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.model.arm import statics
+from holdfast.model.arm.kinematics import Frame, constant_matrix, joint_motions, joint_symbols, split_transform
+from holdfast.model.arm.machine import ArmData
+from holdfast.model.arm.soundness import require_possible_inertia
+
+
+def inverse_dynamics(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
+    """Return torques and forces (n,) of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, N m and N; eq. (5).
+
+    Payload and rotor inertias (armature) are in M, viscous friction is B.
+
+    Args:
+        arm: The arm; its links may be massless.
+        q: (n,) configuration, rad and m.
+        qd: (n,) rates, rad/s and m/s.
+        qdd: (n,) accelerations, rad/s^2 and m/s^2.
+
+    Raises:
+        ArmError: A link of which nothing is known, or whose inertia no body has.
+    """
+    return sum(_torque_terms(arm, q, qd, qdd))
+
+
+@cached_kernel
+def torque_kernel(arm: ArmData) -> Kernel:
+    """Return the kernel ``(q, qd, qdd) -> inertial, viscous, and gravity torques``, each (n,): the terms of
+    :func:`inverse_dynamics`.
+    """
+    q, qd, qdd = joint_symbols(arm), ca.SX.sym("qd", arm.n), ca.SX.sym("qdd", arm.n)
+    return Kernel("inverse dynamics", [q, qd, qdd], _torque_terms(arm, q, qd, qdd))
+
+
+def check_states(arm: ArmData, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[list[FloatArray], bool]:
+    """Return configurations, rates, and accelerations, each (N, n) float64, and whether all of them were single.
+
+    What is single, (n,), is used for every row of the others.
+
+    Raises:
+        InputError: Shapes that do not fit the arm or one another; NaN or infinity in a single one.
+    """
+    states: list[FloatArray] = []
+    row_count: int | None = None
+    for name, value in (("q", q), ("qd", qd), ("qdd", qdd)):
+        try:
+            array = np.asarray(value, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"{name} for '{arm.name}' must be numbers, {arm.n} per configuration") from error
+        if array.ndim not in (1, 2) or array.shape[-1] != arm.n:
+            raise InputError(f"{name} for '{arm.name}' has shape {array.shape}; it must be ({arm.n},) or (N, {arm.n})")
+        if array.ndim == 1 and not np.isfinite(array).all():
+            raise InputError(f"{name} for '{arm.name}' holds NaN or infinity; give {arm.n} finite numbers")
+        if array.ndim == 2:
+            if row_count is not None and len(array) != row_count:
+                raise InputError(
+                    f"{name} for '{arm.name}' has {len(array)} rows and others have {row_count}; give as many of each"
+                )
+            row_count = len(array)
+        states.append(array)
+    return [np.broadcast_to(array, (1 if row_count is None else row_count, arm.n)) for array in states], row_count is None
+
+
+def _torque_terms(arm: ArmData, q: SX, qd: SX, qdd: SX) -> list[SX]:
+    gravity = statics.gravity_torques(arm, statics.composite_bodies(arm, q))
+    return [ca.densify(term) for term in (inertial_torques(arm, q, qd, qdd), viscous_torques(arm, qd), gravity)]
+
+
+def viscous_torques(arm: ArmData, qd: SX) -> SX:
+    """Return torques and forces (n,) that overcome viscous friction, ``B qd``."""
+    return ca.vertcat(*[joint.friction * qd[k] for k, joint in enumerate(arm.joints)])
+
+
+def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
+    """Return torques and forces (n,) that accelerate the links, payload, and rotors, ``M(q) qdd + C(q, qd) qd``.
+
+    Raises:
+        ArmError: A link of which nothing is known, or whose inertia no body has.
+    """
+    require_possible_inertia(arm)
+    steps = joint_motions(arm, q)
+    angular_velocity, angular_acceleration, linear_acceleration = ca.SX(3, 1), ca.SX(3, 1), ca.SX(3, 1)
+    forces: list[SX] = []
+    couples: list[SX] = []
+    for index, (joint, body) in enumerate(zip(arm.joints, statics.links_with_payload(arm), strict=True)):
+        # Of the joint's origin as it moves with the link before, then of the link, in the axes of each in turn.
+        for rotation, offset in (split_transform(joint.origin), steps[index]):
+            linear_acceleration = rotation.T @ (
+                linear_acceleration + _point_acceleration(angular_velocity, angular_acceleration, offset)
+            )
+            angular_velocity, angular_acceleration = rotation.T @ angular_velocity, rotation.T @ angular_acceleration
+        axis = constant_matrix(joint.axis)
+        if joint.prismatic:
+            linear_acceleration = linear_acceleration + axis * qdd[index] + 2 * ca.cross(angular_velocity, axis) * qd[index]
+        else:
+            angular_acceleration = angular_acceleration + axis * qdd[index] + ca.cross(angular_velocity, axis) * qd[index]
+            angular_velocity = angular_velocity + axis * qd[index]
+        moment = constant_matrix(body.mass * body.com)
+        inertia = constant_matrix(body.inertia + body.mass * statics.unit_second_moment(body.com))
+        forces.append(body.mass * linear_acceleration + _point_acceleration(angular_velocity, angular_acceleration, moment))
+        couples.append(
+            inertia @ angular_acceleration
+            + ca.cross(angular_velocity, inertia @ angular_velocity)
+            + ca.cross(moment, linear_acceleration)
+        )
+    torques: list[SX] = [None] * arm.n
+    force, couple = ca.SX(3, 1), ca.SX(3, 1)  # on the link at its origin, from the links behind it
+    for index, joint in reversed(list(enumerate(arm.joints))):
+        force, couple = force + forces[index], couple + couples[index]
+        torques[index] = ca.dot(constant_matrix(joint.axis), force if joint.prismatic else couple) + joint.armature * qdd[index]
+        for frame in (steps[index], split_transform(joint.origin)):
+            force, couple = _express_in_parent(frame, force, couple)
+    return ca.vertcat(*torques)
+
+
+def _point_acceleration(angular_velocity: SX, angular_acceleration: SX, r: SX) -> SX:
+    """Return the acceleration of a point r fixed in a rotating body: ``alpha x r + omega x (omega x r)``."""
+    return ca.cross(angular_acceleration, r) + ca.cross(angular_velocity, ca.cross(angular_velocity, r))
+
+
+def _express_in_parent(frame: Frame, force: SX, couple: SX) -> tuple[SX, SX]:
+    """Express a force and a couple at the origin of a frame in the parent frame, about the parent's origin."""
+    rotation, offset = frame
+    force = rotation @ force
+    return force, rotation @ couple + ca.cross(offset, force)

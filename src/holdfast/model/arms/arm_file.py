@@ -1,0 +1,49 @@
+"""Write an arm to a file from which the same arm can be read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from holdfast.core.errors import InputError
+from holdfast.core.files.output import replace_file
+from holdfast.core.progress import warn_now
+from holdfast.model.arm.machine import GRAVITY
+from holdfast.model.arm.model import Arm
+from holdfast.model.arms import dh_file
+from holdfast.model.arms.catalogue import TABLE_ENDINGS
+from holdfast.model.arms.dh_rows import dh_table, table_bodies
+from holdfast.model.arms.urdf_writing import urdf_text
+
+
+def write_arm(arm: Arm, file: Path) -> Path:
+    """Write an arm as a URDF file or as a Denavit-Hartenberg table; see :meth:`holdfast.Arm.save`."""
+    ending = file.suffix.lower()
+    if ending == ".urdf":
+        replace_file(file, urdf_text(arm), "arm file")
+        lost_data = lost_in_urdf(arm)
+        if lost_data:
+            warn_now(
+                f"'{file}' lacks {', '.join(lost_data)}, for which URDF has no place; save a .yaml file to keep all numbers"
+            )
+    elif ending in TABLE_ENDINGS:
+        table = dh_table(arm)
+        links, payload = table_bodies(arm, table)
+        text = dh_file.format_dh_file(table, arm.name, arm.gravity, arm.source, links=links, payload=payload)
+        replace_file(file, text, "arm file")
+    else:
+        raise InputError(f"'{file}' has the ending '{file.suffix}'; give a name that ends in .urdf or .yaml")
+    return file
+
+
+def lost_in_urdf(arm: Arm) -> list[str]:
+    """Name the numbers of an arm that a URDF file cannot hold."""
+    one_sided = any(np.isfinite(joint.lower) != np.isfinite(joint.upper) for joint in arm.joints)
+    losses = {
+        "the gravity vector": not np.array_equal(arm.gravity, GRAVITY),
+        "the payload": arm.payload is not None,
+        "rotor inertias": any(joint.armature for joint in arm.joints),
+        "limits on one side": one_sided,
+    }
+    return [name for name, is_lost in losses.items() if is_lost]

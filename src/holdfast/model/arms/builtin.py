@@ -1,0 +1,230 @@
+"""Built-in arms: textbook arms in code, real arms as stripped URDF files with their provenance."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib import resources
+from typing import Any, Literal
+
+import numpy as np
+import yaml
+
+from holdfast.core.errors import ArmError
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.dh import DH
+from holdfast.model.arm.machine import Joint, Link
+from holdfast.model.arm.model import Arm
+
+DATA_FOLDER = resources.files("holdfast.model.arms").joinpath("data")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Builtin:
+    """Facts about a built-in arm that are available without loading it.
+
+    Attributes:
+        name: As in :func:`load`.
+        n: Number of joints.
+        summary: One line for lists.
+        source: Where its numbers come from, and what is assumed.
+        licence: SPDX identifier of the file it is read from; ``MIT``, holdfast's own, for arms in code.
+        home: (n,) a configuration inside the limits and away from singularities, rad or m.
+        task: The task that suits the arm, ``pose`` or ``planar``; see :func:`holdfast.model.arm.as_task`.
+    """
+
+    name: str
+    n: int
+    summary: str
+    source: str
+    licence: str
+    home: tuple[float, ...]
+    task: Literal["pose", "planar"] = "pose"
+
+
+def names() -> list[str]:
+    """Return the names of the built-in arms, textbook arms first."""
+    return list(_builtin_entries())
+
+
+@check_arguments
+def about(name: str) -> Builtin:
+    """Return the facts about a built-in arm.
+
+    Raises:
+        ArmError: There is no such arm; the message lists those there are.
+    """
+    return _find_entry(name)[0]
+
+
+@check_arguments
+@cache
+def load(name: str) -> Arm:
+    """Return a built-in arm, the same object each time.
+
+    Raises:
+        ArmError: There is no such arm; the message lists those there are.
+    """
+    entry, make = _find_entry(name)
+    return replace(make(), name=name, source=entry.source, states={"home": np.array(entry.home)})
+
+
+def _find_entry(name: str) -> tuple[Builtin, Callable[[], Arm]]:
+    entries = _builtin_entries()
+    if name not in entries:
+        close_names = difflib.get_close_matches(name.lower(), entries, n=1, cutoff=0.5)
+        suggestion = f"did you mean '{close_names[0]}'? " if close_names else ""
+        raise ArmError(f"there is no built-in arm '{name}'; {suggestion}the built-in arms are {', '.join(entries)}")
+    return entries[name]
+
+
+@cache
+def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
+    origins: dict[str, dict[str, Any]] = yaml.safe_load(DATA_FOLDER.joinpath("provenance.yaml").read_text(encoding="utf-8"))
+
+    def make_code_entry(
+        name: str,
+        make: Callable[[], Arm],
+        home_deg: tuple[float, ...],
+        summary: str,
+        source: str,
+        task: Literal["pose", "planar"],
+    ) -> tuple[Builtin, Callable[[], Arm]]:
+        return Builtin(
+            name=name, n=len(home_deg), summary=summary, source=source, licence="MIT", home=_to_radians(home_deg), task=task
+        ), make
+
+    def make_file_entry(
+        name: str, base: str, tip: str, home: tuple[float, ...], summary: str, remark: str = ""
+    ) -> tuple[Builtin, Callable[[], Arm]]:
+        origin = origins[name]
+        source = (
+            f"{origin['upstream']}; {origin['original']} of {origin['package']} {origin['version']}, stripped to "
+            f"inertials and joints{remark}"
+        )
+        return Builtin(
+            name=name, n=len(home), summary=summary, source=source, licence=origin["licence"], home=home
+        ), lambda: _load_data_file(origin["file"], base, tip)
+
+    rod_source = (
+        "textbook arm: links of 1 m and 1 kg, uniform thin rods (inertia m l^2/12 about the two axes across the rod, 0 about "
+        "the rod), moving in the world's x-y plane with gravity along -y, limits +-180 deg"
+    )
+    ur5 = make_file_entry(
+        "ur5", "base_link", "tool0", _to_radians((0, -90, 90, -45, -90, 0)), "Universal Robots UR5, not redundant"
+    )
+    entries = [
+        make_code_entry("planar-2r", lambda: _planar_arm(2), (30, 60), "planar arm, two unit links", rod_source, "planar"),
+        make_code_entry(
+            "planar-3r", lambda: _planar_arm(3), (30, 45, 60), "planar arm, three unit links", rod_source, "planar"
+        ),
+        make_code_entry(
+            "pa10-7dof",
+            _pa10_seven_joints,
+            (0, 30, 0, 90, 0, 60, 0),
+            "Mitsubishi PA10-7C, kinematics only",
+            "link lengths as in the first joints of Table I of Abdi, Maciejewski and Nahavandi (2012), with the PA10's own "
+            "last row; limits from the maker's general specification of the PA10-7C as commonly published, not from the "
+            "paper; no inertials",
+            "pose",
+        ),
+        make_code_entry(
+            "pa10-9dof",
+            _pa10_nine_joints,
+            (0, 30, 0, 90, 0, 18, 0, 36, 0),
+            "Mitsubishi PA10 with two joints added, kinematics only",
+            "Abdi, Maciejewski and Nahavandi (2012), Table I; no inertials",
+            "pose",
+        ),
+        make_file_entry(
+            "panda",
+            "panda_link0",
+            "panda_hand_tcp",
+            _to_radians((0, -45, 0, -135, 0, 90, 45)),
+            "Franka Emika Panda with hand, fingers shut",
+            ", collision shapes kept",
+        ),
+        make_file_entry("xarm7", "link_base", "link_eef", _to_radians((0, -20, 0, 50, 0, 70, 0)), "UFACTORY xArm7"),
+        make_file_entry(
+            "iiwa14",
+            "lbr_iiwa_link_0",
+            "lbr_iiwa_link_7",
+            _to_radians((0, 30, 0, -75, 0, 75, 0)),
+            "KUKA LBR iiwa 14 R820",
+            "; its masses, inertias, efforts (300 N m) and speeds (10 rad/s) are round placeholders, not the maker's",
+        ),
+        ur5,
+        (
+            Builtin(
+                name="ur5-rail",
+                n=7,
+                summary="Universal Robots UR5 on a 2 m rail",
+                source=f"{ur5[0].source}; the rail along y and its carriage with the robot's foot are assumed: range 0 to 2 m, "
+                "1 m/s, 500 N, 24 kg, a uniform box of 0.4 x 0.4 x 0.1 m",
+                licence=ur5[0].licence,
+                home=(1.0, *ur5[0].home),
+            ),
+            _ur5_on_rail,
+        ),
+        make_file_entry(
+            "kinova-j2s6s200",
+            "base",
+            "j2s6s200_end_effector",
+            _to_radians((275, 165, 60, 240, 85, 75)),
+            "Kinova Jaco 2 (j2s6s200), three joints without limits, not redundant",
+        ),
+    ]
+    return {entry.name: (entry, make) for entry, make in entries}
+
+
+def _to_radians(degrees: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(np.deg2rad(degrees).tolist())
+
+
+def _load_data_file(file: str, base: str, tip: str) -> Arm:
+    with resources.as_file(DATA_FOLDER.joinpath(file)) as path:
+        return Arm.from_urdf(path, base, tip)
+
+
+def _planar_arm(n: int) -> Arm:
+    rod = Link(1.0, np.array([-0.5, 0, 0]), np.diag([0, 1 / 12, 1 / 12]), name="rod")
+    rows = [DH(a=1.0, alpha=0.0, lower=-np.pi, upper=np.pi) for _ in range(n)]
+    return Arm.from_dh(rows, [replace(rod, name=f"rod{index + 1}") for index in range(n)], gravity=(0, -9.81, 0))
+
+
+def _pa10_arm(d: tuple[float, ...], lower_deg: tuple[float, ...], upper_deg: tuple[float, ...]) -> Arm:
+    last_row = len(d) - 1
+    twists = [0.0 if k == last_row else (-1) ** (k + 1) * np.pi / 2 for k in range(len(d))]
+    limits = zip(np.deg2rad(lower_deg), np.deg2rad(upper_deg), strict=True)
+    return Arm.from_dh(
+        [
+            DH(0.0, alpha, offset, lower=lower, upper=upper)
+            for alpha, offset, (lower, upper) in zip(twists, d, limits, strict=True)
+        ]
+    )
+
+
+def _pa10_seven_joints() -> Arm:
+    limits = (177, 94, 174, 137, 255, 165, 360)
+    return _pa10_arm((0.315, 0, 0.45, 0, 0.5, 0, 0.08), tuple(-limit for limit in limits), limits)
+
+
+def _pa10_nine_joints() -> Arm:
+    return _pa10_arm(
+        (0.315, 0, 0.45, 0, 0.5, 0, 0.45, 0, 0.08),
+        (-45, -15, -45, 45, -45, -27, -45, -9, -45),
+        (45, 75, 45, 135, 45, 63, 45, 81, 45),
+    )
+
+
+def _ur5_on_rail() -> Arm:
+    ur5 = load("ur5")
+    rail = Joint(
+        "rail", "prismatic", np.eye(4), axis=np.array([0.0, 1.0, 0.0]), lower=0.0, upper=2.0, velocity=1.0, effort=500.0
+    )
+    x, y, z, mass = 0.4, 0.4, 0.1, 24.0
+    box_inertia = mass / 12 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
+    carriage = Link(mass, np.array([0, 0, -z / 2]), box_inertia, name="carriage")
+    return replace(ur5, joints=(rail, *ur5.joints), links=(carriage, *ur5.links), chain=None)

@@ -1,0 +1,11 @@
+from holdfast.model.cell.cell import Cell as Cell
+from holdfast.model.cell.cell import as_cell as as_cell
+from holdfast.model.cell.meshes import Mesh as Mesh
+from holdfast.model.cell.meshes import Points as Points
+from holdfast.model.cell.meshes import Source as Source
+from holdfast.model.cell.solids import Box as Box
+from holdfast.model.cell.solids import Capsule as Capsule
+from holdfast.model.cell.solids import Cylinder as Cylinder
+from holdfast.model.cell.solids import HalfSpace as HalfSpace
+from holdfast.model.cell.solids import Solid as Solid
+from holdfast.model.cell.solids import Sphere as Sphere

@@ -1,0 +1,334 @@
+"""Work cell with the objects around an arm and the margins to keep from them."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import ArmError, InputError
+from holdfast.core.formatting import format_count
+from holdfast.core.validation import check_arguments, check_constructor
+from holdfast.model.arms.catalogue import root_element_name
+from holdfast.model.cell.meshes import Mesh, Points, Source
+from holdfast.model.cell.solids import Solid
+
+
+@check_constructor
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """Static objects in the world.
+
+    Attributes:
+        objects: In any order, each with a name of its own.
+        name: For people and files.
+        margin: What an arm keeps from each of them at least, m.
+        may_touch: Pairs of an object and a link, by the joint that moves it or ``base``, that are not checked.
+        held: What moves with the tool, as a part in the gripper: boxes, cylinders, capsules and spheres with their poses in the
+            tool's frame.
+        shape: Of the arm in this cell: ``meshes`` of its own file, ``assumed`` capsules along its links, or a capsule file; the
+            best that there is if empty.
+        spheres_to: How far the spheres that cover the arm may reach beyond it, m; None for what is usual.
+        hold: Where joints outside the arm's chain are, rad or m, by name.
+
+    Raises:
+        InputError: Two objects of one name, or a margin below 0 or not finite.
+    """
+
+    objects: Sequence[Solid]
+    _: KW_ONLY
+    name: str = "cell"
+    margin: float = 0.0
+    may_touch: Sequence[tuple[str, str]] = ()
+    held: Sequence[Solid] = ()
+    shape: str = ""
+    spheres_to: float | None = None
+    hold: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "objects", tuple(self.objects))
+        object.__setattr__(self, "may_touch", tuple((object_name, link_name) for object_name, link_name in self.may_touch))
+        object.__setattr__(self, "held", tuple(self.held))
+        object.__setattr__(self, "hold", dict(self.hold))
+        if not 0 <= self.margin < float("inf"):
+            raise InputError(f"the margin of cell '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
+        names = [solid.name for solid in self.objects]
+        double = next((name for index, name in enumerate(names) if name in names[:index]), None)
+        if double is not None:
+            raise InputError(f"cell '{self.name}': the name '{double}' is used by two objects; names must be unique")
+
+    def __iter__(self) -> Iterator[Solid]:
+        return iter(self.objects)
+
+    def __len__(self) -> int:
+        return len(self.objects)
+
+    def with_poses(self, poses: Mapping[str, ArrayLike]) -> Cell:
+        """Return the same cell with some of its objects at other poses.
+
+        Args:
+            poses: (4, 4) in the world, m, by the name of the object.
+
+        Raises:
+            InputError: It has no such object.
+        """
+        names = [solid.name for solid in self.objects]
+        unknown = next((name for name in poses if name not in names), None)
+        if unknown is not None:
+            raise InputError(f"cell '{self.name}' has no object '{unknown}'; it has {', '.join(names)}")
+        objects = [member.moved_to(poses[member.name]) if member.name in poses else member for member in self.objects]
+        return replace(self, objects=objects)
+
+    def __str__(self) -> str:
+        kinds = Counter(type(solid).__name__ for solid in self.objects)
+        summary = ", ".join(format_count(count, _KIND_NAMES.get(kind, kind)) for kind, count in kinds.items())
+        return f"cell '{self.name}': {summary or 'no objects'}" + (f"; margin {self.margin:g} m" if self.margin else "")
+
+    def margin_of(self, solid: Solid) -> float:
+        """Return the margin to keep from an object, m: the larger of its own margin and the cell's."""
+        return max(self.margin, solid.margin)
+
+    # ---- files -------------------------------------------------------------------------------------------------
+
+    @classmethod
+    @check_arguments
+    def load(cls, path: str | Path) -> Cell:
+        """Return the cell of a YAML file, see :mod:`holdfast.model.cell.cell_file`, or of a URDF or MJCF file, recognized by
+        its content.
+
+        Of a URDF or MJCF file with several ends, :meth:`from_urdf` and :meth:`from_mjcf` take the one that is the arm's.
+
+        Raises:
+            InputError: The file cannot be read, or an entry is wrong; the sentence says where.
+            HoldfastError: It needs an extra that is not installed.
+        """
+        from holdfast.model.cell import cell_file
+
+        path = Path(path)
+        if path.suffix.lower() in _XML_ENDINGS:
+            return cls.from_mjcf(path) if root_element_name(str(path)) == "mujoco" else cls.from_urdf(path)
+        try:
+            return cls.from_dict(cell_file.read_cell_file(path), path.parent)
+        except (InputError, ArmError) as error:
+            raise cell_file.cell_file_error(path, error) from error
+
+    @classmethod
+    @check_arguments
+    def from_urdf(
+        cls,
+        path: str | Path,
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        hold: Mapping[str, float] | None = None,
+        meshes: str | Path | None = None,
+    ) -> Cell:
+        """Return the objects that a URDF file holds in addition to an arm: the ``<collision>`` of every link that does not move
+        with it.
+
+        The links from ``base`` to the first joint that moves are the arm's. Poses are in the frame of ``base``, as those of the
+        arm that :meth:`holdfast.Arm.from_urdf` reads with the same arguments. A mesh that is not closed becomes its hull. What
+        the base touches it may touch: neither moves.
+
+        Args:
+            path: The file.
+            base: Link on which the arm is mounted; the root if not given.
+            tip: Link whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_urdf`; not needed if nothing moves.
+            hold: Value, rad or m, at which joints are held that are not the arm's.
+            meshes: Folder with the files of meshes, if they are not where the file says.
+
+        Raises:
+            InputError: The file cannot be read, has no such links, or a shape that cannot be read.
+        """
+        from holdfast.model.cell import cell_file, surroundings
+
+        try:
+            folder = None if meshes is None else Path(meshes)
+            return cls(**surroundings.cell_arguments_from_urdf(Path(path), base, tip, hold or {}, folder))
+        except (InputError, ArmError) as error:
+            raise cell_file.cell_file_error(Path(path), error) from error
+
+    @classmethod
+    @check_arguments
+    def from_mjcf(
+        cls, path: str | Path, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None
+    ) -> Cell:
+        """Return the objects that an MJCF file holds in addition to an arm: the colliding geoms of the world and of bodies that
+        do not move with it.
+
+        The bodies from ``base`` to the first joint that moves are the arm's, but for the world. A mesh is its hull, as MuJoCo
+        has it. What the base touches it may touch: neither moves. Needs ``holdfast-arms[physics]``.
+
+        Args:
+            path: The file.
+            base: Body on which the arm is mounted; ``world`` if not given.
+            tip: Body whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_mjcf`; not needed if nothing moves.
+            hold: Value, rad or m, at which joints are held that are not the arm's.
+
+        Raises:
+            InputError: MuJoCo cannot read the file, it has no such bodies, or a geom of which no distance is known.
+            HoldfastError: MuJoCo is not installed.
+        """
+        from holdfast.model.cell import cell_file, surroundings
+
+        try:
+            return cls(**surroundings.cell_arguments_from_mjcf(Path(path), base, tip, hold or {}))
+        except (InputError, ArmError) as error:
+            raise cell_file.cell_file_error(Path(path), error) from error
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any], folder: str | Path = ".") -> Cell:
+        """Return the cell of :meth:`to_dict`, or of the keys and values of a file.
+
+        Args:
+            data: The keys and values.
+            folder: Where the files are that it names.
+
+        Raises:
+            InputError: An entry is wrong; the sentence says where.
+        """
+        from holdfast.model.cell import cell_file
+
+        return cls(**cell_file.parse_cell(data, Path(folder)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything as JSON types: the keys and values of a file, with the full paths of other files.
+
+        Raises:
+            InputError: An object of a kind of your own, which no file can hold.
+        """
+        from holdfast.model.cell import cell_file
+
+        data: dict[str, Any] = {"name": self.name} | ({"margin": float(self.margin)} if self.margin else {})
+        data["objects"] = {solid.name: cell_file.describe_object(solid) for solid in self.objects}
+        data |= {"held": [cell_file.describe_object(solid) for solid in self.held]} if self.held else {}
+        data |= {"may_touch": [list(pair) for pair in self.may_touch]} if self.may_touch else {}
+        full_shape = self.shape if self.shape in cell_file.SHAPE_WORDS else str(Path(self.shape).resolve())
+        arm: dict[str, Any] = {"shape": full_shape} if full_shape else {}
+        arm |= {"spheres_to": float(self.spheres_to)} if self.spheres_to is not None else {}
+        arm |= {"hold": {name: float(value) for name, value in self.hold.items()}} if self.hold else {}
+        return data | ({"arm": arm} if arm else {})
+
+    @check_arguments
+    def save(self, path: str | Path) -> list[Path]:
+        """Write the cell as a YAML file that :meth:`load` reads, with every digit.
+
+        Meshes and clouds that came from files stay there and are named as seen from the new file; others are written beside it.
+
+        Returns:
+            The YAML file and what was written beside it.
+
+        Raises:
+            StoreError: It cannot be written.
+            InputError: An object of a kind of your own, which no file can hold.
+        """
+        import io
+
+        from holdfast.core.files import mesh, output
+        from holdfast.model.cell import cell_file
+
+        file, data, companions = Path(path), self.to_dict(), {}
+        folder = file.absolute().parent
+        for number, solid in enumerate(self.objects):
+            if not isinstance(solid, (Mesh, Points)):
+                continue
+            key, entry = "mesh" if isinstance(solid, Mesh) else "points", data["objects"][solid.name]
+            if solid.source is not None:
+                entry[key] = os.path.relpath(solid.source.path, folder)
+                continue
+            entry[key] = f"{file.stem}-{number + 1}.{'obj' if isinstance(solid, Mesh) else 'npy'}"
+            if isinstance(solid, Mesh):
+                companions[folder / entry[key]] = mesh.write_obj_text(solid.surface).encode()
+            else:
+                stream = io.BytesIO()
+                np.save(stream, solid.centres)
+                companions[folder / entry[key]] = stream.getvalue()
+        if self.shape not in cell_file.SHAPE_WORDS:
+            data["arm"]["shape"] = os.path.relpath(data["arm"]["shape"], folder)
+        for companion, content in companions.items():
+            output.replace_file(companion, content, "cell to")
+        output.replace_file(file, cell_file.format_cell(data), "cell to")
+        return [file, *companions]
+
+    # ---- what it is made of ------------------------------------------------------------------------------------
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of the geometry and margins, triangles and points included, without names and paths of files.
+
+        The same shape from a file of another kind, or from arrays, has the same one. Of a capsule file the bytes count.
+
+        Raises:
+            InputError: The capsule file cannot be read.
+        """
+        from holdfast.core.files import reading
+        from holdfast.model.cell import cell_file
+
+        if self.shape in cell_file.SHAPE_WORDS:
+            return self.digest_with(self.shape)
+        with reading.guard_reading(f"capsule file '{self.shape}'"):
+            return self.digest_with(hashlib.sha256(reading.read_bytes(Path(self.shape))).hexdigest())
+
+    def digest_with(self, shape: str) -> str:
+        """Return the digest with another text for the shape of the arm, because older folders contain the path of its capsule
+        file.
+        """
+        from holdfast.model.cell import cell_file
+
+        def describe_solid(solid: Solid) -> Any:
+            if not isinstance(solid, (Mesh, Points)):
+                return [solid.name, cell_file.describe_object(solid)]
+            radius = solid.radius if isinstance(solid, Points) else 0.0
+            return [solid.name, type(solid).__name__, solid.digest, radius, solid.pose.tolist(), solid.margin]
+
+        content = [
+            sorted(map(describe_solid, self.objects), key=lambda row: row[0]),
+            [cell_file.describe_object(solid) for solid in self.held],
+            [float(self.margin), sorted(map(list, self.may_touch))],
+            [shape, self.spheres_to, sorted(self.hold.items())],
+        ]
+        return hashlib.sha256(json.dumps(content).encode()).hexdigest()
+
+    @property
+    def sources(self) -> dict[str, Source]:
+        """Files that objects were read from, by the name of the object."""
+        return {
+            solid.name: solid.source for solid in self.objects if isinstance(solid, (Mesh, Points)) and solid.source is not None
+        }
+
+    def require_unchanged(self) -> None:
+        """Raise an error if a file of a mesh or cloud has changed since it was read; a run calls this before it writes.
+
+        Raises:
+            InputError: One is not; the sentence names it.
+        """
+        for name, source in self.sources.items():
+            if source.changed():
+                raise InputError(
+                    f"'{source.path.name}', the file of object '{name}', changed since the cell was read, so nothing was "
+                    f"written; run again"
+                )
+
+
+_XML_ENDINGS = (".urdf", ".xml", ".mjcf")
+_KIND_NAMES = {"HalfSpace": "half space", "Points": "point cloud"} | {
+    kind: kind.lower() for kind in ("Box", "Cylinder", "Capsule", "Sphere", "Mesh")
+}
+
+
+def as_cell(cell: Cell | str | Path | None) -> Cell | None:
+    """Return a cell from a cell or from the path of its file.
+
+    Raises:
+        InputError: The file cannot be used.
+    """
+    return cell if cell is None or isinstance(cell, Cell) else Cell.load(cell)

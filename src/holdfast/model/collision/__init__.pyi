@@ -1,0 +1,9 @@
+from holdfast.model.collision.capsules import Capsules as Capsules
+from holdfast.model.collision.capsules import IgnoredPair as IgnoredPair
+from holdfast.model.collision.capsules import LinkCapsule as LinkCapsule
+from holdfast.model.collision.cell_check import CellCheck as CellCheck
+from holdfast.model.collision.cell_check import CheckedObject as CheckedObject
+from holdfast.model.collision.cell_check import check_cell as check_cell
+from holdfast.model.collision.clearance import Clearance as Clearance
+from holdfast.model.collision.clearance_argument import chosen_clearance as chosen_clearance
+from holdfast.model.collision.contacts import Contact as Contact

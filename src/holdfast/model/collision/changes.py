@@ -1,0 +1,79 @@
+"""Bounds of how fast distances on an arm can change, from lengths alone, for proofs about whole motions."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.capsules import Capsules
+
+Pairs = NDArray[np.int64]
+
+
+def pair_lipschitz_bounds(
+    arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], lower: FloatArray, upper: FloatArray
+) -> FloatArray:
+    """Bound how much the distance of each pair of capsules changes per rad and m of each joint, (P, n).
+
+    A joint between the two links of a pair turns one capsule about an axis that the other does not feel, so the distance
+    changes by no more than the farthest point of either capsule from that axis, per rad; by 1 m per m along a slide. The
+    farthest point is no farther than the lengths along the chain: a Lipschitz bound for every configuration within the box.
+
+    Args:
+        arm: The arm.
+        capsules: Its shape.
+        pairs: Positions in ``capsules.parts``, the capsule nearer to the base first.
+        lower: (n,) lower corner of the box, finite, rad and m.
+        upper: (n,) upper corner.
+    """
+    extensions, offsets = _joint_extents(arm, lower, upper)
+    bounds = np.zeros((len(pairs), arm.n))
+    for pair_bounds, (first_index, second_index) in zip(bounds, pairs, strict=True):
+        first, second = capsules.parts[first_index], capsules.parts[second_index]
+        end_distances = [
+            max(float(np.linalg.norm(end_point)) for end_point in (part.start, part.end)) for part in (first, second)
+        ]
+        for joint in range(first.link + 1, second.link + 1):
+            # Outwards from axis k to the second capsule; inwards from it to the first.
+            outward = (
+                extensions[joint]
+                + offsets[joint + 1 : second.link + 1].sum()
+                + extensions[joint + 1 : second.link + 1].sum()
+                + end_distances[1]
+            )
+            inward = offsets[first.link + 1 : joint + 1].sum() + extensions[first.link + 1 : joint].sum() + end_distances[0]
+            pair_bounds[joint] = 1.0 if arm.prismatic[joint] else min(outward, inward)
+    return bounds
+
+
+def link_lipschitz_bounds(
+    arm: Arm, links: Pairs, max_distances: FloatArray, lower: FloatArray, upper: FloatArray
+) -> FloatArray:
+    """Bound as :func:`pair_lipschitz_bounds` the distances between links and fixed objects, (L, n).
+
+    Args:
+        arm: The arm.
+        links: (L,) by the joint that moves each, from 0.
+        max_distances: (L,) farthest centre of the spheres of each link from its own frame, m.
+        lower: (n,) lower corner of the box, finite, rad and m.
+        upper: (n,) upper corner.
+    """
+    extensions, offsets = _joint_extents(arm, lower, upper)
+    bounds = np.zeros((len(links), arm.n))
+    for link_bounds, link, max_distance in zip(bounds, links, max_distances, strict=True):
+        for joint in range(link + 1):
+            outward = (
+                extensions[joint] + offsets[joint + 1 : link + 1].sum() + extensions[joint + 1 : link + 1].sum() + max_distance
+            )
+            link_bounds[joint] = 1.0 if arm.prismatic[joint] else outward
+    return bounds
+
+
+def _joint_extents(arm: Arm, lower: FloatArray, upper: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the largest extension (n,) of each prismatic joint, and the distance of each joint's frame from the previous one,
+    m.
+    """
+    extensions = np.where(arm.prismatic, np.maximum(np.abs(lower), np.abs(upper)), 0.0)
+    return extensions, np.array([float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints])

@@ -1,0 +1,106 @@
+"""A clearance with exact distances where its bound is not sufficient, so that falsely blocked configurations become free."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.configurations import as_configurations
+from holdfast.model.cell.cell import Cell
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.exact.engines import is_library_installed
+
+if TYPE_CHECKING:
+    from holdfast.model.collision.exact.exactness import ExactQueries
+
+
+_EXACT_BELOW_M = 0.02  # m of room: nearer than this the distance is asked for; about what the bound lacks
+
+
+def with_exact_distances(clearance: Clearance | None, margin: float = 0.0) -> ExactClearance | None:
+    """Return the clearance with exact distances; None without a library, and where the distances are exact already.
+
+    Without a cell those of capsules that cover no known shape are.
+
+    Args:
+        clearance: Whose bound is asked first.
+        margin: m, the room that will be asked for.
+    """
+    if (
+        clearance is None
+        or isinstance(clearance, ExactClearance)
+        or (clearance.cell is None and clearance.capsules.shape is None)
+    ):
+        return None
+    return ExactClearance(clearance, margin) if is_library_installed() else None
+
+
+class ExactClearance(Clearance):
+    """A clearance whose bound is raised to the exact distance, less the library's error, wherever the margin is small.
+
+    What is nearest has that distance, so that everything else has at least as much: it bounds every pair, of bodies instead of
+    the capsules and spheres that cover them, and proofs about whole motions hold as they do for the bound.
+
+    Args:
+        bound: The clearance.
+        margin: m, the room that will be asked for.
+    """
+
+    def __init__(self, bound: Clearance, margin: float) -> None:
+        vars(self).update(
+            {attribute: value for attribute, value in vars(bound).items() if attribute not in ("alone", "exactness")}
+        )
+        self._bound, self._near = bound, margin + _EXACT_BELOW_M
+
+    @property
+    def alone(self) -> Clearance:
+        """The bound without the cell."""
+        return self._bound.alone
+
+    @property
+    def exactness(self) -> ExactQueries:
+        """Exact collision queries, answered by a library."""
+        return self._bound.exactness
+
+    @cached_property
+    def _accuracy(self) -> float:
+        return self.exactness.accuracy
+
+    def with_cell(self, cell: Cell | None) -> Clearance:
+        """See :meth:`holdfast.Clearance.with_cell`."""
+        other_bound = self._bound.with_cell(cell)
+        return with_exact_distances(other_bound, self._near - _EXACT_BELOW_M) or other_bound
+
+    def __call__(self, q: ArrayLike) -> FloatArray:
+        """See :meth:`holdfast.Clearance.__call__`."""
+        return self._raise_bound(q, np.zeros(len(self.margins)), self._bound(q))
+
+    def margin_left(self, q: ArrayLike) -> FloatArray:
+        """See :meth:`holdfast.Clearance.margin_left`."""
+        return self._raise_bound(q, self.margins, self._bound.margin_left(q))
+
+    def _raise_bound(self, q: ArrayLike, margins: FloatArray, bound: FloatArray) -> FloatArray:
+        rows, single = as_configurations(self.arm, q)
+        raised = np.atleast_1d(bound).copy()
+        is_near = raised < self._near
+        if is_near.any():
+            raised[is_near] = (self.by_pair(rows[is_near]) - margins).min(axis=1)
+        return raised[0] if single else raised
+
+    def by_pair(self, q: ArrayLike) -> FloatArray:
+        """See :meth:`holdfast.Clearance.by_pair`."""
+        rows, single = as_configurations(self.arm, q)
+        values = self._bound.by_pair(rows)
+        is_near = (values - self.margins).min(axis=1, initial=np.inf) < self._near
+        if is_near.any():
+            exact_distance = self._bound.exact(rows[is_near]) - self._accuracy
+            values[is_near] = np.maximum(values[is_near], exact_distance[:, None])
+        return values[0] if single else values
+
+    def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
+        """See :meth:`holdfast.Clearance.closest_pair`; by the bound."""
+        return self._bound.closest_pair(q)

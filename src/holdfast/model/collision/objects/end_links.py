@@ -1,0 +1,101 @@
+"""Tool poses at which every configuration collides, because the pose alone fixes the last two links.
+
+The last link has one place at a pose; the one before it can only do what the last joint lets it. While that joint turns by at
+most a from an angle that is looked at, a sphere whose centre is at distance d from its axis goes no farther than d a: if it is
+too close to an object by more than that, it is so at all of these angles.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.machine import ArmData, Joint
+from holdfast.model.cell.solids import PrimitiveSolid
+from holdfast.model.collision.capsules import BASE_LINK
+from holdfast.model.collision.object_kernels import FormulaObjects
+from holdfast.model.collision.sphere_cover import SphereCover
+
+_STAGE_ANGLES = (1, 3, 20)  # angles of the last joint; what they leave open is looked at in the next
+_GOLDEN_FRACTION = (np.sqrt(5) - 1) / 2  # its multiples are all round the circle, however few they are
+# _LAST_JOINT and _PREVIOUS_JOINT: the joints that move the two links here
+_LAST_JOINT = 5
+_PREVIOUS_JOINT = 6
+_POSE_TOLERANCE_M = (
+    1e-5  # m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it
+)
+
+
+class EndLinks:
+    """The last two links of an arm at the tool's pose, among objects with a distance formula.
+
+    Args:
+        arm: The arm, of two joints or more.
+        spheres: The spheres that cover it.
+        objects: F of them.
+        offsets: (n, F) added to the distance of each link that moves from each, m.
+        margins: (F,) what is kept from each, m.
+    """
+
+    def __init__(
+        self, arm: ArmData, spheres: SphereCover, objects: list[PrimitiveSolid], offsets: FloatArray, margins: FloatArray
+    ) -> None:
+        last_joint, count = arm.joints[-1], sum(_STAGE_ANGLES)
+        lower, upper = (float(limits[-1]) for limits in finite_limits(arm))
+        step = (upper - lower) / count
+        order = np.argsort(np.arange(count) * _GOLDEN_FRACTION % 1)
+        self._angles = np.split(lower + step * (order + 0.5), np.cumsum(_STAGE_ANGLES)[:-1])
+        self._from_tool, from_last_joint = np.linalg.inv(arm.tool), np.linalg.inv(last_joint.origin)
+        end_spheres = np.flatnonzero((spheres.link >= arm.n - 2) & (spheres.link > BASE_LINK))[::-1]  # the last link's first
+        center, on_previous = spheres.center[end_spheres], spheres.link[end_spheres] == arm.n - 2
+        center[on_previous] = (
+            center[on_previous] @ from_last_joint[:3, :3].T + from_last_joint[:3, 3]
+        )  # seen from the last link, and moved the other way
+        axis_distance = (
+            np.ones(len(end_spheres)) if last_joint.prismatic else np.linalg.norm(np.cross(center, last_joint.axis), axis=1)
+        )
+        radius = spheres.radius[end_spheres] - on_previous * axis_distance * step / 2
+        end_cover = SphereCover(np.where(on_previous, _PREVIOUS_JOINT, _LAST_JOINT), center, radius, spheres.part[end_spheres])
+        self._last = np.unique(end_cover.link) == _LAST_JOINT
+        offsets = offsets[np.unique(spheres.link[end_spheres])[::-1]]
+        self._objects, self._margins = FormulaObjects(_end_machine(last_joint), end_cover, objects, offsets), margins
+
+    def are_too_close(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+        """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved to be closer than the margin,
+        m.
+
+        False proves nothing.
+        """
+        if not (self._last.size and self._margins.size):
+            return np.zeros(len(poses), dtype=np.bool_)
+        coordinates = _pose_coordinates(poses @ self._from_tool)
+        always_close, undecided = np.ones(len(poses), dtype=np.bool_), np.arange(len(poses))
+        for angles in self._angles:
+            q = np.column_stack([np.repeat(coordinates[undecided], len(angles), axis=0), -np.tile(angles, undecided.size)])
+            margins_left = (self._objects.link_distances(q) - self._margins).min(axis=2, initial=np.inf)
+            is_close = (margins_left < margin - _POSE_TOLERANCE_M).reshape(undecided.size, len(angles), len(self._last))
+            always_close[undecided] = remains_close = is_close.any(axis=2).all(axis=1)
+            undecided = undecided[remains_close & ~is_close[:, 0, self._last].any(axis=1)]
+        return always_close
+
+
+def _end_machine(last: Joint) -> ArmData:
+    """Return a machine whose first six joints put the last link of an arm anywhere; the seventh is the arm's last, reversed."""
+    slides = [Joint(f"along {name}", "prismatic", np.eye(4), axis=axis) for name, axis in zip("xyz", np.eye(3), strict=True)]
+    turns = [
+        Joint(f"about {axis_name}", "continuous", np.eye(4), axis=direction)
+        for axis_name, direction in zip("zyx", np.eye(3)[::-1], strict=True)
+    ]
+    return ArmData("end links", (*slides, *turns, Joint("last", last.type, np.eye(4), axis=last.axis)))
+
+
+def _pose_coordinates(poses: FloatArray) -> FloatArray:
+    """Return positions, m, and angles about z, then y, then x, rad, of poses (N, 4, 4), together (N, 6)."""
+    r = poses[:, :3, :3]
+    yaw = np.arctan2(r[:, 1, 0], r[:, 0, 0])  # 0 at a quarter turn about y, where any yaw will do
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    pitch = np.arctan2(-r[:, 2, 0], cosine * r[:, 0, 0] + sine * r[:, 1, 0])
+    roll = np.arctan2(sine * r[:, 0, 2] - cosine * r[:, 1, 2], cosine * r[:, 1, 1] - sine * r[:, 0, 1])
+    return np.column_stack([poses[:, :3, 3], yaw, pitch, roll])

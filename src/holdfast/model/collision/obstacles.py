@@ -1,0 +1,269 @@
+"""A lower bound of the distance between an arm and the objects of a cell, compiled once for the arm: objects are inputs.
+
+The arm is covered by spheres (:mod:`holdfast.model.collision.sphere_cover`), so what is said to be clear is clear. Objects are
+taken in blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are
+looked
+up in their grids (:mod:`holdfast.model.collision.objects.gridded`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.kernels.kernel import SingleRowKernel
+from holdfast.model.arm.model import Arm
+from holdfast.model.cell.cell import Cell
+from holdfast.model.cell.meshes import GriddedSolid
+from holdfast.model.cell.solids import PrimitiveSolid, Solid
+from holdfast.model.collision.capsules import BASE_LINK, Capsules, link_name
+from holdfast.model.collision.changes import link_lipschitz_bounds
+from holdfast.model.collision.object_kernels import FAR_AWAY_M, FormulaObjects, outward_kernel
+from holdfast.model.collision.objects.end_links import EndLinks
+from holdfast.model.collision.objects.gridded import GriddedObjects
+from holdfast.model.collision.sphere_cover import SphereCover, make_sphere_cover
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NearestGap:
+    """The smallest margin between an arm and an object.
+
+    Attributes:
+        pair: Position in ``pairs`` of the obstacles.
+        distance: m, of the cover of the arm: at most the true one.
+        margin: m, the distance less what must be kept.
+        on_arm, on_object: (3,) the two points in the world, m; the first on the sphere that covers the link there.
+    """
+
+    pair: int
+    distance: float
+    margin: float
+    on_arm: FloatArray
+    on_object: FloatArray
+
+
+class Obstacles:
+    """The objects of a cell, against the spheres of an arm.
+
+    Args:
+        arm: The arm.
+        capsules: What covers its links.
+        cell: The objects.
+
+    Attributes:
+        arm, capsules, cell: As given.
+        spheres: The spheres that cover the capsules.
+        links: (L,) the links that have spheres and move, ascending.
+        pairs: (L K, 2) link and object of each pair: all objects of the first link, then of the next.
+        margins: (L K,) what each pair keeps at least, m.
+        names: Of the pairs, ``panda_joint4 & table``.
+        may_touch: (n + 1, K) whether a link, the base first, and an object may touch.
+
+    Raises:
+        InputError: The base touches an object, or ``may_touch`` names no object or link.
+    """
+
+    def __init__(self, arm: Arm, capsules: Capsules, cell: Cell) -> None:
+        self.arm, self.capsules, self.cell = arm, capsules, cell
+        self.spheres: SphereCover = make_sphere_cover(capsules)
+        self.links: IndexArray = np.unique(self.spheres.link[self.spheres.link > BASE_LINK])
+        count = len(cell)
+        self.pairs: IndexArray = np.stack(
+            [np.repeat(self.links, count), np.tile(np.arange(count, dtype=np.int64), len(self.links))], axis=1
+        )
+        self._own_margins: FloatArray = np.array([cell.margin_of(solid) for solid in cell])
+        self.margins: FloatArray = np.tile(self._own_margins, len(self.links))
+        names = [solid.name for solid in cell]
+        self.names = [f"{link_name(arm, int(link))} & {names[index]}" for link, index in self.pairs]
+        self._formula_indices: IndexArray = np.array(
+            [index for index, solid_object in enumerate(cell) if isinstance(solid_object, PrimitiveSolid)], dtype=np.int64
+        )
+        self._grid_indices: IndexArray = np.array(
+            [index for index, solid_object in enumerate(cell) if isinstance(solid_object, GriddedSolid)], dtype=np.int64
+        )
+        unsupported = next(
+            (solid_object for solid_object in cell if not isinstance(solid_object, (PrimitiveSolid, GriddedSolid))), None
+        )
+        if unsupported is not None:
+            raise InputError(
+                f"object '{unsupported.name}' is a {type(unsupported).__name__}, and no distance from one is known; "
+                f"make it one of the solids of holdfast.model.cell"
+            )
+        self.may_touch = self._allowed_contacts()
+        self._check_base()
+
+    # ---- what is looked at ---------------------------------------------------------------------------------------
+
+    def _allowed_contacts(self) -> NDArray[np.bool_]:
+        """Return (n + 1, K) True for pairs of a link, the base first, and an object that may touch."""
+        names = [solid.name for solid in self.cell]
+        links = ["base", *self.arm.joint_names]
+        allowed = np.zeros((len(links), len(names)), dtype=np.bool_)
+        for object_name, link in self.cell.may_touch:
+            if object_name not in names:
+                raise InputError(f"may_touch: cell '{self.cell.name}' has no object '{object_name}'; it has {', '.join(names)}")
+            if link not in links:
+                raise InputError(f"may_touch: '{self.arm.name}' has no link '{link}'; its links are {', '.join(links)}")
+            allowed[links.index(link), names.index(object_name)] = True
+        return allowed
+
+    def _check_base(self) -> None:
+        """Check the contacts of the base, which does not move, so that any contact is permanent.
+
+        Raises:
+            InputError: It touches an object that it may not touch.
+        """
+        from holdfast.model.collision.exact.bodies import bounding_primitive  # takes long to import
+
+        for index, solid in enumerate(self.cell):
+            margin = self.cell.margin_of(solid)
+            # A box about it is asked first: for what is far away no grid need be made.
+            if self.may_touch[0, index] or base_distances(self.arm, self.spheres, [bounding_primitive(solid)])[0] >= margin:
+                continue
+            (gap,) = base_distances(self.arm, self.spheres, [solid])
+            if gap < margin:
+                place_phrase = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
+                raise InputError(
+                    f"the base of '{self.arm.name}' is {place_phrase} object '{solid.name}' of the cell, always; "
+                    f"if it is mounted there, add may_touch: [[{solid.name}, base]]"
+                )
+
+    def distance_offsets(self, links: IndexArray, objects: IndexArray) -> FloatArray:
+        """Return (L, F) offsets of the distances of links from objects, m: pairs that may touch are far away."""
+        return np.where(self.may_touch[np.ix_(links + 1, objects)], FAR_AWAY_M, 0.0)
+
+    @cached_property
+    def _formula_objects(self) -> FormulaObjects:
+        objects = [solid for solid in self.cell if isinstance(solid, PrimitiveSolid)]
+        return FormulaObjects(
+            self.arm,
+            self.spheres,
+            objects,
+            self.distance_offsets(self.links, self._formula_indices),
+            self._own_margins[self._formula_indices],
+        )
+
+    @cached_property
+    def _gridded_objects(self) -> GriddedObjects | None:
+        objects = [solid for solid in self.cell if isinstance(solid, GriddedSolid)]
+        return (
+            GriddedObjects(self.arm, self.spheres, objects, self.distance_offsets(self.links, self._grid_indices))
+            if objects and len(self.links)
+            else None
+        )
+
+    @cached_property
+    def _end_links(self) -> EndLinks:
+        offsets = self.distance_offsets(np.arange(self.arm.n), self._formula_indices)
+        return EndLinks(
+            self.arm, self.spheres, self._formula_objects.objects, offsets, self._own_margins[self._formula_indices]
+        )
+
+    # ---- what is asked -------------------------------------------------------------------------------------------
+
+    def find_nearest(self, q: FloatArray) -> tuple[FloatArray, IndexArray, FloatArray]:
+        """Return the smallest distance (N,) above the margin of its pair, m, the pair, and the gradient (N, n).
+
+        Args:
+            q: (N, n) rad and m; a row that is not finite gets NaN and pair -1.
+        """
+        count = len(self.cell)
+        margin, pair, gradient = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
+        if len(self._formula_indices) and len(self.links):
+            margin, link, object_index, gradient = self._formula_objects.find_nearest(q)
+            pair = np.where(np.isnan(margin), np.nan, link * count + self._formula_indices[object_index])
+        if self._gridded_objects is not None:
+            grid_margin, link, object_index, grid_gradient = self._gridded_objects.find_nearest(
+                q, self._own_margins[self._grid_indices]
+            )
+            closer = ~(margin <= grid_margin)
+            margin, gradient = np.where(closer, grid_margin, margin), np.where(closer[:, None], grid_gradient, gradient)
+            pair = np.where(
+                closer, np.where(np.isnan(grid_margin), np.nan, link * count + self._grid_indices[object_index]), pair
+            )
+        return margin, np.where(np.isnan(pair), -1, pair).astype(np.int64), gradient
+
+    def single_blocks(self) -> list[SingleRowKernel]:
+        """Return the kernels for one configuration at a time, by block of objects; none with objects that have grids."""
+        formulas = len(self._formula_indices) and len(self.links) and self._gridded_objects is None
+        return self._formula_objects.single_blocks() if formulas else []
+
+    def smallest_margin(self, q: FloatArray) -> FloatArray:
+        """Return the least distance above the margin of its pair, (N,) m."""
+        margin = self._formula_objects.smallest_margin(q)
+        if self._gridded_objects is not None:
+            margin = np.minimum(margin, self._gridded_objects.smallest_margin(q, self._own_margins[self._grid_indices]))
+        return margin
+
+    def smallest_distance(self, q: FloatArray) -> FloatArray:
+        """Return the least distance (N,), m."""
+        smallest = self._formula_objects.smallest_distance(q)
+        return (
+            smallest
+            if self._gridded_objects is None
+            else np.minimum(smallest, self._gridded_objects.smallest_margin(q, np.zeros(len(self._grid_indices))))
+        )
+
+    def pair_distances(self, q: FloatArray) -> FloatArray:
+        """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m where a pair may touch."""
+        distances = np.empty((len(q), len(self.links), len(self.cell)))
+        if len(self._formula_indices) and len(self.links):
+            distances[:, :, self._formula_indices] = self._formula_objects.link_distances(q)
+        if self._gridded_objects is not None:
+            distances[:, :, self._grid_indices] = self._gridded_objects.link_distances(q)
+        return distances.reshape(len(q), len(self.pairs))
+
+    def never_collision_free(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+        """Return (N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 respects a margin, m, beyond
+        its own.
+
+        Proved by the places that the last two links can have, for objects with a formula; False proves nothing.
+        """
+        return self._end_links.are_too_close(poses, margin)
+
+    def find_nearest_gap(self, q: FloatArray) -> NearestGap:
+        """Return the pair with the smallest margin at one configuration (n,)."""
+        margin, pair, _ = (value[0] for value in self.find_nearest(q[None]))
+        link, object_index = self.pairs[pair]
+        solid, on_link = self.cell.objects[object_index], self.spheres.link == link
+        pose = self.arm.frames(q)[link + 1]
+        centers = self.spheres.center[on_link] @ pose[:3, :3].T + pose[:3, 3]
+        distances = solid.signed_distance(centers)
+        nearest_sphere = int((distances - self.spheres.radius[on_link]).argmin())
+        center = centers[nearest_sphere]
+        if isinstance(solid, PrimitiveSolid):
+            gradient = outward_kernel()(center, solid.numbers())
+        else:
+            gradient = solid.distance_and_gradient(center)[1]
+        outward = gradient / max(float(np.linalg.norm(gradient)), 1e-300)
+        return NearestGap(
+            pair=int(pair),
+            distance=float(margin + self.margins[pair]),
+            margin=float(margin),
+            on_arm=center - self.spheres.radius[on_link][nearest_sphere] * outward,
+            on_object=center - distances[nearest_sphere] * outward,
+        )
+
+    def lipschitz_bounds(self, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Bound how much the distance of each pair changes per rad and m of each joint in a box, (L K, n).
+
+        Args:
+            low: (n,) lower corner of the box, finite, rad and m.
+            high: (n,) upper corner.
+        """
+        center_distances = np.linalg.norm(self.spheres.center, axis=1)
+        max_distances = np.array([center_distances[self.spheres.link == link].max() for link in self.links])
+        return np.repeat(link_lipschitz_bounds(self.arm, self.links, max_distances, low, high), len(self.cell), axis=0)
+
+
+def base_distances(arm: Arm, spheres: SphereCover, objects: Iterable[Solid]) -> list[float]:
+    """Return a lower bound of the distance of the base from each object, m; infinite if no sphere covers the base."""
+    on_base = spheres.link == BASE_LINK
+    center = spheres.center[on_base] @ arm.base[:3, :3].T + arm.base[:3, 3]
+    return [float((solid.signed_distance(center) - spheres.radius[on_base]).min(initial=np.inf)) for solid in objects]

@@ -1,0 +1,16 @@
+from holdfast.model.failure_modes.degraded import Degraded as Degraded
+from holdfast.model.failure_modes.degraded import Locked as Locked
+from holdfast.model.failure_modes.degraded import LockedAnywhere as LockedAnywhere
+from holdfast.model.failure_modes.degraded import LockedAt as LockedAt
+from holdfast.model.failure_modes.degraded import LockedValues as LockedValues
+from holdfast.model.failure_modes.degraded import degraded_at as degraded_at
+from holdfast.model.failure_modes.degraded import locks_at as locks_at
+from holdfast.model.failure_modes.degraded import locks_with_values as locks_with_values
+from holdfast.model.failure_modes.degraded import read_locks as read_locks
+from holdfast.model.failure_modes.sets import FailureSets as FailureSets
+from holdfast.model.failure_modes.sets import FailureSpec as FailureSpec
+from holdfast.model.failure_modes.sets import failure_names as failure_names
+from holdfast.model.failure_modes.sets import failure_sets as failure_sets
+from holdfast.model.failure_modes.sets import read_failures as read_failures
+from holdfast.model.failure_modes.sets import read_joint as read_joint
+from holdfast.model.failure_modes.sets import single_joints as single_joints

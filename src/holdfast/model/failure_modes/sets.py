@@ -1,0 +1,127 @@
+"""Sets of joints that may fail, each alone or several together.
+
+A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
+is a locked joint as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from holdfast.core.errors import InputError, TaskError
+from holdfast.core.labels import FAILURE_SET_SIZES, TASK_SIZES, is_count
+from holdfast.core.progress import warn_now
+
+if TYPE_CHECKING:
+    from holdfast.model.arm.model import Arm
+
+FailureSets = tuple[tuple[int, ...], ...]
+FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
+
+_MAX_FAILURE_SETS = 5000
+
+
+def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
+    """Return the sets of joints that fail together, as indices from 0.
+
+    Args:
+        arm: The arm.
+        failures: ``"single"`` (each joint alone), ``"pairs"`` (every two joints), an int k (every k joints), or a list
+            of sets, each a joint or several joints by name or index from 0.
+
+    Raises:
+        TaskError: No failure, an empty or repeated set, more sets than can be handled.
+        InputError: There is no such joint.
+    """
+    if isinstance(failures, str):
+        failures = FAILURE_SET_SIZES.get(failures, failures)
+    if isinstance(failures, str):
+        raise TaskError(
+            f"failures '{failures}' is not known; use {', '.join(map(repr, FAILURE_SET_SIZES))}, a number of joints, or a "
+            f"list of sets"
+        )
+    if isinstance(failures, (int, np.integer)):
+        if not 1 <= failures < arm.n:
+            raise TaskError(f"{failures} of the {arm.n} joints of '{arm.name}' cannot fail together; use 1 to {arm.n - 1}")
+        sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
+    else:
+        try:
+            sets = [
+                arm.joint_indices([failed] if isinstance(failed, (str, int, np.integer)) else failed) for failed in failures
+            ]
+        except TypeError as error:
+            raise TaskError(f"failures are {failures!r}; give a list of sets, each a joint or several joints") from error
+    if not sets or any(not s or len(set(s)) != len(s) for s in sets):
+        raise TaskError("each failure must name at least one joint, and each of its joints once")
+    if len(set(sets)) != len(sets):
+        raise TaskError("a set of joints is listed twice among the failures; list each once")
+    if len(sets) > _MAX_FAILURE_SETS:
+        raise TaskError(f"{len(sets)} failure sets are too many for one kernel; give {_MAX_FAILURE_SETS} or fewer")
+    return tuple(sets)
+
+
+def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None:
+    """Raise :class:`TaskError` unless every failed arm still has at least as many joints as the task has rows."""
+    if arm.n <= rows:
+        fewer = [f"{name} ({m})" for name, m in TASK_SIZES.items() if m < min(rows, arm.n)]
+        advice = f"choose a task with fewer rows, for example {fewer[0]}" if fewer else "no task of this arm is redundant"
+        raise TaskError(
+            f"'{arm.name}' is not redundant for task '{task}': {arm.n} joints for {rows} rows, "
+            f"so any locked joint ends the task; {advice}"
+        )
+    most = max(len(s) for s in sets)
+    if arm.n - most < rows:
+        raise TaskError(
+            f"locking {most} of the {arm.n} joints of '{arm.name}' leaves {arm.n - most} for the {rows} rows of '{task}'; "
+            f"lock at most {arm.n - rows} joints together or choose a task with fewer rows"
+        )
+
+
+def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
+    """Return names for users and files: joint names, joined by ``+``."""
+    return ["+".join(arm.joint_names[k] for k in s) for s in sets]
+
+
+def single_joints(arm: Arm, failures: FailureSpec | None) -> list[int]:
+    """Return the joints of :func:`failure_sets` for analyses that lock one joint at a time; none for None.
+
+    Raises:
+        TaskError: As for :func:`failure_sets`; a set of several joints.
+        InputError: There is no such joint.
+    """
+    sets = () if failures is None else failure_sets(arm, failures)
+    for s, name in zip(sets, failure_names(arm, sets), strict=True):
+        if len(s) > 1:
+            raise TaskError(f"failure '{name}' is of several joints at once; give joints that lock one at a time")
+    return [s[0] for s in sets]
+
+
+def read_joint(arm: Arm, text: str) -> int:
+    """Read a joint by name or number from 1, as an index from 0."""
+    text = text.strip()
+    if text in arm.joint_names:
+        k = arm.joint_index(text)
+        if is_count(text) and 1 <= int(text) <= arm.n and int(text) != k + 1:
+            other = arm.joint_names[int(text) - 1]
+            warn_now(f"'{text}' is taken as the name of joint {k + 1}, not as number {text}, which is joint '{other}'")
+        return k
+    if is_count(text):
+        if 1 <= int(text) <= arm.n:
+            return int(text) - 1
+        raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
+    return arm.joint_index(text)
+
+
+def read_failures(arm: Arm, text: str) -> FailureSpec:
+    """Read failures as users write them: ``single``, ``2``, ``joint2; joint1+joint4``."""
+    text = text.strip()
+    if text in FAILURE_SET_SIZES:
+        return text
+    # A lone number could be a joint or how many: it is how many, as --help says.
+    if is_count(text):
+        return int(text)
+    return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]

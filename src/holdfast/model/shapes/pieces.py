@@ -1,0 +1,110 @@
+"""Shape of a link and the joint of an arm that moves it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import ArmError
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.tree import LinkTree, LockedJoints
+
+Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "half space"]
+Purpose = Literal["visual", "collision"]
+Place = Callable[[str], tuple[int, FloatArray] | None]  # of a link: what moves it, -1 for nothing, and its pose (4, 4) there
+
+_POSE_TOLERANCE = 1e-9  # m and rad: two readings of one file
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Piece:
+    """A shape that moves with a link.
+
+    Attributes:
+        link: The joint that moves it, from 0; -1 for the base.
+        owner: Name of the link in the file.
+        kind: What it is.
+        name: What to call it: the name of its mesh in the file, or its kind.
+        size: m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, that of a capsule between the
+            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh, or a half
+            space below its z: nothing.
+        pose: (4, 4) in the frame that moves with the joint; for the base, in the base frame.
+        vertices: (V, 3) m, of a mesh in its own frame, scaled; (0, 3) otherwise.
+        faces: (F, 3) indices.
+        rgba: Its color, each from 0 to 1, if the file gives one.
+        label: Its own name in the file, if that is unique there; else empty.
+    """
+
+    link: int
+    owner: str
+    kind: Kind
+    name: str
+    size: tuple[float, ...]
+    pose: FloatArray
+    vertices: FloatArray
+    faces: NDArray[np.int64]
+    rgba: tuple[float, ...] | None = None
+    label: str = ""
+
+
+class Missing(NamedTuple):
+    """A shape that could not be read.
+
+    Attributes:
+        link: As in :class:`Piece`.
+        what: Its name, and why.
+        is_present: Whether its file was found, so that its content is the reason.
+    """
+
+    link: int
+    what: str
+    is_present: bool = False
+
+
+class LinkCarriers:
+    """Map from links of the file's kinematic tree to the joints of an arm that move them.
+
+    Links that hang beside the chain on a moving joint are where the arm's mass has them.
+
+    Args:
+        tree: All links and joints of the file.
+        arm: The arm.
+        hold: Where other joints beside the chain are held than the arm says, rad or m.
+
+    Raises:
+        ArmError: The arm is not one of this tree: joints have other names or places.
+    """
+
+    def __init__(self, tree: LinkTree, arm: Arm, hold: Mapping[str, float] | None = None) -> None:
+        self.tree, self.arm = tree, arm
+        chain = arm.chain
+        self.base = tree.root if chain is None else chain.base
+        held = {**({} if chain is None else dict(chain.held)), **(hold or {})}
+        self.still = LockedJoints(tree, set(arm.joint_names), held)
+        self._numbers: dict[str, int] = {name: k for k, name in enumerate(arm.joint_names)}
+        for k, joint in enumerate(arm.joints):
+            there = tree.joints.get(joint.name)
+            place = None if there is None else self.place(there.parent)
+            same = place is not None and there is not None and place[0] == k - 1
+            if not (same and np.allclose(place[1] @ there.origin, joint.origin, atol=_POSE_TOLERANCE)):  # type: ignore[index, union-attr]
+                raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
+
+    def place(self, link: str) -> tuple[int, FloatArray] | None:
+        """Return the joint that moves a link (-1 for none) and the link's pose (4, 4) there; None if it is not attached to the
+        base.
+        """
+        pose = np.eye(4)
+        while link != self.base:
+            if link not in self.tree.joint_above:
+                return None
+            joint = self.tree.joint_above[link]
+            if joint.name in self._numbers:
+                return self._numbers[joint.name], pose
+            pose = joint.child_pose(self.still.joint_value(joint)) @ pose
+            link = joint.parent
+        return -1, pose

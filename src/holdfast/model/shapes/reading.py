@@ -1,0 +1,78 @@
+"""Read the shapes of an arm from the file of the arm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from holdfast.core.errors import InputError
+from holdfast.model.arm import urdf
+from holdfast.model.arm.model import Arm
+from holdfast.model.arms.catalogue import root_element_name
+from holdfast.model.shapes.pieces import Missing, Piece, Purpose
+
+
+def read_pieces(
+    arm: Arm,
+    purpose: Purpose,
+    *,
+    hold: Mapping[str, float] | None = None,
+    meshes: str | Path | None = None,
+    open_files: bool = True,
+) -> tuple[list[Piece], list[Missing]]:
+    """Return the shapes that the arm's file gives its links, and the shapes that could not be read.
+
+    Nothing at all if the arm is from no file, or from one that is gone.
+
+    Args:
+        arm: The arm.
+        purpose: What is drawn, or what collides.
+        hold: Where joints beside the chain are held instead of where the arm has them, rad or m.
+        meshes: Folder with the files of meshes; the one that the arm was read with if not given.
+        open_files: Open the files of meshes; else all count as missing, and no file but the arm's is opened.
+
+    Raises:
+        ArmError: The file is no longer the one the arm was read from, or ``hold`` does not fit it.
+    """
+    if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
+        return [], []
+    folder = Path(meshes) if meshes is not None else Path(arm.chain.meshes) if arm.chain.meshes else None
+    if root_element_name(arm.chain.file) == "mujoco":
+        from holdfast.model.shapes import mjcf_pieces
+
+        # MuJoCo opens the files that the model names whether or not they are wanted.
+        return mjcf_pieces.read_mjcf_pieces(Path(arm.chain.file), arm, purpose, hold) if open_files else ([], [])
+    from holdfast.model.shapes import urdf_pieces
+
+    return urdf_pieces.read_urdf_pieces(Path(arm.chain.file), arm, purpose, hold, folder, open_files)
+
+
+def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
+    """Return the pairs of links, each in alphabetical order, that the SRDF file of the arm excludes from collision checks.
+
+    Of an MJCF file, the ``<exclude>`` of its contacts.
+
+    Raises:
+        ArmError: The file cannot be read.
+    """
+    if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
+        return frozenset()
+    if root_element_name(arm.chain.file) == "mujoco":
+        from holdfast.model.shapes import mjcf_pieces
+
+        return mjcf_pieces.excluded_pairs(Path(arm.chain.file))
+    return urdf.read_disabled_pairs(Path(arm.chain.srdf)) if arm.chain.srdf else frozenset()
+
+
+def with_meshes(arm: Arm, folder: str | Path) -> Arm:
+    """Return the same arm with a folder that is searched first for its meshes.
+
+    Raises:
+        InputError: There is no such folder, or the arm is from no file.
+    """
+    if not Path(folder).is_dir():
+        raise InputError(f"the folder of meshes is '{folder}', which cannot be found or is not a folder; give another")
+    if arm.chain is None or not arm.chain.file:
+        raise InputError(f"'{arm.name}' is from no URDF file, so no meshes belong to it; leave out their folder")
+    return replace(arm, chain=replace(arm.chain, meshes=str(Path(folder).absolute())))

@@ -1,5 +1,0 @@
-"""Path tracking: redundancy resolution, the trajectory, its events, and how slow it must be."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

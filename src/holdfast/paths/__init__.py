@@ -1,5 +1,0 @@
-"""Motions of the end effector: lines, arcs, and sequences of poses, with their timing."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

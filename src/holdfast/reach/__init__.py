@@ -1,5 +1,0 @@
-"""Workspaces after a lock: bounds of self-motion, the failure-tolerant workspace, and working ranges."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

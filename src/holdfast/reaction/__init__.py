@@ -1,5 +1,0 @@
-"""Fault-tolerant control loop: a joint fails, the monitor names it, the controller responds, and the task continues."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,5 +1,0 @@
-"""Recover an arm after a known lock: the remaining task, and a route to the goal."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,5 +1,0 @@
-"""Distributions of poses: regions of the workspace, and lists of poses with their weights."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

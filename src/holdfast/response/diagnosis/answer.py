@@ -1,0 +1,128 @@
+"""Result of a diagnosis: the fault that a recording shows, and the inconclusive joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from holdfast.core.caching import cached_property
+from holdfast.core.formatting import format_seconds
+from holdfast.core.result import Result
+from holdfast.model.arm.model import Arm
+from holdfast.response.diagnosis.bounds import Bounds
+from holdfast.response.diagnosis.gaps import MAX_BRIDGED_GAP_S
+from holdfast.response.diagnosis.kinds import FaultVerdict
+from holdfast.response.diagnosis.signals import ScaledResiduals, Signals
+from holdfast.response.faults.log import Log
+
+_MIN_TRAVEL_FACTOR = 2.0  # of its tracking bound: a reference that moves by less shows no lock
+_MAX_SPEED_FACTOR = 1.1  # than in calibration
+_LEVEL_NAMES = {"torque": "torques", "tracking": "joint sensors", "tool": "the measured tool pose"}
+_KIND_PHRASES = {
+    "locked": "is locked",
+    "standstill": "does not move: locked, or free-swinging and held by friction",
+    "limp": "swings free: its motor gives no torque",
+    "weak": "is weak",
+    "friction": "has more friction",
+    "sluggish": "moves against more than it should: its motor is weak, or it has more friction",
+    "sensor": "has a faulty sensor, or a clutch that slips",
+    "unknown": "has a fault of an unknown kind",
+}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Diagnosis(Result):
+    """Result of :func:`holdfast.response.diagnosis.diagnose` for a recording.
+
+    Attributes:
+        arm: The arm.
+        log: The record.
+        bounds: Of the healthy arm.
+        signals: Residuals.
+        scaled: The same in units of their bounds, and seconds of excess.
+        verdict: The first alarm, its joint and kind.
+    """
+
+    arm: Arm
+    log: Log
+    bounds: Bounds
+    signals: Signals
+    scaled: ScaledResiduals
+    verdict: FaultVerdict
+
+    @cached_property
+    def inconclusive(self) -> tuple[str, ...]:
+        """Joints whose reference moves by less than twice their tracking bound, so that a lock could not be detected."""
+        travel = np.fmax.reduce(self.log.q_ref) - np.fmin.reduce(self.log.q_ref)
+        moves_too_little = ~(travel >= _MIN_TRAVEL_FACTOR * self.bounds.tracking)
+        return tuple(
+            name for name, is_inconclusive in zip(self.arm.joint_names, moves_too_little, strict=True) if is_inconclusive
+        )
+
+    @cached_property
+    def beyond(self) -> tuple[str, ...]:
+        """Joints whose reference is more than 10 % faster than in calibration, so that the bounds are not valid for them."""
+        max_speeds = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
+        is_too_fast = max_speeds > _MAX_SPEED_FACTOR * self.bounds.speed + 1e-9
+        return tuple(name for name, is_beyond in zip(self.arm.joint_names, is_too_fast, strict=True) if is_beyond)
+
+    @cached_property
+    def gaps(self) -> tuple[tuple[float, float], ...]:
+        """Start and end, s, of the intervals of more than 50 ms without joint measurements, in which nothing was monitored."""
+        measured_times = self.log.t[self.signals.seen]
+        times = [self.log.t[0], *measured_times, self.log.t[-1]]
+        return tuple(
+            (float(gap_start), float(gap_end))
+            for gap_start, gap_end in pairwise(times)
+            if gap_end - gap_start > MAX_BRIDGED_GAP_S + 1.5 * self.signals.dt
+        )
+
+    @property
+    def unmonitored(self) -> tuple[str, ...]:
+        """Signals that are not monitored, because the recording or the bounds lack them."""
+        bounds = self.bounds
+        has_bound = {"torque": bool(np.isfinite(bounds.torque).all()), "tool": bool(np.isfinite(bounds.position))}
+        return tuple(
+            _LEVEL_NAMES[name]
+            for name, is_available in has_bound.items()
+            if not is_available or name not in self.signals.levels
+        )
+
+    def describe(self) -> list[str]:
+        """Describe the fault, or that none was detected, with the reasons and the inconclusive joints."""
+        verdict = self.verdict
+        if not verdict.alarm:
+            lines = [f"no fault seen in {self.log.duration:.4g} s"]
+        elif verdict.kind == "contact":
+            blame_text = (
+                f", or {verdict.suspect} has a fault: it alone is above its bound"
+                if verdict.suspect
+                else "; no joint is to blame"
+            )
+            lines = [f"alarm at {format_seconds(verdict.time)}: something pushed the arm{blame_text}"]
+        else:
+            loss_text = (
+                f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
+                if verdict.kind == "weak"
+                else ""
+            )
+            lines = [
+                f"alarm at {format_seconds(verdict.time)}: {verdict.joint or 'a joint that is not known'} "
+                f"{_KIND_PHRASES[verdict.kind]}{loss_text}"
+            ]
+        lines += list(verdict.evidence)
+        other_kinds = [kind for kind in verdict.candidates if kind != verdict.kind]
+        if other_kinds:
+            lines.append(f"it may also be: {', '.join(other_kinds)}")
+        if self.inconclusive:
+            lines.append(f"these joints did not move enough to tell: {', '.join(self.inconclusive)}")
+        if self.gaps:
+            unmonitored = sum(gap_end - gap_start for gap_start, gap_end in self.gaps)
+            lines.append(f"nothing was looked at for {unmonitored:.4g} s: there the record has no numbers of the joints")
+        if self.unmonitored:
+            lines.append(f"not watched: {', '.join(self.unmonitored)}")
+        if self.beyond:
+            lines.append(f"faster than calibrated, so that an alarm proves little: {', '.join(self.beyond)}")
+        return lines

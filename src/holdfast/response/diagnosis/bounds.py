@@ -1,0 +1,339 @@
+"""Bounds of the residuals of a healthy arm, calibrated from its recordings, with the resulting rate of false alarms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.core.errors import InputError
+from holdfast.core.files.digest import seal_document
+from holdfast.core.files.output import replace_file
+from holdfast.core.files.sealed import read_sealed
+from holdfast.core.progress import reports_progress, track
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.model import Arm
+from holdfast.response.diagnosis.fitting import fit_masses_and_friction, scale_masses
+from holdfast.response.diagnosis.plausibility import prepare_log, require_explained, require_following
+from holdfast.response.diagnosis.signals import EXCESS_LIMITS_S, compute_signals
+from holdfast.response.faults.log import Log
+
+BOUND_FACTOR = 1.5  # on the largest healthy residual
+BOUND_FACTOR_SENSORS_ALONE = 2.5  # with joint sensors alone
+RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
+_SECONDS_PER_HOUR = 3600.0
+# _UNSEALED_FORMAT and _SEALED_FORMAT: the first has no digest
+_UNSEALED_FORMAT = 1
+_SEALED_FORMAT = 2
+_JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
+_MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Bounds(Result):
+    """Largest residuals of a healthy arm.
+
+    Attributes:
+        fingerprint: Of the arm.
+        joints: Names.
+        rate: Samples per second of the records.
+        torque: (n,) largest residual torque, N m and N; infinite without torques.
+        change: (n,) largest distance of the residual torque from its level: its average of the last 0.15 s, N m and N.
+        tracking: (n,) largest distance of a joint from its reference, rad and m.
+        position: Largest distance of the measured tool from the joints' one, m; infinite where it is not measured.
+        angle: Likewise, rad.
+        coulomb: (n,) dry friction that is taken off, N m and N.
+        viscous: (n,) viscous friction that is taken off, N m s/rad and N s/m.
+        scales: (n,) of the links' masses and inertias, fitted to the records; 1 if they were not.
+        factor: What the bounds are multiplied by.
+        speed: (n,) largest rate of the references, rad/s and m/s: faster motion was not calibrated.
+        hours: Of healthy motion.
+        logs: Records.
+        alarms: False ones, each record watched with the bounds of all others; None with one record alone.
+    """
+
+    fingerprint: str
+    joints: tuple[str, ...]
+    rate: float
+    torque: FloatArray
+    change: FloatArray
+    tracking: FloatArray
+    position: float
+    angle: float
+    coulomb: FloatArray
+    viscous: FloatArray
+    scales: FloatArray
+    factor: float
+    speed: FloatArray
+    hours: float
+    logs: int
+    alarms: int | None
+
+    def false_alarms(self) -> tuple[float, float] | None:
+        """Return the false alarms per hour, and the 95 % upper confidence limit of their rate; None if they were not counted.
+
+        The limit is ``chi2_0.95(2 k + 2) / (2 H)`` for k alarms in H hours: 3.0/H for none. It is of this arm and this kind of
+        motion, and no lower rate may be claimed.
+
+        Source: the exact limit of a Poisson rate, Garwood 1936.
+        """
+        if self.alarms is None:
+            return None
+        from scipy.stats import chi2
+
+        return self.alarms / self.hours, float(chi2.ppf(0.95, 2 * self.alarms + 2) / (2 * self.hours))
+
+    def lock_delays(self) -> FloatArray:
+        """Return the time (n,) in s from a lock to the alarm of joint sensors, at half the calibrated speed.
+
+        The joint falls behind by ``v t``, whose excess over the tracking bound ``b`` reaches the limit ``L`` after
+        ``b / v + sqrt(2 L b / v)``; infinite for a joint that never moved.
+        """
+        with np.errstate(divide="ignore"):
+            time_to_bound = self.tracking / (self.speed / 2)
+        return np.asarray(time_to_bound + np.sqrt(2 * EXCESS_LIMITS_S["tracking"] * time_to_bound))
+
+    def body(self, arm: Arm) -> Arm:
+        """Return the arm with the link masses that the bounds assume."""
+        return scale_masses(arm, self.scales)
+
+    def describe(self) -> list[str]:
+        """Describe the hours of calibration, the rate of false alarms, and the monitored signals."""
+        lines = [
+            f"bounds of {self.logs} record{'s' * (self.logs != 1)}, {self.hours:.3g} h of healthy motion at {self.rate:.4g} Hz"
+        ]
+        false_alarm_rates = self.false_alarms()
+        if false_alarm_rates is None:
+            lines.append("false alarms: unknown; calibrate with two records or more")
+        else:
+            lines.append(
+                f"false alarms: {self.alarms} where each record is watched with the bounds of the others; with 95 % confidence "
+                f"fewer than {false_alarm_rates[1]:.3g} an hour, for this arm and motion as it was recorded"
+            )
+        if (self.speed > 0).any():
+            delays = self.lock_delays()
+            slowest = int(np.where(np.isfinite(delays), delays, -1.0).argmax())
+            lines.append(
+                f"a joint that locks while it moves at half its fastest calibrated speed is detected by its position after at "
+                f"most {1e3 * delays[slowest]:.0f} ms ({self.joints[slowest]}); its torque usually shows it earlier"
+            )
+        if (self.scales != 1).any():
+            smallest, largest = self.scales.min(), self.scales.max()
+            lines.append(
+                f"friction and masses are fitted to the records, masses {smallest:.2f} to {largest:.2f} times the arm's"
+            )
+        missing = [] if np.isfinite(self.torque).all() else ["torques"]
+        missing += [] if np.isfinite(self.position) else ["the measured tool pose"]
+        return lines + [f"not watched: {signal} (not in the records)" for signal in missing]
+
+    def to_json(self, file: str | Path) -> Path:
+        """Write the file that :func:`holdfast.response.diagnosis.load` reads.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        data: dict[str, Any] = {"format": _SEALED_FORMAT}
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                data[name] = [number if np.isfinite(number) else None for number in value.tolist()]
+            else:
+                data[name] = None if value == np.inf else value
+        replace_file(Path(file), seal_document(data), "bounds")
+        return Path(file)
+
+    def require_sound(self) -> None:
+        """Raise an error for bounds with which a monitor would detect nothing or everything.
+
+        Raises:
+            InputError: A value of the wrong length or size; the message names it.
+        """
+        joint_count = len(self.joints)
+        vectors = {name: getattr(self, name) for name in _JOINT_VECTORS}
+        for name, value in vectors.items():
+            if value.shape != (joint_count,):
+                raise InputError(f"{name} has shape {value.shape}; it must be ({joint_count},), one value for each joint")
+        measured = {"torque": self.torque, "change": self.change, "tracking": self.tracking, "scales": self.scales}
+        if np.isinf(self.torque).all() and np.isinf(self.change).all():
+            del measured["torque"], measured["change"]
+        if not (self.position == np.inf == self.angle):
+            measured |= {"position": np.atleast_1d(self.position), "angle": np.atleast_1d(self.angle)}
+        measured |= {"rate": np.atleast_1d(self.rate), "hours": np.atleast_1d(self.hours)}
+        for name, value in measured.items():
+            _require_between(name, value, np.finfo(np.float64).tiny, "above 0")
+        for name in ("coulomb", "viscous", "speed"):
+            _require_between(name, vectors[name], 0.0, "0 or more")
+        _require_between("factor", np.atleast_1d(self.factor), 1.0, "1 or more")
+        if not self.logs >= 1 or not (self.alarms is None or self.alarms >= 0):
+            raise InputError(f"it counts {self.alarms} false alarms in {self.logs} logs; both are numbers of 0 or more")
+
+    def require(self, arm: Arm, rate: float) -> None:
+        """Raise an error if the bounds belong to another arm or to another sample rate.
+
+        Raises:
+            InputError: It is another one.
+        """
+        if arm.fingerprint != self.fingerprint:
+            raise InputError(f"the bounds are of another arm than '{arm.name}'; calibrate with records of this one")
+        if abs(rate / self.rate - 1) > RATE_TOLERANCE:
+            raise InputError(
+                f"the record has {rate:.4g} samples a second and the bounds {self.rate:.4g}; use records of one rate"
+            )
+
+
+def load(file: str | Path) -> Bounds:
+    """Read bounds from a file of :meth:`Bounds.to_json`.
+
+    Raises:
+        InputError: Unreadable, or no such file.
+    """
+    try:
+        data = read_sealed(file, _SEALED_FORMAT)
+        if data.pop("format") not in (_SEALED_FORMAT, _UNSEALED_FORMAT):
+            raise ValueError
+        if "scales" not in data:  # files of earlier versions
+            data["scales"] = [1.0] * len(data["joints"])
+        data.setdefault("change", data["torque"])
+        for name in _JOINT_VECTORS:
+            data[name] = np.array([_read_number(number) for number in data[name]], dtype=np.float64)
+        for name in ("position", "angle", "rate", "factor", "hours"):
+            data[name] = _read_number(data[name])
+        for name in ("logs", "alarms"):
+            if not (isinstance(data[name], int) or (name == "alarms" and data[name] is None)):
+                raise ValueError
+        bounds = Bounds(**{**data, "joints": tuple(map(str, data["joints"]))})
+        bounds.require_sound()
+        return bounds
+    except OSError as error:
+        raise InputError(
+            f"bounds '{file}' cannot be read ({error.strerror or error}); give the file that calibrate wrote"
+        ) from error
+    except InputError as error:
+        raise InputError(f"bounds '{file}': {error}; make the file again with holdfast calibrate") from error
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
+        raise InputError(f"bounds '{file}': it is no file of bounds; make one with holdfast calibrate") from error
+
+
+def _read_number(value: Any) -> float:
+    """Return a number of the file, in which null stands for infinity."""
+    if isinstance(value, bool) or not isinstance(value, int | float | None):
+        raise ValueError
+    return np.inf if value is None else float(value)
+
+
+def _require_between(name: str, value: FloatArray, minimum: float, requirement: str) -> None:
+    wrong = np.flatnonzero(~((value >= minimum) & (value <= _MAX_VALUE)))
+    if wrong.size:
+        raise InputError(f"{name} is {value[wrong[0]]:g}; it must be {requirement} and at most {_MAX_VALUE:g}")
+
+
+@check_arguments
+@reports_progress("calibrating")
+def calibrate(
+    arm: Arm,
+    logs: Sequence[Log],
+    *,
+    factor: float | None = None,
+    coulomb: ArrayLike | None = None,
+    viscous: ArrayLike | None = None,
+    fit: bool = False,
+) -> Bounds:
+    """Calibrate bounds from recordings of a healthy arm, and count how often these recordings would have raised an alarm.
+
+    The bound of each residual is the largest that any record has, times ``factor``. For the false alarms each record is
+    watched with the bounds of all others.
+
+    Args:
+        arm: The arm, with inertial data if torques were recorded.
+        logs: Records of healthy motion, of the kind that is to be watched.
+        factor: Above or equal to 1. None: 1.5; 2.5 where torques were not recorded: then the bounds are those of slow motion
+            (every reference below 0.6 rad/s and m/s for 0.1 s), in which alone tracking is watched.
+        coulomb: (n,) dry friction of the joints, N m and N, if it is known.
+        viscous: (n,) viscous friction, N m s/rad and N s/m; the arm's own if not given.
+
+        fit: Fit masses of the links and friction of the joints to the records first, so that bounds are tighter; dry friction
+            that is given is kept.
+
+    Raises:
+        InputError: No records, records of another arm or of several rates, records that the arm's model does not explain
+            (units, signs, order of joints), or that have the measured joints as references; or a factor below 1.
+        ArmError: Torques are there, and the arm's inertial data are missing or impossible.
+
+    Source: derived here. That residuals are bounded rather than modelled as noise is measured: they are friction, inertia and
+    gravity errors, correlated over seconds, for which tests designed for independent noise alarm all the time.
+    """
+    if not logs:
+        raise InputError("there is no record to calibrate with; give records of healthy motion")
+    if factor is None:
+        factor = BOUND_FACTOR if any(log.tau is not None for log in logs) else BOUND_FACTOR_SENSORS_ALONE
+    if not factor >= 1:
+        raise InputError(f"factor is {factor:g}; it must be 1 or more")
+    coulomb_friction = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
+    viscous_friction = (
+        np.array([joint.friction for joint in arm.joints])
+        if viscous is None
+        else np.broadcast_to(np.asarray(viscous), (arm.n,))
+    )
+    logs = [prepare_log(arm, log) for log in logs]
+    rate = logs[0].rate
+    for log in logs:
+        if abs(log.rate / rate - 1) > RATE_TOLERANCE:
+            raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
+    require_following(arm, logs)
+    require_explained(arm, logs, coulomb=coulomb_friction, viscous=viscous_friction)
+    scales = np.ones(arm.n)
+    if fit:
+        scales, coulomb_friction, viscous_friction = fit_masses_and_friction(arm, logs, coulomb_friction, viscous_friction)
+    fitted_arm = scale_masses(arm, scales)
+    residual_signals = [
+        compute_signals(arm, log, coulomb=coulomb_friction, viscous=viscous_friction, body=fitted_arm)
+        for log in track("records", logs)
+    ]
+    largest = [
+        np.array([log_signals.largest_residual(name) for log_signals in residual_signals])
+        for name in ("torque", "tracking", "position", "angle")
+    ]
+    if all(np.isnan(log_signals.tracking).all() for log_signals in residual_signals):
+        raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")
+    without_error = np.flatnonzero(largest[1].max(axis=0) == 0)
+    if without_error.size:
+        raise InputError(
+            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what "
+            f"the servos "
+            "were to follow, not what the sensors told"
+        )
+    change = factor * np.array([log_signals.largest_residual("change") for log_signals in residual_signals]).max(axis=0)
+    alarms: int | None = None
+    if len(logs) > 1:
+        alarms = 0
+        for index, signals in enumerate(residual_signals):
+            others = [factor * np.delete(residuals, index, axis=0).max(axis=0) for residuals in largest]
+            alarms += signals.scale_by_bounds(*others).alarm is not None
+    bounds = [factor * residuals.max(axis=0) for residuals in largest]
+    hours = (
+        sum(log.duration * float(log_signals.seen.mean()) for log, log_signals in zip(logs, residual_signals, strict=True))
+        / _SECONDS_PER_HOUR
+    )
+    return Bounds(
+        fingerprint=arm.fingerprint,
+        joints=arm.joint_names,
+        rate=rate,
+        torque=bounds[0],
+        change=change,
+        tracking=bounds[1],
+        position=float(bounds[2]),
+        angle=float(bounds[3]),
+        coulomb=np.array(coulomb_friction),
+        viscous=np.array(viscous_friction, dtype=np.float64),
+        scales=scales,
+        factor=float(factor),
+        speed=np.nanmax([np.nanmax(np.abs(np.diff(log.q_ref, axis=0) * rate), axis=0) for log in logs], axis=0),
+        hours=hours,
+        logs=len(logs),
+        alarms=alarms,
+    )

@@ -1,0 +1,234 @@
+"""Isolation of the faulty joint and classification of its fault, cycle by cycle after the alarm, with a state of constant size.
+
+Source: derived here; the thresholds were set on simulated faults other than those that they were measured with.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+from holdfast.response.diagnosis.bounds import Bounds
+from holdfast.response.diagnosis.gaps import count_cycles
+from holdfast.response.diagnosis.kinds import SCALE, FaultClassifier, FaultVerdict
+from holdfast.response.diagnosis.observer import FRICTION_TRANSITION_RATE
+from holdfast.response.diagnosis.sensors import Sensors
+
+# ISOLATION_TIME_S and CLASSIFICATION_TIME_S: s after the alarm, s after that
+ISOLATION_TIME_S = 0.020
+CLASSIFICATION_TIME_S = 0.100
+# SENSOR_REVISION_TIME_S and POSE_MONITORING_TIME_S: s after the alarm: the tool's pose may still call it a sensor, and may name
+# that
+SENSOR_REVISION_TIME_S = 0.5
+POSE_MONITORING_TIME_S = 2.0
+SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
+WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
+_RANK_TOLERANCE = 1e-9  # of the largest: a direction in which a force loads no joint
+UNSURE = 0.7  # of a torque bound: a level of residuals follows them while all are below; healthy ones are below 1 / factor
+PUSHED = 4.0  # likewise a force at the far end of a link explains the torques so much better than one joint
+
+
+class AlarmDecision:
+    """Isolation and classification of the fault behind one alarm.
+
+    Args:
+        arm: The arm.
+        bounds: Of the healthy arm.
+        sensors: How good they are.
+        time: Of the alarm, s.
+        level: (n,) of the residual torques before it, N m and N.
+        joints: (n,) those that are watched.
+        torques: Whether torques are watched.
+        tool: Whether the tool's pose is measured at all.
+        tool_alone: Whether nothing but the tool's pose alarmed.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        bounds: Bounds,
+        sensors: Sensors,
+        *,
+        time: float,
+        level: FloatArray,
+        joints: NDArray[np.bool_],
+        torques: bool,
+        tool: bool,
+        tool_alone: bool,
+    ) -> None:
+        joint_count, period = arm.n, 1 / bounds.rate
+        self._arm, self._bounds, self._joint_noise = arm, bounds, sensors.joint
+        self._alarm_time, self._residual_level, self._has_torques, self._has_tool = time, level, torques, tool
+        self._isolation_cycles, self._classification_cycles = (
+            count_cycles(ISOLATION_TIME_S, period),
+            count_cycles(ISOLATION_TIME_S + CLASSIFICATION_TIME_S, period),
+        )
+        self._revision_cycles, self.end_cycle = (
+            count_cycles(SENSOR_REVISION_TIME_S, period),
+            count_cycles(POSE_MONITORING_TIME_S, period),
+        )
+        self.count = 0
+        self._residual_sizes, self._residual_sum = np.zeros(joint_count), np.zeros(joint_count)
+        self.force_advantage = 0.0
+        self._classifier: FaultClassifier | None = None
+        self._sensor_suspected = tool_alone
+        self._pose_weight = np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
+        self._unexplained, self._pose_count = np.where(joints, 0.0, np.inf), 0
+        self._residual_deviations = np.where(joints, SCALE * bounds.change, np.inf)
+        self._best_joint: tuple[int, float] | None = None
+
+    def add_cycle(
+        self,
+        q: FloatArray,
+        reference: FloatArray,
+        signals: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+        scaled_torque: FloatArray,
+        scaled_tracking: FloatArray,
+    ) -> None:
+        """Add the signals of one control cycle.
+
+        Args:
+            q: (n,) rad and m.
+            reference: (n,) rad and m.
+            signals: (n,) each: rates, residual torques, commanded torques through both filters of these, gravity torques.
+            scaled_torque: (n,) residual torques in units of their bounds.
+            scaled_tracking: (n,) tracking likewise.
+        """
+        self.count += 1
+        if self.count <= self._isolation_cycles:
+            self._residual_sizes += np.nan_to_num(
+                np.maximum(scaled_torque, scaled_tracking) if self._has_torques else scaled_tracking
+            )
+            self._residual_sum += signals[1]
+            if self.count == self._isolation_cycles:
+                self._isolate_joint(q)
+        elif self._classifier is not None and self.count <= self._classification_cycles:
+            joint = self._classifier.joint
+            rate, residual, torque, gravity = (float(signal[joint]) for signal in signals)
+            self._classifier.add_cycle(
+                float(q[joint]),
+                float(reference[joint]),
+                float(np.tanh(rate / FRICTION_TRANSITION_RATE)),
+                (residual, torque, gravity),
+            )
+
+    def add_tool_pose(self, scaled_residual: float, residual: FloatArray, jacobian: FloatArray) -> None:
+        """Add a sample of the tool's pose in the cycle that :meth:`add_cycle` was given last.
+
+        What each joint leaves unexplained, ``c = -J_i b`` with an error of its own for each sample, for a sensor that is
+        frozen drifts away.
+
+        Args:
+            scaled_residual: Smoothed residual of the pose, in units of its bounds.
+            residual: (6,) of this sample, m and rad.
+            jacobian: (6, n) there.
+        """
+        if self.count <= self._revision_cycles and scaled_residual > SUSPECT:
+            self._sensor_suspected = True
+        if self._best_joint is not None and self._best_joint[1] > WORSE:
+            return
+        scaled, columns = residual * self._pose_weight, jacobian * self._pose_weight[:, None]
+        self._unexplained += scaled @ scaled - (scaled @ columns) ** 2 / np.maximum((columns**2).sum(axis=0), 1e-300)
+        self._pose_count += 1
+        if self._pose_count > 1 and self._arm.n > 1:
+            best, second = np.partition(self._unexplained, 1)[:2]
+            self._best_joint = int(self._unexplained.argmin()), float(second - best)
+        elif self._pose_count > 1:
+            self._best_joint = 0, np.inf
+
+    def _isolate_joint(self, q: FloatArray) -> None:
+        """Select the joint with the largest residuals, and compare it with a force on a link as the cause of the residual
+        torques.
+        """
+        if self._has_torques:
+            self.force_advantage = _force_advantage(
+                self._arm, q, self._residual_sum / self._isolation_cycles - self._residual_level, self._residual_deviations
+            )
+        joint, bounds = int(self._residual_sizes.argmax()), self._bounds
+        joint_bounds, healthy_torque = (
+            (float(bounds.torque[joint]), float(bounds.tracking[joint])),
+            float(bounds.torque[joint] / bounds.factor),
+        )
+        coulomb = float(bounds.coulomb[joint])
+        self._classifier = FaultClassifier(
+            joint,
+            coulomb=coulomb,
+            bounds=joint_bounds,
+            largest=healthy_torque,
+            noise=self._joint_noise,
+            torques=self._has_torques,
+        )
+
+    def current_verdict(self, *, last: bool = False) -> FaultVerdict:
+        """Return the verdict from the cycles so far.
+
+        Args:
+            last: Nothing will follow: decide from what is there.
+        """
+        if self._sensor_suspected and (self.count >= self._isolation_cycles or last):
+            return self._sensor_verdict()
+        if self.force_advantage > PUSHED and not (self._classifier is not None and self._classifier.exceeds_push_error):
+            reason = ("a force on a link explains all rows",)
+            suspect = self._find_lone_joint()
+            return FaultVerdict(
+                True, self._alarm_time, kind="contact", candidates=("contact",), suspect=suspect, evidence=reason
+            )
+        if self._classifier is None:
+            largest = self._arm.joint_names[int(self._residual_sizes.argmax())]
+            return FaultVerdict(True, self._alarm_time, joint=largest if last and self.count else None)
+        joint = self._arm.joints[self._classifier.joint]
+        if self.count < self._classification_cycles and not last:
+            return FaultVerdict(True, self._alarm_time, joint=joint.name)
+        mean_sizes = self._residual_sizes / self._isolation_cycles
+        next_largest = np.delete(mean_sizes, self._classifier.joint).max(initial=0.0)
+        reason = (
+            f"its residuals are {mean_sizes[self._classifier.joint]:.3g} times their bounds, those of the next joint "
+            f"{next_largest:.3g}",
+        )
+        classification: dict[str, Any] = self._classifier.classify(joint.unit, () if self._has_tool else ("sensor",))
+        classification["evidence"] = reason + classification["evidence"]
+        if classification["kind"] == "contact":
+            return FaultVerdict(True, self._alarm_time, suspect=self._find_lone_joint(), **classification)
+        return FaultVerdict(True, self._alarm_time, joint=joint.name, **classification)
+
+    def _find_lone_joint(self) -> str | None:
+        """Return the joint that alone was above its bound, on average over the cycles that isolate it."""
+        above_bound = np.flatnonzero(self._residual_sizes > self._isolation_cycles)
+        return self._arm.joint_names[above_bound[0]] if above_bound.size == 1 else None
+
+    def _sensor_verdict(self) -> FaultVerdict:
+        """Return the verdict on the joint whose sensor would explain the tool's pose."""
+        evidence, joint = ["the measured tool is not where the joints say"], None
+        if self._best_joint is not None:
+            best_joint, advantage = self._best_joint
+            if advantage > WORSE:
+                joint = self._arm.joint_names[best_joint]
+                evidence.append(f"the next joint explains its pose worse by {advantage:.3g} squared deviations")
+            else:
+                first, second = np.argsort(self._unexplained)[:2]
+                evidence.append(f"{self._arm.joint_names[first]} and {self._arm.joint_names[second]} explain its pose alike")
+        candidates, reasons = ("sensor", "slipping_clutch"), tuple(evidence)
+        return FaultVerdict(True, self._alarm_time, joint=joint, kind="sensor", candidates=candidates, evidence=reasons)
+
+
+def _force_advantage(arm: Arm, q: FloatArray, change: FloatArray, scale: FloatArray) -> float:
+    """Return by how many squared deviations a force at the far end of a link explains residual torques better than one joint.
+
+    Args:
+        arm: The arm.
+        q: (n,) where it is, rad and m.
+        change: (n,) N m and N.
+        scale: (n,) its deviations.
+    """
+    ends, jacobian, scaled_change = arm.frames(q)[2:, :3, 3], arm.jacobian(q), change / scale
+    smallest_error = np.inf
+    for index, end in enumerate(ends):
+        columns = (jacobian[:3] + np.cross(jacobian[3:].T, end - ends[-1]).T).T / scale[:, None]
+        columns[index + 1 :] = 0.0  # what carries the link alone feels it
+        force = np.linalg.lstsq(columns, scaled_change, rcond=_RANK_TOLERANCE)[0]
+        smallest_error = min(smallest_error, float(((scaled_change - columns @ force) ** 2).sum()))
+    return float((scaled_change**2).sum() - (scaled_change**2).max() - smallest_error)

@@ -1,0 +1,178 @@
+"""Predict which single locked joints a motion makes detectable, with which delay, and which of them are not separable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.model import Arm
+from holdfast.response.diagnosis.bounds import Bounds
+from holdfast.response.diagnosis.detectability.delay import expected_delays
+from holdfast.response.diagnosis.detectability.motions import resample_motion
+from holdfast.response.diagnosis.detectability.probe import PLAN_RATE_HZ
+from holdfast.response.diagnosis.detectability.separation import hypothesis_separations, inseparable_pairs, undetectable_joints
+from holdfast.response.diagnosis.sensors import Sensors
+
+_ONSET_COUNT = 40  # times along the motion at which a joint may lock
+_SERVO_BANDWIDTH_RAD_S = 2 * np.pi * 10  # rad/s, of servos that nobody described
+_MOVING_FRICTION_FACTOR = 2.0  # times dry friction: so much gravity moves a joint whose motor is dead
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Observability(Result):
+    """Detectability of locked joints on a motion. Hypothesis 0 is that no joint is locked.
+
+    Attributes:
+        arm: The arm.
+        duration: s, of the motion.
+        separation: (n + 1, n + 1) of hypotheses by the tool's measured pose, the lock there from the beginning; above 9.2 they
+            can be told apart.
+        delays: (K, n) s from a lock at one of K times of the motion to its alarm by joint sensors and torques, infinite where
+            there is none; None without bounds.
+        strayed: (K, n) m, how far the tool is from where it should be then.
+        alike: Joints whose lock looks like a dead motor that friction holds; None without bounds.
+    """
+
+    arm: Arm
+    duration: float
+    separation: FloatArray
+    delays: FloatArray | None
+    strayed: FloatArray | None
+    alike: tuple[str, ...] | None
+
+    @cached_property
+    def unseen(self) -> tuple[str, ...]:
+        """Joints whose lock the tool's pose does not reveal."""
+        return tuple(self.arm.joint_names[joint] for joint in undetectable_joints(self.separation, range(self.arm.n)))
+
+    @cached_property
+    def inseparable(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of joints whose locks the tool's pose reveals but does not distinguish."""
+        names = self.arm.joint_names
+        return tuple((names[first], names[second]) for first, second in inseparable_pairs(self.separation, range(self.arm.n)))
+
+    def describe(self) -> list[str]:
+        """Describe which locks the tool's pose and the joint signals detect, and which pairs are not separable."""
+        names, joint_count = self.arm.joint_names, self.arm.n
+        detectable = f"{joint_count - len(self.unseen)} of {joint_count} joints"
+        lines = [f"the tool's pose alone shows the lock of {detectable} on this motion of {self.duration:.3g} s"]
+        lines += [f"not shown: {', '.join(self.unseen)}"] if self.unseen else []
+        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.inseparable]
+        if self.delays is not None and self.strayed is not None:
+            is_detected = np.isfinite(self.delays)
+            for index, name in enumerate(names):
+                joint_detected = is_detected[:, index]
+                if not joint_detected.any():
+                    lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
+                    continue
+                median_delay, median_error = (
+                    np.median(self.delays[joint_detected, index]),
+                    np.median(self.strayed[joint_detected, index]),
+                )
+                lines.append(
+                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool "
+                    f"{1e3 * median_error:.2g} mm off (medians; "
+                    f"{joint_detected.mean():.0%} of the times at which it may lock)"
+                )
+        if self.alike:
+            lines.append(f"locked and free-swinging look alike, for gravity is small: {', '.join(self.alike)}")
+        return lines
+
+
+@check_arguments
+@reports_progress("looking ahead")
+def predict_detection(
+    arm: Arm,
+    motion: ArrayLike,
+    *,
+    rate: float = 1000.0,
+    sensors: Sensors | None = None,
+    bounds: Bounds | None = None,
+    stiffness: ArrayLike | None = None,
+    damping: ArrayLike | None = None,
+) -> Observability:
+    """Predict which locks of single joints a motion makes detectable, before the arm executes it.
+
+    Args:
+        arm: The arm.
+        motion: (T, n) references, rad and m.
+        rate: Samples a second.
+        sensors: How good the tool's measured pose is; 100 samples a second of it are counted.
+        bounds: Of the healthy arm: then also how soon joint sensors and torques notice.
+        stiffness: (n,) of the servos, N m/rad and N/m; those of 10 Hz if not given.
+        damping: (n,) N m s/rad and N s/m, likewise.
+
+    Raises:
+        InputError: Another number of joints, fewer than two samples, bounds of another arm, or only one of stiffness
+            and damping.
+        ArmError: With bounds and without stiffness, if inertial data are missing or impossible.
+
+    Source: derived here; see :func:`holdfast.response.diagnosis.expected_delays` and
+        :func:`holdfast.response.diagnosis.plan_identification`.
+    """
+    references = arm.check_configurations(motion)
+    if references.ndim != 2 or len(references) < 2 or not rate > 0:
+        raise InputError(
+            f"motion has shape {references.shape} at {rate:g} Hz; it must be two configurations or more, and a rate above 0"
+        )
+    if (stiffness is None) != (damping is None):
+        raise InputError("only one of stiffness and damping is given; give both, or neither")
+    sampled, duration = (
+        resample_motion(references, rate, PLAN_RATE_HZ) if rate > PLAN_RATE_HZ else references,
+        (len(references) - 1) / rate,
+    )
+    delays = strayed = alike = None
+    if bounds is not None:
+        bounds.require(arm, bounds.rate)
+        references = resample_motion(references, rate, bounds.rate)
+        torques = bool(np.isfinite(bounds.torque).all())
+        if stiffness is None and torques:
+            inertia = arm.inertia_diagonal(sampled).max(axis=0)
+            stiffness, damping = _SERVO_BANDWIDTH_RAD_S**2 * inertia, 2 * _SERVO_BANDWIDTH_RAD_S * inertia
+        elif stiffness is None:
+            stiffness = damping = np.zeros(arm.n)
+        onsets = np.unique(np.linspace(0, 0.9 * (len(references) - 2), _ONSET_COUNT).astype(int))
+        delays = np.array(
+            [
+                expected_delays(
+                    bounds,
+                    references,
+                    stiffness=stiffness,
+                    damping=damping,  # type: ignore[arg-type]
+                    onset=onset / bounds.rate,
+                )
+                for onset in onsets
+            ]
+        )
+        strayed = _tool_errors(arm, references, onsets, np.where(np.isfinite(delays), delays, 0.0) * bounds.rate)
+        if torques:
+            has_small_gravity = np.abs(arm.gravity_torque(sampled)).max(axis=0) < _MOVING_FRICTION_FACTOR * bounds.coulomb
+            alike = tuple(name for name, is_ambiguous in zip(arm.joint_names, has_small_gravity, strict=True) if is_ambiguous)
+    return Observability(
+        arm=arm,
+        duration=duration,
+        separation=hypothesis_separations(arm, sampled, sensors or Sensors()),
+        delays=delays,
+        strayed=strayed,
+        alike=alike,
+    )
+
+
+def _tool_errors(arm: Arm, q: FloatArray, onsets: NDArray[np.int64], delay_rows: FloatArray) -> FloatArray:
+    """Return the tool position errors (K, n), m, a given number of samples after each joint locked."""
+    errors = np.zeros(delay_rows.shape)
+    for index, onset in enumerate(onsets):
+        rows = np.minimum(onset + np.round(delay_rows[index]).astype(int), len(q) - 1)
+        locked = q[rows].copy()
+        np.fill_diagonal(locked, q[onset])
+        displacements = arm.forward_kinematics(locked)[:, :3, 3] - arm.forward_kinematics(q[rows])[:, :3, 3]
+        errors[index] = np.linalg.norm(displacements, axis=1)
+    return errors

@@ -1,0 +1,105 @@
+"""Fit masses and friction of one robot to its recordings; the residuals are linear in them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import casadi as ca
+import numpy as np
+
+from holdfast.core.typing import FloatArray
+from holdfast.kernels.kernel import Kernel
+from holdfast.model.arm.kinematics import joint_symbols
+from holdfast.model.arm.machine import Link
+from holdfast.model.arm.model import Arm
+from holdfast.response.diagnosis.gaps import LogSegment, complete_rows, log_segments
+from holdfast.response.diagnosis.observer import OBSERVER_GAIN_PER_S, momentum_terms, observe_residuals
+from holdfast.response.faults.log import Log
+
+_MASS_PRIOR_DEVIATION = 0.1  # prior deviation of the scale of a link's mass
+# _FRICTION_PRIOR_DEVIATION and _FIXED_FRICTION_DEVIATION: N m (N), N m s/rad (N s/m): prior deviations, and that of what is
+# kept
+_FRICTION_PRIOR_DEVIATION = 1.0
+_FIXED_FRICTION_DEVIATION = 1e-4
+_SCALE_STEP = 0.5  # of a scale: residuals are linear in it, so that any step does
+
+
+def scale_masses(arm: Arm, scales: FloatArray) -> Arm:
+    """Return the arm with its links' masses and inertias multiplied by (n,) scales, or the same arm if all scales are 1."""
+    if np.all(scales == 1):
+        return arm
+    links = [
+        None if link is None else Link(link.mass * scale, link.com, link.inertia * scale, name=link.name)
+        for link, scale in zip(arm.links, scales.tolist(), strict=True)
+    ]
+    return replace(arm, links=tuple(links))
+
+
+def fit_masses_and_friction(
+    arm: Arm, logs: Sequence[Log], coulomb: FloatArray, viscous: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Fit scales of the links' masses and dry and viscous friction, (n,) each, to the residuals of recordings.
+
+    Ridge: masses are believed to 10 %, friction to 1 N m and 1 N m s/rad, and dry friction that is given is kept; residuals
+    count once for each time constant of the observer. What gravity and motion do not show stays as it was.
+
+    Source: derived here.
+    """
+    joint_count, symbols = arm.n, (joint_symbols(arm), ca.SX.sym("v", arm.n))
+    arms = [
+        arm,
+        *(scale_masses(arm, np.where(np.arange(joint_count) == index, 1 + _SCALE_STEP, 1.0)) for index in range(joint_count)),
+    ]
+    # On CasADi's machine: they are called a few times, and never again.
+    nominal, *heavier = (
+        Kernel("momentum", symbols, [ca.densify(term) for term in momentum_terms(scaled_arm, *symbols)], backend="casadi")
+        for scaled_arm in arms
+    )
+    # What is given of dry friction tells later whether friction can hold a joint: motion alone may show none of it.
+    prior = np.r_[
+        np.full(joint_count, _MASS_PRIOR_DEVIATION),
+        np.where(coulomb > 0, _FIXED_FRICTION_DEVIATION, _FRICTION_PRIOR_DEVIATION),
+        np.full(joint_count, _FRICTION_PRIOR_DEVIATION),
+    ]
+    normal, right_side = np.diag(prior**-2.0), np.zeros(3 * joint_count)
+    deviation: FloatArray | None = None
+    for log in logs:
+        if log.tau is None:
+            continue
+        residual = partial(_sample_residuals, segments=[*log_segments(log, complete_rows(log))], rate=log.rate)
+        nominal_residual = residual(nominal, coulomb, viscous)
+        deviation = np.maximum(nominal_residual.std(axis=0), 1e-6) if deviation is None else deviation
+        columns = np.zeros((*nominal_residual.shape, 3 * joint_count))
+        for index in range(joint_count):
+            columns[:, :, index] = (residual(heavier[index], coulomb, viscous) - nominal_residual) / _SCALE_STEP
+        # Friction of a joint is on its own row alone.
+        dry_friction, viscous_friction = (
+            residual(nominal, coulomb + 1, viscous) - nominal_residual,
+            residual(nominal, coulomb, viscous + 1) - nominal_residual,
+        )
+        for index in range(joint_count):
+            columns[:, index, joint_count + index], columns[:, index, 2 * joint_count + index] = (
+                dry_friction[:, index],
+                viscous_friction[:, index],
+            )
+        rows = (columns / deviation[:, None]).reshape(-1, 3 * joint_count)
+        normal += rows.T @ rows
+        right_side -= rows.T @ (nominal_residual / deviation).ravel()
+    solution = np.linalg.solve(normal, right_side)
+    dry_friction, viscous_friction = coulomb + solution[joint_count : 2 * joint_count], viscous + solution[2 * joint_count :]
+    return np.asarray(1 + solution[:joint_count]), np.maximum(dry_friction, 0.0), np.maximum(viscous_friction, 0.0)
+
+
+def _sample_residuals(
+    kernel: Kernel, coulomb: FloatArray, viscous: FloatArray, *, segments: Sequence[LogSegment], rate: float
+) -> FloatArray:
+    """Return residuals of a recording, one for each time constant of the observer."""
+    residuals_of = partial(observe_residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
+    segment_residuals = [
+        residuals_of(segment.q, segment.tau, settling=segment.settling)[0] for segment in segments if segment.tau is not None
+    ]
+    return np.concatenate(
+        [segment_residual[:: max(1, round(rate / OBSERVER_GAIN_PER_S))] for segment_residual in segment_residuals]
+    )

@@ -1,0 +1,227 @@
+"""Check that an arm can have recorded a log: units, signs, order of joints, and missing signals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.model import Arm
+from holdfast.response.diagnosis.signals import compute_signals
+from holdfast.response.faults.log import Log
+
+_FULL_TURN_RAD = 2 * np.pi
+_TURN_TOLERANCE_RAD = 0.5  # a leap within this distance of whole turns is a wrapped angle, no motion
+_MIN_TRAVEL = 0.05  # rad or m: a joint that is asked to move less shows no ratio
+_KNOWN_RATIOS = {
+    180 / np.pi: "q seems to be in degrees and q_ref in radians",
+    np.pi / 180: "q_ref seems to be in degrees and q in radians",
+    1000.0: "q seems to be in mm and q_ref in m",
+    0.001: "q_ref seems to be in mm and q in m",
+    -1.0: "the two have opposite signs",
+}
+_RATIO_TOLERANCE = 0.1
+_RATIO_CORRELATION = 0.98
+_FOLLOWING_CORRELATION = 0.9  # least correlation of a joint with its own reference
+_SWAPPED_JOINT_CORRELATION = 0.99  # correlation with another joint's reference that names a swapped order
+_TORQUE_CORRELATION = 0.97
+# _MIN_TORQUE_SCALE and _MAX_TORQUE_SCALE: of a recorded torque to that of the model
+_MIN_TORQUE_SCALE = 0.25
+_MAX_TORQUE_SCALE = 4.0
+_MIN_LOAD_FRACTION = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
+_MIN_GRAVITY_FRACTION = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
+_CONFIGURATION_COUNT = 200  # at which gravity torques are computed
+_CHECKED_S = 60.0  # of the logs: more change nothing
+_UNEXPLAINED_FRACTION = 0.9  # of the squared torques: a model that leaves more of them explains none
+
+
+def prepare_log(arm: Arm, log: Log) -> Log:
+    """Return the log with unwrapped angles, after checking that ``q`` and ``q_ref`` have one unit and sign.
+
+    Angles that were cut off at a half turn are joined again: no joint turns by 360 degrees between two samples.
+
+    Raises:
+        InputError: A log of another arm, in other units, without a number of a joint, or with joints of opposite signs; the
+            message names a joint.
+    """
+    log = _unwrap_angles(arm, log) if log.n == arm.n else log
+    log.require(arm)
+    for signal in ("q_ref", "q", "tau"):
+        value = getattr(log, signal)
+        if value is not None and (empty := np.flatnonzero(~np.isfinite(value).any(axis=0))).size:
+            advice = "; leave tau out if it was not recorded" if signal == "tau" else ""
+            raise InputError(f"{signal} of '{arm.joint_names[empty[0]]}' has no number; give it for every joint{advice}")
+    for name, reference, measured in zip(arm.joint_names, log.q_ref.T, log.q.T, strict=True):
+        ratio, correlation = _compare_motions(reference, measured)
+        for known_ratio, advice in _KNOWN_RATIOS.items():
+            if abs(ratio / known_ratio - 1) < _RATIO_TOLERANCE and abs(correlation) > _RATIO_CORRELATION:
+                raise InputError(f"q of '{name}' moves {ratio:.3g} times as far as its q_ref; {advice}")
+    return log
+
+
+def require_following(arm: Arm, logs: Sequence[Log]) -> None:
+    """Raise an error if joints of a healthy arm do not follow their references.
+
+    Raises:
+        InputError: A joint that follows none or another joint's reference, or a torque that is missing.
+    """
+    for log in logs:
+        moving = [joint for joint in range(arm.n) if np.ptp(log.q_ref[np.isfinite(log.q_ref[:, joint]), joint]) > _MIN_TRAVEL]
+        for joint in moving:
+            name, measured = arm.joint_names[joint], log.q[:, joint]
+            if _compare_motions(log.q_ref[:, joint], measured)[1] < _FOLLOWING_CORRELATION:
+                others = [
+                    other_joint
+                    for other_joint in moving
+                    if other_joint != joint
+                    and _compare_motions(log.q_ref[:, other_joint], measured)[1] > _SWAPPED_JOINT_CORRELATION
+                ]
+                advice = (
+                    f"it follows that of '{arm.joint_names[others[0]]}', so give the joints in the arm's order"
+                    if others
+                    else "give records of healthy motion"
+                )
+                raise InputError(f"q of '{name}' does not follow its q_ref; {advice}")
+        if log.tau is not None and moving and not np.nan_to_num(np.nanmax(log.tau, axis=0) - np.nanmin(log.tau, axis=0)).any():
+            raise InputError("tau never changes while joints move; leave tau out if it was not recorded")
+
+
+def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: FloatArray, viscous: FloatArray) -> None:
+    """Raise an error if the model of a healthy arm does not explain its torques: another sign, unit, or order.
+
+    The observer's residual is the model's torque less the recorded one, and without torques the model's alone.
+
+    Raises:
+        InputError: The message names the joints and the probable cause.
+    """
+    torque_pairs: list[tuple[FloatArray, FloatArray]] = []
+    checked_s = 0.0
+    for log in logs:
+        if log.tau is not None and checked_s < _CHECKED_S:
+            signal_pair = [
+                compute_signals(arm, replace(log, tau=tau), coulomb=coulomb, viscous=viscous)
+                for tau in (log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan))
+            ]
+            torque_pairs.append((signal_pair[0].torque[signal_pair[0].seen], signal_pair[1].torque[signal_pair[1].seen]))
+            checked_s += log.duration
+    if not torque_pairs:
+        return
+    residual, model = (np.concatenate(arrays) for arrays in zip(*torque_pairs, strict=True))
+    recorded = model - residual
+    recorded_square, model_square, product = (recorded**2).sum(0), (model**2).sum(0), (recorded * model).sum(0)
+    gravity = _largest_gravity_torques(arm)
+    significant = (model_square > len(model) * (_MIN_LOAD_FRACTION * gravity) ** 2) & (
+        gravity > _MIN_GRAVITY_FRACTION * gravity.max()
+    )
+    correlation = product / np.sqrt(np.maximum(recorded_square * model_square, np.finfo(np.float64).tiny))
+    scale = product / np.maximum(model_square, np.finfo(np.float64).tiny)
+    reversed_joints = significant & (correlation < -_TORQUE_CORRELATION)
+    if reversed_joints.any():
+        raise InputError(
+            f"tau of {_quote_names(arm, reversed_joints)} has the opposite sign of the torque that the arm's model "
+            f"needs; give the "
+            "motors' torques on the joints, positive in the direction of the joint"
+        )
+    order = _best_order(recorded, model)
+    if order is not None and significant.any():
+        names = ", ".join(arm.joint_names[joint] for joint in order)
+        raise InputError(
+            f"the arm's model explains the recorded torques only in the order {names}; give those of its joints in order"
+        )
+    is_unlike = significant & (correlation > _TORQUE_CORRELATION) & ((scale > _MAX_TORQUE_SCALE) | (scale < _MIN_TORQUE_SCALE))
+    if is_unlike.any():
+        first_unlike = int(np.flatnonzero(is_unlike)[0])
+        raise InputError(
+            f"tau of {_quote_names(arm, is_unlike)} is {scale[first_unlike]:.3g} times the torque that the arm's model "
+            f"needs; give torques of the "
+            "joints in N m and N, not currents, motor torques or mN m"
+        )
+    unexplained = (recorded_square + model_square - 2 * product)[significant].sum()
+    if unexplained > _UNEXPLAINED_FRACTION * recorded_square[significant].sum() and significant.any():
+        raise InputError(
+            "the arm's model explains none of the recorded torques; check sign, unit and order of the joints, the mounting of "
+            "the arm and its payload"
+        )
+
+
+def _largest_gravity_torques(arm: Arm) -> FloatArray:
+    """Return the largest gravity torque (n,) of each joint at random configurations, N m and N."""
+    default_bound = np.where(arm.prismatic, 1.0, np.pi)
+    lower, upper = (
+        np.where(np.isfinite(arm.lower), arm.lower, -default_bound),
+        np.where(np.isfinite(arm.upper), arm.upper, default_bound),
+    )
+    q = np.random.default_rng(0).uniform(lower, upper, (_CONFIGURATION_COUNT, arm.n))
+    return np.asarray(np.abs(arm.gravity_torque(q)).max(axis=0))
+
+
+def _quote_names(arm: Arm, chosen: NDArray[np.bool_]) -> str:
+    return ", ".join(f"'{name}'" for name, is_chosen in zip(arm.joint_names, chosen, strict=True) if is_chosen)
+
+
+def _best_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:
+    """Return the joints to which the columns of recorded torques belong, if another order explains them."""
+    from scipy.optimize import linear_sum_assignment
+
+    cost = (recorded**2).sum(0)[:, None] + (model**2).sum(0) - 2 * recorded.T @ model
+    row_indices, columns = linear_sum_assignment(cost)
+    order: list[int] = columns.tolist()
+    explained = cost[row_indices, columns].sum() < min(0.3 * (recorded**2).sum(), 0.1 * np.trace(cost))
+    return order if explained and order != sorted(order) else None
+
+
+def _compare_motions(reference: FloatArray, measured: FloatArray) -> tuple[float, float]:
+    """Return the slope of measured over reference values, and their correlation; zeros without motion."""
+    is_measured = np.isfinite(reference) & np.isfinite(measured)
+    if is_measured.sum() < 2 or np.ptp(reference[is_measured]) <= _MIN_TRAVEL or np.ptp(measured[is_measured]) == 0:
+        return 0.0, 0.0
+    centered_reference, centered_measured = (
+        values[is_measured] - values[is_measured].mean() for values in (reference, measured)
+    )
+    return float(centered_reference @ centered_measured / (centered_reference @ centered_reference)), float(
+        centered_reference
+        @ centered_measured
+        / np.sqrt((centered_reference @ centered_reference) * (centered_measured @ centered_measured))
+    )
+
+
+def _unwrap_angles(arm: Arm, log: Log) -> Log:
+    """Return the log with unwrapped angles, ``q_ref`` within the limits, and ``q`` on the same turn as ``q_ref``."""
+    references, positions = log.q_ref.copy(), log.q.copy()
+    for joint in np.flatnonzero(~arm.prismatic).tolist():
+        for column in (references[:, joint], positions[:, joint]):
+            measured_rows = np.flatnonzero(np.isfinite(column))
+            column[measured_rows] -= _FULL_TURN_RAD * np.cumsum(
+                _full_turns(np.diff(column[measured_rows], prepend=column[measured_rows[:1]]))
+            )
+        references[:, joint] += _FULL_TURN_RAD * _turns_to_limits(arm, joint, references[:, joint])
+        first_common = np.flatnonzero(np.isfinite(references[:, joint]) & np.isfinite(positions[:, joint]))[:1]
+        if first_common.size:
+            positions[:, joint] -= (
+                _FULL_TURN_RAD * _full_turns(positions[first_common, joint] - references[first_common, joint])[0]
+            )
+    is_unchanged = np.array_equal(references, log.q_ref, equal_nan=True) and np.array_equal(positions, log.q, equal_nan=True)
+    return log if is_unchanged else replace(log, q_ref=references, q=positions)
+
+
+def _turns_to_limits(arm: Arm, joint: int, angles: FloatArray) -> int:
+    """Return the full turns that bring angles within the limits of a joint; 0 if none does or they are there already."""
+    lowest, highest = np.fmin.reduce(angles), np.fmax.reduce(angles)
+    return next(
+        (
+            turns
+            for turns in (0, 1, -1)
+            if arm.lower[joint] <= lowest + turns * _FULL_TURN_RAD and highest + turns * _FULL_TURN_RAD <= arm.upper[joint]
+        ),
+        0,
+    )
+
+
+def _full_turns(steps: FloatArray) -> FloatArray:
+    """Return the full turns in steps of an angle, 0 where a step is not near full turns."""
+    rounded = np.rint(steps / _FULL_TURN_RAD)
+    return np.where(np.abs(steps - _FULL_TURN_RAD * rounded) < _TURN_TOLERANCE_RAD, rounded, 0.0)

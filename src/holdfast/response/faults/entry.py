@@ -1,0 +1,169 @@
+"""Entry of a fault model: a family of faults with its joints, times, and parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Any, TypedDict
+
+from holdfast.core.errors import InputError
+from holdfast.response.faults.distributions import ParameterDistribution
+from holdfast.response.faults.kind import FaultParameter, find_kind
+
+Joints = str | Sequence[str] | None
+Value = float | tuple[float, float] | Mapping[str, float | Sequence[float]] | ParameterDistribution
+_TIME_PARAMETERS = {name: FaultParameter(name, 0.0) for name in ("onset", "duration")}
+
+
+class FaultTiming(TypedDict, total=False):
+    """Options that every kind of fault accepts."""
+
+    weights: Sequence[float] | None
+    probability: float
+    onset: Value | None
+    duration: Value | None
+    rate_per_hour: float | None
+    together: int
+    on: float | None
+    off: float | None
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Entry of a fault model: a family of faults. Functions such as :func:`holdfast.response.faults.locked` make one.
+
+    A number may be drawn in every episode: a tuple ``(a, b)`` and ``{"uniform": [a, b]}`` are even between a and b,
+    ``{"loguniform": [a, b]}`` even in the logarithm, ``{"exponential": mean}``, and ``{"choice": [a, b, ...]}``.
+
+    Attributes:
+        kind: See :func:`holdfast.response.faults.locked` and the others.
+        parameters: The kind's, by name: rad, N m, rad/s (m, N, m/s of prismatic joints).
+        joints: Which it may be, by name; None: any.
+        weights: How likely each of ``joints`` is, relative to the others; None: all alike.
+        probability: That it happens in an episode.
+        onset: When it begins, s.
+        duration: For how long, s; None: for ever.
+        rate_per_hour: Of a fault that comes at any time alike, in place of ``onset``.
+        together: Joints that have it at once.
+        on, off: Of a fault that comes and goes: mean times with and without it, s; None: it stays.
+
+    Raises:
+        InputError: An unknown kind, parameter or law, numbers out of bounds, or what does not go together.
+    """
+
+    kind: str
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    joints: Sequence[str] | str | None = None
+    _: KW_ONLY
+    weights: Sequence[float] | None = None
+    probability: float = 1.0
+    onset: Any = None
+    duration: Any = None
+    rate_per_hour: float | None = None
+    together: int = 1
+    on: float | None = None
+    off: float | None = None
+
+    def __post_init__(self) -> None:
+        find_kind(self.kind)
+        self._assign_field("joints", (self.joints,) if isinstance(self.joints, str) else self.joints and tuple(self.joints))
+        self._assign_field("weights", self.weights and tuple(map(float, self.weights)))
+        self._check_joints()
+        self._assign_field("parameters", self._read_parameters())
+        self._check_time()
+
+    def _assign_field(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, value)
+
+    def _check_joints(self) -> None:
+        if self.joints is not None and not (self.joints and len(set(self.joints)) == len(self.joints)):
+            raise InputError(f"joints of '{self.kind}' are {list(self.joints)}; name each once, or leave them out for all")
+        if self.weights is not None:
+            if self.joints is None or len(self.weights) != len(self.joints):
+                raise InputError(f"'{self.kind}' has {len(self.weights)} weights; give one for each of its joints, by name")
+            if not all(math.isfinite(weight) and weight >= 0 for weight in self.weights) or not any(self.weights):
+                raise InputError(f"weights of '{self.kind}' are {list(self.weights)}; they must be 0 or more, one above 0")
+        max_joints = (
+            sum(weight > 0 for weight in self.weights) if self.weights else len(self.joints) if self.joints else math.inf
+        )
+        if isinstance(self.together, bool) or self.together != int(self.together) or not 1 <= self.together <= max_joints:
+            raise InputError(f"together of '{self.kind}' is {self.together}; it is a whole number, 1 to that of its joints")
+
+    def _read_parameters(self) -> dict[str, Any]:
+        given = {name: value for name, value in self.parameters.items() if value is not None}
+        kind = find_kind(self.kind)
+        known = kind.parameters_by_name
+        for name in given:
+            if name not in known:
+                allowed_text = f"takes {', '.join(known)}" if known else "takes no parameter"
+                raise InputError(f"'{self.kind}' has no parameter '{name}'; it {allowed_text}")
+        given = {name: parameter.word for name, parameter in known.items() if parameter.word is not None} | given
+        alternatives = [[parameter.name for parameter in alternative] for alternative in kind.parameters]
+        if alternatives and not any(given and set(given) <= set(names) for names in alternatives):
+            raise InputError(f"'{self.kind}' must have {' or '.join(' and '.join(names) for names in alternatives)}")
+        # In the order of the kind: which uniform number draws which does not depend on the caller's order.
+        return {
+            name: parameter.word if given[name] == parameter.word else self._parse_bounded(parameter, given[name])
+            for name, parameter in known.items()
+            if name in given
+        }
+
+    def _parse_bounded(self, parameter: FaultParameter, value: Any) -> ParameterDistribution:
+        name, minimum, maximum = parameter.name, parameter.low, parameter.high
+        distribution = ParameterDistribution.from_value(value, f"{name} of '{self.kind}'")
+        lower, upper = distribution.ends
+        is_inside = (
+            minimum <= lower and upper <= maximum
+            if parameter.includes_ends
+            else minimum < lower and (upper < maximum or math.isinf(maximum))
+        )
+        if distribution.law == "exponential":
+            is_inside = math.isinf(maximum)
+        if not is_inside:
+            expected_text = (
+                f"between {minimum:g} and {maximum:g}"
+                if math.isfinite(maximum)
+                else "0 or more"
+                if parameter.includes_ends
+                else f"above {minimum:g}"
+            )
+            sign_text = "; its sign is drawn" if parameter.has_random_sign else ""
+            range_text = f"{lower:g}" if lower == upper else f"from {lower:g} to {upper:g}"
+            raise InputError(f"{name} of '{self.kind}' is {range_text}; it must be {expected_text}{sign_text}")
+        return distribution
+
+    def _check_time(self) -> None:
+        if not (isinstance(self.probability, (int, float)) and 0 <= self.probability <= 1):
+            raise InputError(f"probability of '{self.kind}' is {self.probability}; it must be between 0 and 1")
+        for name in ("rate_per_hour", "on", "off"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise InputError(f"{name} of '{self.kind}' is {value:g}; it must be a finite number above 0")
+        if self.rate_per_hour is not None and self.onset is not None:
+            raise InputError(f"'{self.kind}' has both onset and rate_per_hour; the rate says when it begins: give one of them")
+        if (self.on is None) != (self.off is None):
+            raise InputError(f"'{self.kind}' has only one of on and off; a fault that comes and goes has both")
+        onset = 0.0 if self.onset is None else self.onset
+        self._assign_field("onset", None if self.rate_per_hour else self._parse_bounded(_TIME_PARAMETERS["onset"], onset))
+        if self.duration is not None:
+            self._assign_field("duration", self._parse_bounded(_TIME_PARAMETERS["duration"], self.duration))
+
+    def to_stored(self) -> dict[str, Any]:
+        """Return the entry as files store it, without default values."""
+        data: dict[str, Any] = {"kind": self.kind}
+        values = {
+            "joints": self.joints and list(self.joints),
+            "weights": self.weights and list(self.weights),
+            "probability": None if self.probability == 1 else self.probability,
+            "together": None if self.together == 1 else self.together,
+            "rate_per_hour": self.rate_per_hour,
+            "onset": None
+            if self.onset is None or self.onset == ParameterDistribution("number", (0.0,))
+            else self.onset.stored(),
+            "duration": self.duration and self.duration.stored(),
+            "on": self.on,
+            "off": self.off,
+            **{name: value.stored() for name, value in self.parameters.items() if not isinstance(value, str)},
+        }
+        return data | {name: value for name, value in values.items() if value is not None}

@@ -1,0 +1,10 @@
+from holdfast.response.lock_survival.dynamic_program import SearchBounds as SearchBounds
+from holdfast.response.lock_survival.given_motion import evaluate_motion as evaluate_motion
+from holdfast.response.lock_survival.injection import LockTests as LockTests
+from holdfast.response.lock_survival.planning import BaselineMotion as BaselineMotion
+from holdfast.response.lock_survival.planning import LockSurvival as LockSurvival
+from holdfast.response.lock_survival.rates import FailureRates as FailureRates
+from holdfast.response.lock_survival.reaching import Approach as Approach
+from holdfast.response.lock_survival.reaching import plan_motion_to as plan_motion_to
+from holdfast.response.lock_survival.search import plan_motion as plan_motion
+from holdfast.response.lock_survival.timed_motion import VelocityJump as VelocityJump

@@ -1,0 +1,278 @@
+"""Dynamic program that selects the motion over the nodes of a path with the greatest total gain, and smoothing of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from holdfast.core.progress import track
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.curve_tracing import ManifoldTracer
+from holdfast.model.arm.model import Arm
+from holdfast.response.lock_survival.grid import CurveNodes, compute_squared_distances
+from holdfast.response.lock_survival.tables import LockTable
+
+_RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
+_MAX_DENSE_MOVES = (
+    1 << 20
+)  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
+_MAX_CURVE_SHIFT_RAD = 0.15  # rad along its curve is the most that a configuration is moved
+_SMOOTHING_ROUNDS = 3
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SearchBounds:
+    """Results of a search over all motions of the grid.
+
+    Attributes:
+        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
+            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
+        interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
+            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
+        spacing: Of the nodes, rad (and m).
+        nodes: T arrays (P, n) of configurations, all that were found.
+        curve: T arrays (P,) with the number of their curve.
+        survives: T arrays (P, n): True where a lock there is survivable.
+        moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
+        held: Joints that the motions looked at do not move, and where they are, rad and m; none with one degree of redundancy.
+    """
+
+    bound: float
+    interval: tuple[float, float]
+    spacing: float
+    nodes: Sequence[FloatArray]
+    curve: Sequence[IndexArray]
+    survives: Sequence[BoolArray]
+    moved: FloatArray
+    held: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class NodeMoves:
+    """The M moves from the nodes of a pose to those of the next that are short enough, ordered by their targets.
+
+    Attributes:
+        targets, sources: (M,) nodes.
+        squared_distances: (M,) squared distances.
+        excesses: (M,) how much farther than allowed a joint goes, rad and m; below 0 where none does.
+    """
+
+    targets: IndexArray
+    sources: IndexArray
+    squared_distances: FloatArray
+    excesses: FloatArray
+
+
+class BestPathTable:
+    """Best motions up to a pose, one to each of its nodes; among equals the shortest, by its squared steps.
+
+    Attributes:
+        gains: (P,) what each node of each pose is worth.
+        allowed_excess: How much farther than allowed a joint may go from pose to pose, rad and m.
+        last_pose: The last pose to which any motion leads, if it is not the last of all.
+    """
+
+    def __init__(self, gains: list[FloatArray], extra: float = 0.0) -> None:
+        self.gains, self.allowed_excess = gains, extra
+        self.last_pose: int | None = None
+        self._tie_tolerance = _RELATIVE_TIE_TOLERANCE * sum(float(gain.max()) for gain in gains)
+        self._totals, self._path_lengths = gains[0], np.zeros(len(gains[0]))
+        self._predecessors: list[IndexArray] = []
+
+    def advance_to_next_pose(self, moves: NodeMoves) -> None:
+        """Advance the best motions to the next pose."""
+        if self.last_pose is not None:
+            return
+        node_gains = self.gains[len(self._predecessors) + 1]
+        is_allowed = (moves.excesses <= self.allowed_excess) & np.isfinite(self._totals[moves.sources])
+        targets, sources = moves.targets[is_allowed], moves.sources[is_allowed]
+        if not targets.size:
+            self.last_pose = len(self._predecessors)
+            return
+        source_totals = self._totals[sources]
+        best_totals = _max_by_group(source_totals, targets, len(node_gains))
+        is_best = source_totals >= best_totals[targets] - self._tie_tolerance
+        targets, sources = targets[is_best], sources[is_best]
+        lengths = self._path_lengths[sources] + moves.squared_distances[is_allowed][is_best]
+        shortest = -_max_by_group(-lengths, targets, len(node_gains))
+        predecessors = np.zeros(len(node_gains), dtype=np.int64)
+        cheapest = np.flatnonzero(lengths == shortest[targets])[::-1]
+        predecessors[targets[cheapest]] = sources[cheapest]  # what is written last stays: the first
+        self._totals, self._path_lengths = best_totals + node_gains, shortest
+        self._predecessors.append(predecessors)
+
+    @property
+    def best_total(self) -> float:
+        """Total gain of the best motion; NaN if none leads to the last pose."""
+        return float(self._totals.max()) if self.last_pose is None else float("nan")
+
+    def trace_best_motion(self) -> IndexArray:
+        """Return the node of every pose (T,) along the best motion."""
+        best = np.flatnonzero(self._totals >= self._totals.max() - self._tie_tolerance)
+        chosen = [int(best[self._path_lengths[best].argmin()])]
+        for source in reversed(self._predecessors):
+            chosen.append(int(source[chosen[-1]]))
+        return np.array(chosen[::-1])
+
+
+def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: FloatArray, path_tables: Sequence[BestPathTable]) -> None:
+    """Advance tables of best motions from the first pose to the last.
+
+    Args:
+        arm: The arm.
+        nodes: Of each pose.
+        max_steps: (n,) largest motion of each joint from pose to pose, rad and m; infinite where none is known.
+        path_tables: At the first pose.
+    """
+    allowed_excess = max(path_table.allowed_excess for path_table in path_tables)
+    for nodes_before, nodes_after in track("poses", list(pairwise(nodes)), whole=True):
+        moves = _find_moves(arm, nodes_after, nodes_before, max_steps, allowed_excess)
+        for path_table in path_tables:
+            path_table.advance_to_next_pose(moves)
+
+
+def _max_by_group(values: FloatArray, group_indices: IndexArray, group_count: int) -> FloatArray:
+    """Return (G,) the largest value of each group (M,), in sorted order; -inf for an empty group."""
+    maxima = np.full(group_count, -np.inf)
+    if group_indices.size:
+        group_starts = np.flatnonzero(np.diff(group_indices, prepend=-1))
+        maxima[group_indices[group_starts]] = np.maximum.reduceat(values, group_starts)
+    return maxima
+
+
+def _find_moves(
+    arm: Arm, nodes_after: CurveNodes, nodes_before: CurveNodes, max_steps: FloatArray, allowed_excess: float
+) -> NodeMoves:
+    """Return the moves from ``nodes_before`` to ``nodes_after`` within the limits plus ``allowed_excess``, or short ones
+    without a limit.
+    """
+    if len(nodes_before.q) * len(nodes_after.q) <= _MAX_DENSE_MOVES:
+        node_distances = compute_squared_distances(nodes_after.embedded, nodes_before.embedded)
+        max_length = _bound_move_length(nodes_before, np.sqrt(node_distances.min(axis=0)), max_steps)
+        targets, sources = (indices.ravel() for indices in np.indices(node_distances.shape))
+        move_distances, excesses = (
+            node_distances.ravel(),
+            _measure_excess(arm, nodes_after.q[:, None], nodes_before.q[None], max_steps).ravel(),
+        )
+    else:
+        from scipy.spatial import KDTree
+
+        max_length = _bound_move_length(
+            nodes_before, np.asarray(KDTree(nodes_after.embedded).query(nodes_before.embedded)[0]), max_steps
+        )
+        targets, sources = _find_close_pairs(
+            arm,
+            nodes_after.q,
+            nodes_before.q,
+            np.where(np.isfinite(max_steps), max_steps + allowed_excess, np.pi / 2 * max_length),
+        )
+        move_distances, excesses = (
+            ((nodes_after.embedded[targets] - nodes_before.embedded[sources]) ** 2).sum(axis=1),
+            _measure_excess(arm, nodes_after.q[targets], nodes_before.q[sources], max_steps),
+        )
+    is_selected = (excesses <= allowed_excess) & (move_distances <= max_length**2)
+    return NodeMoves(targets[is_selected], sources[is_selected], move_distances[is_selected], excesses[is_selected])
+
+
+def _bound_move_length(nodes_before: CurveNodes, nearest: FloatArray, max_steps: FloatArray) -> float:
+    """Return the greatest length of a move of joints without a limit; ``nearest`` (P,) are the distances to the next pose."""
+    return np.inf if np.isfinite(max_steps).all() else 3 * nodes_before.spacing + 2 * float(np.median(nearest))
+
+
+def _measure_excess(arm: Arm, q: FloatArray, before: FloatArray, max_steps: FloatArray) -> FloatArray:
+    """Return (...) the greatest excess over the limits of a joint's motion from ``before`` to q (..., n)."""
+    excesses = np.full(np.broadcast_shapes(q.shape, before.shape)[:-1], -np.inf)
+    for joint_index in np.flatnonzero(np.isfinite(max_steps)):
+        joint_steps = np.abs(q[..., joint_index] - before[..., joint_index])
+        if joint_space.is_unlimited(arm)[joint_index]:
+            joint_steps = np.abs(np.remainder(joint_steps + np.pi, 2 * np.pi) - np.pi)
+        np.maximum(excesses, joint_steps - max_steps[joint_index], out=excesses)
+    return excesses
+
+
+def _find_close_pairs(arm: Arm, b: FloatArray, a: FloatArray, reach: FloatArray) -> tuple[IndexArray, IndexArray]:
+    """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``reach`` (n,) in any joint, in order."""
+    from scipy.spatial import KDTree
+
+    padded_reach = reach * (1 + 1e-9)
+    boxes = np.where(joint_space.is_unlimited(arm), 2 * np.pi * (1 + 1e-12) / padded_reach, 0.0)  # rounding stays inside
+    trees = [KDTree(joint_space.fold_joints(arm, configurations) / padded_reach, boxsize=boxes) for configurations in (b, a)]
+    pairs = trees[0].sparse_distance_matrix(trees[1], 1.0, p=np.inf, output_type="ndarray")
+    order = np.lexsort((pairs["j"], pairs["i"]))
+    return pairs["i"][order], pairs["j"][order]
+
+
+def smooth_motion(
+    tracer: ManifoldTracer,
+    nodes: list[CurveNodes],
+    lock_tables: list[LockTable],
+    gains: list[FloatArray],
+    chosen: IndexArray,
+    q: FloatArray,
+    poses: FloatArray,
+    *,
+    start_is_fixed: bool,
+) -> FloatArray:
+    """Smooth the motion q (T, n) over the chosen nodes (T,) so that the sum of its squared steps is smallest.
+
+    Each configuration moves along its self-motion curve by at most ``_MAX_CURVE_SHIFT_RAD``, and only as far as it loses no
+    gain; with ``start_is_fixed`` the first one stays. A step is nearly linear in these moves, so a least-squares problem with
+    bounds is solved a few times.
+    """
+    from scipy.optimize import lsq_linear
+
+    sides = zip(
+        *(
+            _bound_shift(pose_nodes, lock_table, pose_gains, int(node))
+            for pose_nodes, lock_table, pose_gains, node in zip(nodes, lock_tables, gains, chosen, strict=True)
+        ),
+        strict=True,
+    )
+    lower, upper = (np.array(side) for side in sides)
+    movable = np.flatnonzero((upper - lower > 1e-9) & ~(start_is_fixed & (np.arange(len(q)) == 0)))
+    if not movable.size:
+        return q
+    # The curve of a node may run against the null vector that comes with it.
+    curve_directions = np.array(
+        [
+            pose_nodes.pieces[node] if pose_nodes.following[node] != node else pose_nodes.pieces[pose_nodes.previous[node]]
+            for pose_nodes, node in zip(nodes, chosen, strict=True)
+        ]
+    )
+    smooth_q, shifts = q, np.zeros(len(q))
+    for _ in range(_SMOOTHING_ROUNDS):
+        tangent = tracer.correct(smooth_q, poses)[2][:, 0]
+        tangent *= np.where(np.einsum("ij,ij->i", tangent, curve_directions) < 0, -1.0, 1.0)[:, None]
+        matrix = np.zeros((len(q) - 1, q.shape[1], len(q)))
+        row = np.arange(len(q) - 1)
+        matrix[row, :, row], matrix[row, :, row + 1] = -tangent[:-1], tangent[1:]
+        steps = np.diff(smooth_q, axis=0).reshape(-1)
+        bounds = (lower - shifts)[movable], (upper - shifts)[movable]
+        change = np.zeros(len(q))
+        change[movable] = lsq_linear(matrix.reshape(-1, len(q))[:, movable], -steps, bounds, tol=1e-6).x
+        candidate_q, is_on_pose, _ = tracer.correct(smooth_q + change[:, None] * tangent, poses)
+        inside = ((candidate_q >= tracer.arm.lower) & (candidate_q <= tracer.arm.upper)).all(axis=1)
+        if not (is_on_pose & inside).all():
+            break
+        smooth_q, shifts = candidate_q, shifts + change
+    return smooth_q
+
+
+def _bound_shift(nodes: CurveNodes, verdicts: LockTable, gain: FloatArray, chosen: int) -> tuple[float, float]:
+    """Return how far a configuration may move against and along its curve without a loss of gain."""
+    limits = []
+    for neighbors, sign in ((nodes.previous, -1.0), (nodes.following, 1.0)):
+        length, node = 0.0, chosen
+        while length < _MAX_CURVE_SHIFT_RAD and neighbors[node] != node:
+            other = int(neighbors[node])
+            segment_length = float(np.linalg.norm(nodes.pieces[node if sign > 0 else other]))
+            if gain[other] < gain[chosen] - 1e-12:
+                length += segment_length * verdicts.safe_fraction(node, other, is_ahead=sign > 0)
+                break
+            length, node = length + segment_length, other
+        limits.append(sign * min(length, _MAX_CURVE_SHIFT_RAD))
+    return limits[0], limits[1]

@@ -1,0 +1,378 @@
+"""Locks that a motion along a path survives, and the possible improvement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.files.output import write_table
+from holdfast.core.formatting import format_percent
+from holdfast.core.probability.intervals import Interval
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Result
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.kinematics.path_following.trajectory import Trajectory
+from holdfast.kinematics.paths.timed_path import TimedPath
+from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
+from holdfast.model.collision.clearance import Clearance
+from holdfast.response.lock_survival.dynamic_program import SearchBounds
+from holdfast.response.lock_survival.injection import LockTests, can_finish_path, interpolate_motion, sample_locks
+from holdfast.response.lock_survival.lock_evaluation import has_stopped_moving
+from holdfast.response.lock_survival.problem import Kind, Mode, SurvivalProblem
+from holdfast.response.lock_survival.rates import FailureRates
+from holdfast.response.lock_survival.timed_motion import VelocityJump, make_trajectory
+
+# _SMALL_MOTION and _STANDSTILL_TOLERANCE: rad and m along a whole curve
+_SMALL_MOTION = 0.3
+_STANDSTILL_TOLERANCE = 1e-6
+_PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
+_KIND_PREFIXES: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BaselineMotion:
+    """Survival of another motion along the same path.
+
+    Attributes:
+        name: What made it.
+        survival: As of :class:`LockSurvival`.
+        curve: (T,) as there, at the same times.
+        off: Fraction of the samples at which it is off the path, breaks what is kept, or has no configuration; nothing is
+            survived there.
+    """
+
+    name: str
+    survival: float
+    curve: FloatArray
+    off: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LockSurvival(Result):
+    """Single locks that a motion along a path survives, at T times.
+
+    A lock stops a joint at once and for good; it is survived if the rest of the path can still be followed. Later locks are
+    not counted.
+
+    Attributes:
+        arm, task: What moves, and which rows of the path it keeps.
+        path: Where the tool is to be, and when.
+        mode: ``on-path``: the failed arm goes on from where it is, at its own pace, and its tool never leaves the path.
+            ``detour``: it may leave the path and come back to it.
+        rates: Of the joints.
+        time: (T,) s.
+        poses: (T, 4, 4) of the tool in the world.
+        q: (T, n) the motion, rad and m.
+        survives: (T, n) True where a lock of the joint at that time is survived.
+        kept: What the motion and the failed arm keep clear of, and by how much, m; or None.
+        keep: What the tool keeps beside the path, before the lock and after it, through the first pose.
+        found: What the search for the best motion knows; None for a motion that was given.
+        kind: Of every probability: ``exact``, up to the grid; ``upper bound``, of detours among obstacles or with something
+            kept, which are not looked for; ``lower bound``, with more than one degree of redundancy, where not every way on
+            after a lock is looked at.
+        comparisons: Other motions along the path.
+        injected: Locks that were tried on it, if somebody did; see :meth:`test_locks`.
+    """
+
+    arm: Arm
+    task: Task
+    path: TimedPath
+    mode: Mode
+    rates: FailureRates
+    time: FloatArray
+    poses: FloatArray
+    q: FloatArray
+    survives: BoolArray
+    kept: tuple[Clearance, float] | None = None
+    keep: tuple[ToolConstraint, ...] = ()
+    found: SearchBounds | None = None
+    kind: Kind = "exact"
+    comparisons: tuple[BaselineMotion, ...] = ()
+    injected: LockTests | None = None
+    _problem: SurvivalProblem = field(repr=False)
+
+    @classmethod
+    def for_motion(
+        cls, problem: SurvivalProblem, q: FloatArray, *, survives: BoolArray, found: SearchBounds | None = None
+    ) -> LockSurvival:
+        """Return the result for a motion (T, n) and the survival (T, n) of its locks."""
+        return cls(
+            arm=problem.arm,
+            task=problem.task,
+            path=problem.path,
+            mode=problem.mode,
+            rates=problem.rates,
+            time=problem.time,
+            poses=problem.lock.poses,
+            q=q,
+            survives=survives,
+            kept=problem.conditions.required_clearance,
+            keep=problem.conditions.constraints,
+            found=found,
+            kind=problem.kind,
+            _problem=problem,
+        )
+
+    @property
+    def survival(self) -> float:
+        """Probability that the path is finished, given that one joint locks on the way."""
+        return self._weighted_mean(self.curve())
+
+    @property
+    def survival_bound(self) -> float | None:
+        """Upper bound on the survival of any motion, up to the grid; None for a given motion, and where no bound is known."""
+        return None if self.found is None or self.kind == "lower bound" else self.found.bound
+
+    @property
+    def gap(self) -> float | None:
+        """Upper bound on the distance of the motion from the optimum."""
+        return None if self.survival_bound is None else max(self.survival_bound - self.survival, 0.0)
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Survival of the best motions of the grid, within the velocity limits and with the spacing on top; see ``found``."""
+        return None if self.found is None else self.found.interval
+
+    def curve(self) -> FloatArray:
+        """Return the probability (T,) that a lock at that time is survived, averaged over the joints."""
+        return np.asarray(np.round(self.survives @ self.rates.each / self.rates.total, 12))
+
+    @cached_property
+    def by_joint(self) -> dict[str, float]:
+        """Probability that a lock of each joint is survived, at any time."""
+        return {
+            name: self._weighted_mean(probability)
+            for name, probability in zip(self.arm.joint_names, self.survives.T.astype(np.float64), strict=True)
+        }
+
+    @property
+    def survives_all_locks(self) -> bool:
+        """True if every lock at every sample is survived, for joints that can fail."""
+        return bool((self.curve() >= 1 - _PROBABILITY_TOLERANCE).all())
+
+    @property
+    def safe_from(self) -> float:
+        """Time in s from which every lock is survived. At the end of the path every lock is survived."""
+        unsafe = np.flatnonzero(self.curve() < 1 - _PROBABILITY_TOLERANCE)
+        return float(self.time[0] if not unsafe.size else self.time[min(unsafe[-1] + 1, len(self.time) - 1)])
+
+    @property
+    def safe_until(self) -> float | None:
+        """Time in s up to which every lock is survived; None if a lock at the start is not."""
+        unsafe = np.flatnonzero(self.curve() < 1 - _PROBABILITY_TOLERANCE)
+        last_safe = unsafe[0] - 1 if unsafe.size else len(self.time) - 1
+        return float(self.time[last_safe]) if last_safe >= 0 else None
+
+    @property
+    def worst(self) -> tuple[float, float]:
+        """Time in s at which a lock is survived least, and its probability."""
+        sample = int(self.curve().argmin())
+        return float(self.time[sample]), float(self.curve()[sample])
+
+    @property
+    def loss_probability(self) -> float | None:
+        """Probability that a lock occurs and loses the path, with rates per second; None without."""
+        if not self.rates.per_second:
+            return None
+        return float(self.rates.weights(self.time) @ ((1 - self.curve()) * self.rates.total))
+
+    @cached_property
+    def never(self) -> tuple[float, str] | None:
+        """First sample in s at which no configuration survives every lock, and the joint that is lost.
+
+        So no motion at all is guaranteed. None if there is no such sample, or if the motion was given, or of a lower bound.
+        """
+        if self.found is None or self.kind == "lower bound":
+            return None
+        counts = self.rates.each > 0
+        for sample, survives in enumerate(self.found.survives):
+            if not survives[:, counts].all(axis=1).any():
+                fractions = np.where(counts, survives.mean(axis=0), np.inf)
+                return float(self.time[sample]), self.arm.joint_names[int(fractions.argmin())]
+        return None
+
+    @cached_property
+    def rates_of_joints(self) -> FloatArray:
+        """Joint velocities (T, n) in rad/s and m/s, by differences."""
+        return np.asarray(np.gradient(self.q, self.time, axis=0, edge_order=2 if len(self.time) > 2 else 1))
+
+    @cached_property
+    def speed(self) -> float:
+        """Largest fraction of a joint's velocity limit from sample to sample; a motion above 1 is too fast."""
+        velocity = np.array([joint.velocity for joint in self.arm.joints])
+        return float((np.abs(np.diff(self.q, axis=0)) / np.diff(self.time)[:, None] / velocity).max())
+
+    @cached_property
+    def jump(self) -> VelocityJump:
+        """Velocity of the end effector that is lost when a joint stops at once."""
+        twists = self.arm.jacobian(self.q) * self.rates_of_joints[:, None, :]
+        linear, angular = (np.linalg.norm(twist_part, axis=1) for twist_part in (twists[:, :3], twists[:, 3:]))
+        joint_probabilities = self.rates.each / self.rates.total
+        return VelocityJump(
+            linear=linear,
+            angular=angular,
+            mean_linear=self._weighted_mean(linear @ joint_probabilities),
+            mean_angular=self._weighted_mean(angular @ joint_probabilities),
+        )
+
+    @cached_property
+    def motion(self) -> Trajectory:
+        """Motion for a controller, at five times as many samples, each on its pose, with a local measure of fault tolerance as
+        objective.
+        """
+        return make_trajectory(self._problem, self.q)
+
+    @check_arguments
+    @reports_progress("injecting locks")
+    def test_locks(self, locks: int = 1000, *, seed: int = 1) -> LockTests:
+        """Test the motion with joints that lock at random times, and count how often the failed arm finishes.
+
+        On the path the failed arm is followed by another integrator than the table's, along the arc of its branch with steps of
+        Runge and Kutta; with detours, inverse kinematics must find a configuration of every sample still to come. Joints are
+        drawn by their rates, and times evenly; with rates per second, as failures come that come before the end.
+
+        Args:
+            locks: How many.
+            seed: Of the draws.
+
+        Raises:
+            InputError: Fewer than one lock.
+        """
+        if locks < 1:
+            raise InputError(f"locks is {locks}; it must be 1 or more")
+        generator = np.random.default_rng(np.random.SeedSequence(seed))
+        lock_times, locked_joints = sample_locks(self._problem, locks, generator)
+        survived = can_finish_path(
+            self._problem, interpolate_motion(self._problem, self.q, lock_times), lock_times, locked_joints, q_start=self.q[0]
+        )
+        sample_before = np.clip(np.searchsorted(self.time, lock_times, side="right") - 1, 0, len(self.time) - 2)
+        survived |= has_stopped_moving(self._problem, self.q)[sample_before, locked_joints]
+        expected = self.survives[sample_before, locked_joints]
+        return LockTests(
+            time=lock_times,
+            joint=locked_joints,
+            survived=survived,
+            expected=expected,
+            told=expected == self.survives[sample_before + 1, locked_joints],
+            interval=Interval.from_counts(float(survived.sum()), locks),
+        )
+
+    def to_csv(self, file: str | Path) -> Path:
+        """Write the motion as rows: time, joints, and the probability that a lock at that time is survived.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        header = ["time_s", *(f"{joint.name}_{joint.unit}" for joint in self.arm.joints), "survival"]
+        rows = np.column_stack([self.time, self.q, self.curve()])
+        return write_table(file, "motion", header, rows, ["%.12g"] * len(header))
+
+    def _weighted_mean(self, values: FloatArray) -> float:
+        weights = self.rates.weights(self.time)
+        return round(float(weights @ values / weights.sum()), 12)  # all of them are 1, not almost
+
+    def _explain_pose_limits(self) -> list[str]:
+        """Explain why some locks are hardly survived by any motion, for full poses mostly that of an elbow."""
+        if self.found is None or self.kind == "lower bound":
+            return []
+        joints = np.flatnonzero((self.found.moved <= _SMALL_MOTION) & (self.rates.each > 0) & ~self.survives.all(axis=0))
+        lines = []
+        for joint, motion_range in zip(
+            [self.arm.joints[joint_index] for joint_index in joints], self.found.moved[joints], strict=True
+        ):
+            range_text = f" by more than {motion_range:.3g} {joint.unit}" if motion_range > _STANDSTILL_TOLERANCE else ""
+            lines.append(
+                f"no self-motion moves {joint.name}{range_text}: the pose sets it (of an elbow between spherical "
+                f"shoulder and wrist "
+                "their distance does), so that its lock is survived only while that hardly changes"
+            )
+        return lines
+
+    @property
+    def headline(self) -> str:
+        """Answer in a sentence."""
+        if self.survives_all_locks:
+            return "every lock of a joint, at any sample of the path, is survived"
+        bound_text = (
+            ""
+            if self.survival_bound is None
+            else f"; no motion along this path survives more than {format_percent(self.survival_bound)}"
+        )
+        return (
+            f"{_KIND_PREFIXES[self.kind]}{format_percent(self.survival)} of all locks of a joint on the way are "
+            f"survived{bound_text}"
+        )
+
+    def describe(self) -> list[str]:
+        """Return the result in a few sentences."""
+        mode_text = "without leaving the path" if self.mode == "on-path" else "with detours"
+        lines = [f"{self.arm.title}, {self.path.describe()}, {mode_text}: {self.headline}"]
+        if self.kind == "lower bound":
+            cone_text = ", or the axis that is kept in a cone and fewer joints" if self._problem.conditions.left_to_arm else ""
+            lines.append(
+                "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
+                f"that hold {self._problem.redundancy - 1} more of its joints{cone_text}"
+                if self.mode == "on-path"
+                else "a lower bound: of the poses to come only what inverse kinematics found with the joint locked counts"
+            )
+        elif self.found is not None:
+            lower, upper = self.found.interval
+            within = "within the velocity limits " + (
+                "none is found" if np.isnan(lower) else f"the best survives {format_percent(lower)}"
+            )
+            lines.append(
+                f"no motion survives more than {format_percent(self.found.bound)} up to the grid of {len(self.time)} poses and "
+                f"{self.found.spacing:g} rad; over its nodes {within}, with the spacing on top of them {format_percent(upper)}"
+            )
+        if self.kept is not None and self.kind != "lower bound":
+            lines.append("clearance is judged by shapes that cover the links; the arm is smaller and may survive more")
+        if self.keep:
+            task_text = "" if self._problem.conditions.left_to_arm else ", by the rows of the path alone"
+            lines.append(f"kept at every sample, before a lock and after it{task_text}: {'; '.join(map(str, self.keep))}")
+        if not self.survives_all_locks:
+            worst_time, worst_probability = self.worst
+            lines.append(
+                f"by joint: {', '.join(f'{name} {format_percent(value)}' for name, value in self.by_joint.items())}; "
+                f"worst at {worst_time:.4g} s, where {format_percent(worst_probability)} are survived; from "
+                f"{self.safe_from:.4g} s on all are"
+            )
+        if self.comparisons:
+            lines.append(
+                "beside it: "
+                + ", ".join(f"{comparison.name} {format_percent(comparison.survival)}" for comparison in self.comparisons)
+            )
+        if self.injected is not None:
+            lock_count, probability_interval = len(self.injected.time), self.injected.interval
+            lines.append(
+                f"of {lock_count} locks injected at random times {format_percent(probability_interval.value)} were "
+                f"survived ({format_percent(probability_interval.low)} to "
+                f"{format_percent(probability_interval.high)}, 95 %), {format_percent(self.injected.agreement)} of them "
+                f"as the motion says"
+            )
+        if self.never is not None:
+            worst_time, name = self.never
+            lines.append(
+                f"no motion survives all: at {worst_time:.4g} s no configuration survives every lock, least of all {name}'s"
+            )
+        lines += self._explain_pose_limits()
+        if self.speed > 1 + _PROBABILITY_TOLERANCE:
+            lines.append(f"the motion takes {self.speed:.3g} times the velocity limit of a joint: slow the path down")
+        if self.loss_probability is not None:
+            lines.append(f"probability that a lock loses the path: {self.loss_probability:.3g}")
+        if self.kind == "upper bound":
+            condition_text = "that keep what is kept" if self.keep else "among obstacles"
+            lines.append(f"detours {condition_text} were not looked for: every probability is an upper bound")
+        velocity_jump = self.jump
+        lines.append(
+            f"when a joint stops at once the tool loses at most {velocity_jump.most_linear:.3g} m/s and "
+            f"{velocity_jump.most_angular:.3g} rad/s, "
+            f"in the mean {velocity_jump.mean_linear:.3g} m/s and {velocity_jump.mean_angular:.3g} rad/s"
+        )
+        return lines

@@ -1,0 +1,15 @@
+from holdfast.response.recovery.continuation import RestOfPath as RestOfPath
+from holdfast.response.recovery.goals import RelaxedRows as RelaxedRows
+from holdfast.response.recovery.recovery import Leg as Leg
+from holdfast.response.recovery.recovery import Recovery as Recovery
+from holdfast.response.recovery.recovery import RecoveryOutcome as RecoveryOutcome
+from holdfast.response.recovery.recovery import RecoveryVerdict as RecoveryVerdict
+from holdfast.response.recovery.search import recover as recover
+from holdfast.response.recovery.timing.motion import TimedMotion as TimedMotion
+from holdfast.response.recovery.verification import Verification as Verification
+from holdfast.response.recovery.waypoints import WaypointCheck as WaypointCheck
+from holdfast.response.recovery.waypoints import check_waypoints as check_waypoints
+from holdfast.response.recovery.waypoints import read_times as read_times
+from holdfast.response.recovery.waypoints import read_waypoints as read_waypoints
+from holdfast.response.recovery.waypoints import write_waypoints as write_waypoints
+from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace as RemainingWorkspace

@@ -1,0 +1,377 @@
+"""Search for one continuous motion that finishes the rest of a tool path with joints locked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.progress import track
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.model.arm.poses import rotation_vectors
+from holdfast.response.recovery.goals import RelaxedRows, find_goal_configurations, project_onto_constraints, solve_pose
+from holdfast.response.recovery.ladder_graph import MAX_JOINT_STEP, continue_path, search_ladder_graph
+from holdfast.response.recovery.routes import find_reachable_goals
+from holdfast.response.recovery.space import FreeSpace, JointMetric
+from holdfast.response.recovery.task_rows import RowSolver, list_subsets, rank_relaxed_rows
+from holdfast.response.recovery.timing.motion import PATH_TOLERANCE
+
+if TYPE_CHECKING:
+    from holdfast.kinematics.paths.path import Path
+
+
+_SAMPLE_SPACING = 0.01  # m or rad of the end effector between samples
+# _MIN_SAMPLES and _MAX_SAMPLES: samples
+_MIN_SAMPLES = 20
+_MAX_SAMPLES = 400
+_STARTS_PER_SET = 12
+_REFINEMENT_FACTOR = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
+_INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
+_MAX_WAYPOINT_BISECTIONS = 8  # times what is between two waypoints is, until it is near the path
+
+
+@dataclass(frozen=True, kw_only=True)
+class RestOfPath:
+    """Result of the search for a motion along the rest of a tool path.
+
+    Attributes:
+        furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row, to 0.001; it begins in a
+            configuration of the first pose to which a motion of the arm was found.
+        begin: (n,) that configuration, rad and m; None if none was found.
+        share: (S,) samples of the path, 0 to 1.
+        found: (S,) True where a configuration of that pose was found at all, each sample on its own.
+        q: (S, n) the motion, without the rows given up if there are any; (0, n) if none was found; rad and m.
+        deviation: Largest error of the rows kept half-way between waypoints, m and rad.
+        given_up: Rows given up over the whole path, with the most that they miss on the way; None if all are kept.
+        starts: Configurations of the first pose from which the path was followed.
+        cut_off: Configurations of the beginning were found, but no route to any of them; ``q`` is then empty.
+        graph: Configurations of a graph through all poses that was searched where following the path from each start ended
+            early; 0 if it was not needed, or if the arm has no self-motion left.
+    """
+
+    furthest: float
+    share: FloatArray
+    found: BoolArray
+    q: FloatArray
+    deviation: float
+    given_up: RelaxedRows | None
+    starts: int
+    begin: FloatArray | None = None
+    cut_off: bool = False
+    graph: int = 0
+
+    @property
+    def finished(self) -> bool:
+        """True if a continuous motion was found that keeps every row from beginning to end."""
+        return len(self.q) > 0 and self.given_up is None
+
+    @property
+    def first_lost(self) -> float | None:
+        """First sample, 0 to 1, without a configuration; None if a configuration was found for every sample."""
+        unreached = self.share[~self.found]
+        return float(unreached[0]) if unreached.size else None
+
+    @property
+    def why(self) -> str:
+        """Reason why the path was not finished, a phrase."""
+        if self.cut_off:
+            return "configurations of its beginning exist, but no route from here to any of them was found"
+        if self.first_lost is not None:
+            return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
+        graph_text = f" among {self.graph:,} configurations joined from pose to pose" if self.graph else ""
+        return f"each of its poses is reached on its own, but no continuous motion through all of them was found{graph_text}"
+
+    def describe(self) -> str:
+        """Return the result in one or two sentences."""
+        if self.finished:
+            return (
+                f"The rest of the tool path can be finished: {len(self.q)} waypoints, off the path by at most "
+                f"{self.deviation:.2g} (m and rad) between them."
+            )
+        text = f"The rest of the tool path was not finished: {self.why}; the best motion gets to {100 * self.furthest:.1f} %"
+        if self.begin is not None:
+            text += f" of it, from the configuration ({', '.join(f'{angle:.4g}' for angle in self.begin)}) of its first pose"
+        text += "."
+        if self.given_up is not None:
+            text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
+        return text
+
+
+def follow_rest_of_path(
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    q_start: FloatArray,
+    start_count: int,
+    rng: np.random.Generator,
+) -> tuple[RestOfPath, list[FloatArray]]:
+    """Follow a path from configurations of its first pose; also return every motion (S, n) found, the shortest first."""
+    fractions = _sample_fractions(path)
+    poses = path.pose(fractions)
+    is_reached = np.array(
+        [
+            not space.is_time_over and _is_reachable(solver, space, pose, q_start, rng)
+            for pose in track("poses of the path", poses)
+        ]
+    )
+    first_configurations = find_goal_configurations(solver, space, metric, poses[0], q_start, start_count, rng)
+    rest = RestOfPath(
+        furthest=0.0,
+        share=fractions,
+        found=is_reached,
+        q=np.zeros((0, solver.arm.n)),
+        deviation=0.0,
+        given_up=None,
+        starts=len(first_configurations),
+    )
+    rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations)
+    if not motions and _retry_unreached(solver, space, poses, rest.found, q_start, start_count, rng):
+        if space.free.sum() > solver.rows.m:
+            graph = search_ladder_graph(solver, space, metric, poses, first_configurations, q_start, start_count, rng)
+            furthest = max(rest.furthest, float(fractions[graph.last_sample]))
+            rest, motions = replace(rest, furthest=furthest, graph=graph.configuration_count), graph.motions
+        if not motions:
+            rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations, _REFINEMENT_FACTOR)
+    return (add_motion(rest, solver, path, motions[0]) if motions else rest), motions
+
+
+def continue_unfinished_path(
+    rest: RestOfPath,
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    q_start: FloatArray,
+    start_count: int,
+    rng: np.random.Generator,
+) -> tuple[RestOfPath, list[FloatArray]]:
+    """Continue an unfinished path to its furthest reachable point; also return the motion if it gets to the end.
+
+    Followed are all configurations of the first pose that were found and to which a motion leads.
+    """
+    rest = replace(rest, furthest=0.0)
+    pose = path.pose(rest.share[:1])[0]
+    first_configurations = np.concatenate(
+        [
+            find_goal_configurations(solver, space, metric, pose, q_start, start_count, rng),
+            solve_pose(solver, space, pose, solver.sample_configurations(start_count, q_start, space.free, rng)),
+        ]
+    )
+    first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
+    if not len(first_configurations):
+        return rest, []
+    first_configurations = first_configurations[find_reachable_goals(space, metric, q_start, first_configurations, rng)]
+    if not len(first_configurations):
+        return replace(rest, cut_off=True), []
+    stride = float(np.diff(rest.share).max())
+    continuation = continue_path(solver, space, metric, path, first_configurations, stride=stride, rng=rng)
+    furthest, graph_size = float(continuation.fractions[-1]), max(rest.graph, continuation.configuration_count)
+    rest = replace(rest, furthest=furthest, begin=continuation.q[0], graph=graph_size, cut_off=False)
+    rest = replace(rest, found=rest.found | (rest.share <= furthest))
+    if furthest < 1:
+        return rest, []
+    rest = replace(rest, share=continuation.fractions, found=np.ones(len(continuation.fractions), dtype=bool))
+    return add_motion(rest, solver, path, continuation.q), [continuation.q]
+
+
+def _follow_samples(
+    rest: RestOfPath,
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    first_configurations: FloatArray,
+    refinement: int = 1,
+) -> tuple[RestOfPath, list[FloatArray]]:
+    """Follow the path from configurations (R, n) of its first pose, with ``refinement`` times as many samples."""
+    positions = np.arange((len(rest.share) - 1) * refinement + 1) / refinement
+    fractions = np.interp(positions, np.arange(len(rest.share)), rest.share)
+    q, last_samples = _track_poses(
+        solver, space, path.pose(fractions), first_configurations, np.ones((len(first_configurations), solver.rows.m))
+    )
+    furthest = max(rest.furthest, float(fractions[last_samples.max(initial=0)]))
+    complete = np.flatnonzero(last_samples == len(fractions) - 1)
+    if complete.size:
+        rest = replace(rest, share=fractions, found=np.ones(len(fractions), dtype=bool))
+    # A pose on the way is found where a motion passes it.
+    rest = replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest) & (last_samples.max(initial=-1) >= 0))
+    return rest, _sort_by_length(metric, [q[:, index] for index in complete])
+
+
+def relax_fewest_rows(
+    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q_start: FloatArray, rng: np.random.Generator
+) -> tuple[RestOfPath, list[FloatArray]]:
+    """Follow the path with as few rows relaxed as possible; also return the motion (S, n) if there is one."""
+    poses = path.pose(rest.share)
+    for size in range(1, solver.rows.m):
+        row_sets = [] if space.is_time_over else list_subsets(solver.rows.m, size, [])
+        solution = _find_best_row_set(solver, space, poses, q_start, row_sets, rng) if row_sets else None
+        if solution:
+            relaxed_rows, motion = solution
+            row_mask = np.ones(solver.rows.m)
+            row_mask[list(relaxed_rows)] = 0.0
+            relaxed_rows = tuple(np.flatnonzero(solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
+            if not relaxed_rows:  # a row that is met all the way is not given up
+                return add_motion(rest, solver, path, motion), [motion]
+            row_errors = np.abs(solver.compute_errors(motion, poses)).max(axis=0)[list(relaxed_rows)]
+            names, units = ([labels[i] for i in relaxed_rows] for labels in (solver.rows.names, solver.rows.units))
+            relaxed = RelaxedRows(tuple(names), tuple(row_errors.tolist()), tuple(units))
+            return replace(add_motion(rest, solver, path, motion, row_mask), given_up=relaxed), [motion]
+    return rest, []
+
+
+def _sample_fractions(path: Path) -> FloatArray:
+    rotations = path.pose(np.linspace(0, 1, 65))[:, :3, :3]
+    rotation_steps = rotation_vectors(rotations[1:] @ rotations[:-1].transpose(0, 2, 1))
+    total_rotation = float(np.linalg.norm(rotation_steps, axis=1).sum()) if path.oriented else 0.0
+    count = int(np.clip(np.ceil(max(path.length, total_rotation) / _SAMPLE_SPACING), _MIN_SAMPLES, _MAX_SAMPLES))
+    return np.unique(np.concatenate([np.linspace(0, 1, count + 1), path.bounds]))
+
+
+def _retry_unreached(
+    solver: RowSolver,
+    space: FreeSpace,
+    poses: FloatArray,
+    is_reached: BoolArray,
+    q_start: FloatArray,
+    start_count: int,
+    rng: np.random.Generator,
+) -> bool:
+    """Search longer for each pose without a configuration, up to the first pose for which none is found again."""
+    for sample in np.flatnonzero(~is_reached):
+        is_reached[sample] = not space.is_time_over and _is_reachable(solver, space, poses[sample], q_start, rng, start_count)
+        if not is_reached[sample]:
+            return False
+    return not space.is_time_over
+
+
+def _is_reachable(
+    solver: RowSolver, space: FreeSpace, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator, start_count: int = 15
+) -> bool:
+    initial_configurations = np.concatenate(
+        [q_start[None], solver.sample_configurations(start_count, q_start, space.free, rng)]
+    )
+    return len(solve_pose(solver, space, pose, initial_configurations)) > 0
+
+
+def _track_poses(
+    solver: RowSolver, space: FreeSpace, poses: FloatArray, first_configurations: FloatArray, row_masks: FloatArray
+) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of
+    each (R,).
+    """
+    q = np.full((len(poses), *first_configurations.shape), np.nan)
+    q[0] = first_configurations
+    last_samples = np.zeros(len(first_configurations), dtype=np.int64)
+    active = np.arange(len(first_configurations))
+    for sample in track("waypoints", range(1, len(poses)), most=True):
+        if not active.size or space.is_time_over:
+            break
+        before = q[sample - 1, active]
+        targets = np.repeat(poses[sample][None], len(active), axis=0)
+        after = solver.solve_relaxed(before, targets, row_masks[active], space.free)
+        is_jump = np.abs(after - before).max(axis=1) > MAX_JOINT_STEP
+        if is_jump.any():  # rows that are given up must not pull the others onto another branch
+            after[is_jump] = solver.solve(before[is_jump], targets[is_jump], row_masks[active][is_jump], space.free)
+        after = project_onto_constraints(solver, space, after, targets, row_masks[active])
+        is_valid = solver.meets_rows(after, targets, row_masks[active], space.free) & (
+            np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
+        )
+        indices = np.flatnonzero(is_valid)
+        is_valid[indices] = space.are_segments_valid(before[indices], after[indices])
+        active, after = active[is_valid], after[is_valid]
+        q[sample, active], last_samples[active] = after, sample
+    return q, last_samples
+
+
+def _sort_by_length(metric: JointMetric, motions: list[FloatArray]) -> list[FloatArray]:
+    return sorted(motions, key=lambda q: float(metric.cumulative_length(q)[-1]))
+
+
+def _find_best_row_set(
+    solver: RowSolver,
+    space: FreeSpace,
+    poses: FloatArray,
+    q_start: FloatArray,
+    row_sets: list[tuple[int, ...]],
+    rng: np.random.Generator,
+) -> tuple[tuple[int, ...], FloatArray] | None:
+    """Return the preferred set of rows without which the path is followed, and the motion with the least errors."""
+    initial_configurations = np.concatenate(
+        [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
+    )
+    set_indices = np.repeat(np.arange(len(row_sets)), len(initial_configurations))
+    row_masks = np.ones((len(set_indices), solver.rows.m))
+    for row_mask, index in zip(row_masks, set_indices, strict=True):
+        row_mask[list(row_sets[index])] = 0.0
+    targets = np.repeat(poses[:1], len(set_indices), axis=0)
+    first_configurations = solver.solve_relaxed(
+        np.tile(initial_configurations, (len(row_sets), 1)), targets, row_masks, space.free
+    )
+    first_configurations = project_onto_constraints(solver, space, first_configurations, targets, row_masks)
+    is_valid = solver.meets_rows(first_configurations, targets, row_masks, space.free)
+    is_valid[is_valid] = space.are_valid(first_configurations[is_valid])
+    q, last_samples = _track_poses(solver, space, poses, first_configurations[is_valid], row_masks[is_valid])
+    complete = np.flatnonzero(last_samples == len(poses) - 1)
+    if not complete.size:
+        return None
+    motion_errors = [float(np.linalg.norm(solver.compute_errors(q[:, index], poses), axis=1).max()) for index in complete]
+    sort_keys = [
+        (*rank_relaxed_rows(solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
+        for index, motion_error in zip(complete, motion_errors, strict=True)
+    ]
+    best = complete[min(range(len(sort_keys)), key=sort_keys.__getitem__)]
+    return row_sets[set_indices[is_valid][best]], q[:, best]
+
+
+def add_motion(rest: RestOfPath, solver: RowSolver, path: Path, q: FloatArray, mask: FloatArray | float = 1.0) -> RestOfPath:
+    """Return the result with the motion q (S, n) and its deviation between waypoints, of the rows whose ``mask`` is 1."""
+    middle_poses = path.pose((rest.share[1:] + rest.share[:-1]) / 2)
+    deviation = np.abs(solver.compute_errors((q[1:] + q[:-1]) / 2, middle_poses) * mask).max()
+    return replace(rest, q=q, deviation=float(deviation))
+
+
+def refine_waypoints(
+    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q: FloatArray
+) -> tuple[RestOfPath, FloatArray] | None:
+    """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
+
+    Where joints move fast, as beside a singular configuration, straight lines in joint space are no straight lines of the tool.
+    """
+    tolerances = np.where(
+        np.array(solver.rows.units) == "m", PATH_TOLERANCE[0] * max(solver.arm.length_unit, 1.0), PATH_TOLERANCE[1]
+    )
+    fractions, is_reached = rest.share, rest.found
+    for _ in range(_MAX_WAYPOINT_BISECTIONS):
+        inner_configurations = q[:-1, None] + _INNER_FRACTIONS[:, None] * np.diff(q, axis=0)[:, None]
+        inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
+        path_errors = np.abs(
+            solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
+        ).reshape(*inner_fractions.shape, -1)
+        segments = np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
+        if not segments.size:
+            return replace(add_motion(replace(rest, share=fractions, found=is_reached), solver, path, q), q=q), q
+        middle_fractions, midpoints = (fractions[segments] + fractions[segments + 1]) / 2, (q[segments] + q[segments + 1]) / 2
+        poses, row_masks = path.pose(middle_fractions), np.ones((len(segments), solver.rows.m))
+        new_waypoints = project_onto_constraints(
+            solver, space, solver.solve(midpoints, poses, row_masks, space.free), poses, row_masks
+        )
+        is_valid = solver.meets_rows(new_waypoints, poses, row_masks, space.free)
+        is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(
+            axis=1
+        )  # else on another branch
+        if not (
+            is_valid.all()
+            and space.are_segments_valid(q[segments], new_waypoints).all()
+            and space.are_segments_valid(new_waypoints, q[segments + 1]).all()
+        ):
+            return None
+        q, fractions, is_reached = (
+            np.insert(q, segments + 1, new_waypoints, axis=0),
+            np.insert(fractions, segments + 1, middle_fractions),
+            np.insert(is_reached, segments + 1, True),
+        )
+    return None

@@ -1,0 +1,262 @@
+"""Search for motions along a tool path in a ladder graph: many configurations per pose, each joined to the previous pose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from holdfast.core.progress import track
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.response.recovery.goals import project_onto_constraints, solve_pose
+from holdfast.response.recovery.space import FreeSpace, JointMetric
+from holdfast.response.recovery.task_rows import RowSolver
+
+if TYPE_CHECKING:
+    from holdfast.kinematics.paths.path import Path
+
+
+MAX_JOINT_STEP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
+_MAX_LAYER_CONFIGURATIONS = 150  # configurations of a pose
+_COPIES_PER_CONFIGURATION = 3  # moved along the self-motion, of each of them
+_PERTURBATION_STD = 0.15  # rad or m, standard deviation of that
+_DUPLICATE_TOLERANCE = 1e-3  # rad or m: configurations that are no nearer count as two
+_SHORTENING_SWEEPS = 40
+
+MIN_PATH_STEP = 2.5e-4  # of a path: how closely the end of a motion along it is found
+_SELF_MOTION_PATH_STEP = 1e-7  # of a path: a step along the self-motion, nearly in place, so that places increase
+_MAX_CONTINUED_CONFIGURATIONS = 60  # configurations of a place where a path is followed as far as possible
+_MIDPOINT_TOLERANCE = 0.25  # of a step, by which its middle may be off the straight line
+_MAX_SPREADS = 8  # along the self-motion, before the end counts as reached
+_MAX_LAYERS = 4000
+
+
+@dataclass(frozen=True)
+class LadderGraph:
+    """Result of the search through the layers.
+
+    Attributes:
+        motions: (S, n) each, the shortest first, no two from one configuration of the first pose; rad and m.
+        last_sample: The last sample that any motion gets to.
+        configuration_count: Configurations in all layers.
+    """
+
+    motions: list[FloatArray]
+    last_sample: int
+    configuration_count: int
+
+
+def search_ladder_graph(
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    poses: FloatArray,
+    first_configurations: FloatArray,
+    q_start: FloatArray,
+    start_count: int,
+    rng: np.random.Generator,
+) -> LadderGraph:
+    """Search motions along poses (S, 4, 4) from configurations (R, n) of the first pose and others on its self-motion.
+
+    Each configuration leads to the nearest of the next pose and to others on its self-motion, by steps that are proved clear.
+    Of the many of a pose those are kept that are spread widest: a motion through a passage that is narrower than their
+    distance may be missed.
+    """
+    first_configurations = np.concatenate(
+        [
+            first_configurations,
+            solve_pose(solver, space, poses[0], solver.sample_configurations(start_count, q_start, space.free, rng)),
+        ]
+    )
+    first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
+    selected = _select_widest_spread(first_configurations, metric.measure_length(first_configurations - q_start))
+    layers, sources = [first_configurations[selected]], [np.arange(len(selected))]
+    costs = metric.measure_length(layers[0] - q_start)
+    for pose in track("layers", list(poses[1:])):
+        before = layers[-1]
+        source = np.tile(np.arange(len(before)), 1 + _COPIES_PER_CONFIGURATION)
+        perturbed = before[source]
+        perturbed[len(before) :] += (
+            rng.normal(0.0, _PERTURBATION_STD, (_COPIES_PER_CONFIGURATION * len(before), before.shape[1])) * space.free
+        )
+        after, is_valid = _solve_poses(solver, space, perturbed, np.repeat(pose[None], len(source), axis=0), before[source])
+        source, after = source[is_valid], after[is_valid]
+        total_costs = costs[source] + metric.measure_length(after - before[source])
+        selected = _select_widest_spread(
+            after, total_costs, 2 * _MAX_LAYER_CONFIGURATIONS
+        )  # what is not kept anyway need not be proved clear
+        selected = selected[space.are_segments_valid(before[source[selected]], after[selected])]
+        selected = selected[_select_widest_spread(after[selected], total_costs[selected])]
+        source, after, total_costs = source[selected], after[selected], total_costs[selected]
+        if not len(after) or space.is_time_over:
+            break
+        layers.append(after)
+        sources.append(source)
+        costs = total_costs
+    configuration_count = sum(map(len, layers))
+    if len(layers) < len(poses):
+        return LadderGraph([], len(layers) - 1, configuration_count)
+    motions: dict[int, FloatArray] = {}
+    for last_index in np.argsort(costs, kind="stable"):
+        indices = [int(last_index)]
+        for source in sources[:0:-1]:
+            indices.append(int(source[indices[-1]]))
+        if indices[-1] not in motions:
+            motions[indices[-1]] = np.stack([layer[index] for layer, index in zip(layers, reversed(indices), strict=True)])
+    return LadderGraph(list(motions.values()), len(poses) - 1, configuration_count)
+
+
+@dataclass(frozen=True)
+class PathContinuation:
+    """Furthest motion along a path from configurations of its beginning.
+
+    Attributes:
+        fractions: (S,) places on the path, 0 to 1, increasing; the last one is where every motion found ends.
+        q: (S, n) the shortest motion to there, rad and m.
+        configuration_count: Configurations of all places together, where self-motion was used; else 0.
+    """
+
+    fractions: FloatArray
+    q: FloatArray
+    configuration_count: int
+
+
+def continue_path(
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    path: Path,
+    first_configurations: FloatArray,
+    *,
+    stride: float,
+    rng: np.random.Generator,
+) -> PathContinuation:
+    """Follow a path as far as possible from any of the configurations (R, n) of its beginning.
+
+    Steps become shorter where none leads on, down to ``MIN_PATH_STEP``. If the arm has self-motion, the configurations of the
+    last place are then spread along it, and the path is tried again from there.
+
+    Args:
+        solver: Of the rows that count.
+        space: Where the arm may be.
+        metric: By which motions are short.
+        path: The path.
+        first_configurations: (R, n) configurations of its beginning, at least one, rad and m.
+        stride: Largest step, a share of the path.
+        rng: For the spreading.
+    """
+    copies = _COPIES_PER_CONFIGURATION if space.free.sum() > solver.rows.m else 0
+    selected = _select_widest_spread(first_configurations, np.zeros(len(first_configurations)), _MAX_CONTINUED_CONFIGURATIONS)
+    layers, sources, fractions = [first_configurations[selected]], [selected], [0.0]
+    costs, step, spread_count, last_spread = np.zeros(len(selected)), stride, 0, 0.0
+    while fractions[-1] < 1 and not space.is_time_over and len(layers) < _MAX_LAYERS:
+        fraction = min(fractions[-1] + step, 1.0)
+        after, source, total_costs = _compute_next_layer(
+            solver, space, metric, layers[-1], costs, path.pose(np.array([fraction]))[0], copies, rng
+        )
+        if len(after):
+            layers, sources, fractions, costs = [*layers, after], [*sources, source], [*fractions, fraction], total_costs
+            if step == _SELF_MOTION_PATH_STEP:
+                step = MIN_PATH_STEP
+                continue
+            step = min(2 * step, stride)
+            if fraction - last_spread > 4 * MIN_PATH_STEP:
+                spread_count, last_spread = 0, fraction
+        elif step > MIN_PATH_STEP:
+            step /= 4
+        elif copies and spread_count < _MAX_SPREADS:
+            spread_count, step = spread_count + 1, _SELF_MOTION_PATH_STEP
+        else:
+            break
+    indices = [int(costs.argmin())]
+    for source in sources[:0:-1]:
+        indices.append(int(source[indices[-1]]))
+    motion = np.stack([layer[index] for layer, index in zip(layers, reversed(indices), strict=True)])
+    return PathContinuation(np.array(fractions), motion, sum(map(len, layers)) if copies else 0)
+
+
+def _compute_next_layer(
+    solver: RowSolver,
+    space: FreeSpace,
+    metric: JointMetric,
+    before: FloatArray,
+    costs: FloatArray,
+    pose: FloatArray,
+    copies: int,
+    rng: np.random.Generator,
+) -> tuple[FloatArray, IndexArray, FloatArray]:
+    """Return configurations (K, n) of a pose one step from configurations (N, n), the source of each, and the costs so far."""
+    source = np.tile(np.arange(len(before)), 1 + copies)
+    perturbed = before[source]
+    perturbed[len(before) :] += rng.normal(0.0, _PERTURBATION_STD, (copies * len(before), before.shape[1])) * space.free
+    poses = np.repeat(pose[None], len(source), axis=0)
+    after, is_valid = _solve_poses(solver, space, perturbed, poses, before[source])
+    source, after = source[is_valid], after[is_valid]
+    selected = _select_widest_spread(
+        after, costs[source] + metric.measure_length(after - before[source]), 2 * _MAX_CONTINUED_CONFIGURATIONS
+    )
+    source, after = source[selected], after[selected]
+    # On another branch the middle is not where the straight line has it.
+    middle, is_near = _solve_poses(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
+    midpoint_errors = np.abs(middle - (before[source] + after) / 2).max(axis=1)
+    is_near &= midpoint_errors <= _MIDPOINT_TOLERANCE * np.abs(after - before[source]).max(axis=1) + 10 * _DUPLICATE_TOLERANCE
+    is_near[is_near] = space.are_segments_valid(before[source[is_near]], after[is_near])
+    source, after = source[is_near], after[is_near]
+    total_costs = costs[source] + metric.measure_length(after - before[source])
+    selected = _select_widest_spread(after, total_costs, _MAX_CONTINUED_CONFIGURATIONS)
+    return after[selected], source[selected], total_costs[selected]
+
+
+def _solve_poses(
+    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, before: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """Solve poses (N, 4, 4) from q (N, n); also return which solutions meet their pose and are one step from ``before``."""
+    row_masks = np.ones((len(q), solver.rows.m))
+    after = project_onto_constraints(solver, space, solver.solve(q, poses, row_masks, space.free), poses, row_masks)
+    return after, solver.meets_rows(after, poses, row_masks, space.free) & (
+        np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
+    )
+
+
+def _select_widest_spread(q: FloatArray, costs: FloatArray, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> IndexArray:
+    """Return the indices of the cheapest of configurations (N, n), then repeatedly of the one farthest from all selected."""
+    if not len(q):
+        return np.zeros(0, dtype=np.int64)
+    columns = np.ascontiguousarray(q.T)
+    selected, distances = [int(np.argmin(costs))], np.full(len(q), np.inf)
+    while len(selected) <= max_count:
+        distances = np.minimum(distances, np.abs(columns - columns[:, selected[-1:]]).max(axis=0))
+        if distances.max() <= _DUPLICATE_TOLERANCE:
+            break
+        selected.append(int(np.argmax(distances)))
+    return np.array(selected[:max_count])
+
+
+def shorten_along_poses(
+    solver: RowSolver, space: FreeSpace, metric: JointMetric, poses: FloatArray, q: FloatArray
+) -> FloatArray:
+    """Shorten the motion (S, n) along self-motions: each configuration moves towards the middle of its neighbors."""
+    q = q.copy()
+    for _ in range(_SHORTENING_SWEEPS):
+        old_length = float(metric.cumulative_length(q)[-1])
+        for parity in (1, 2):
+            indices = np.arange(parity, len(q), 2)
+            next_indices = np.minimum(indices + 1, len(q) - 1)
+            targets = np.where((indices < len(q) - 1)[:, None], (q[indices - 1] + q[next_indices]) / 2, q[indices - 1])
+            trial, is_better = _solve_poses(solver, space, targets, poses[indices], q[indices - 1])
+            is_better &= np.abs(trial - q[next_indices]).max(axis=1) <= MAX_JOINT_STEP
+            old_lengths = metric.measure_length(q[indices] - q[indices - 1]) + metric.measure_length(
+                q[next_indices] - q[indices]
+            ) * (next_indices > indices)
+            new_lengths = metric.measure_length(trial - q[indices - 1]) + metric.measure_length(q[next_indices] - trial) * (
+                next_indices > indices
+            )
+            is_better &= new_lengths < old_lengths
+            is_better[is_better] = space.are_segments_valid(q[indices[is_better] - 1], trial[is_better])
+            has_successor = is_better & (next_indices > indices)
+            is_better[has_successor] = space.are_segments_valid(trial[has_successor], q[next_indices[has_successor]])
+            q[indices[is_better]] = trial[is_better]
+        if space.is_time_over or float(metric.cumulative_length(q)[-1]) > old_length * (1 - 1e-4):
+            break
+    return q

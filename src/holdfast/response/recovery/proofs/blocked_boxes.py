@@ -1,0 +1,181 @@
+"""Boxes of joints in which the arm certainly touches something, for a proof that a pose has no collision-free configuration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.capsules import BASE_LINK, Capsules, LinkCapsule
+from holdfast.model.collision.changes import pair_lipschitz_bounds
+from holdfast.model.collision.clearance import Clearance
+
+if TYPE_CHECKING:
+    from holdfast.model.collision.exact.narrow_phase import ArmBody
+
+
+_ROUNDING_SLACK_M = 1e-9  # m: rounding
+_CONTACT_TOLERANCE_M = 2e-6  # m: what the exact sign may not see of two links
+_MAX_HALF_WIDTH = 0.08  # rad and m: where half of the joints move more, hardly a link is deeper in anything than it moves
+
+
+class BlockedBoxes:
+    """Test whether boxes are blocked: at the middle, one body is deeper in another one than the joints can move it.
+
+    Objects: a ball within a link. From the link inwards: a point of it is no farther from axis k than the link's origin is, and
+    the ball about that holds the link, and what joints beyond k move it. Links among themselves: two capsules where these are
+    all that is known of them, else two balls within their bodies; and the most by which any joint changes their distance
+    (:func:`holdfast.model.collision.changes.pair_lipschitz_bounds`).
+
+    Args:
+        clearance: Of an arm, maybe in a cell.
+        margin: m, kept beyond what the cell keeps from its objects.
+        limits: (n,) and (n,), what all boxes lie within, rad and m; the arm's if not given.
+    """
+
+    def __init__(self, clearance: Clearance, margin: float, limits: tuple[FloatArray, FloatArray] | None = None) -> None:
+        obstacles, (self._inner_model, solids) = clearance.obstacles, clearance.exactness.inner_objects
+        self._arm, self._object_names, self._blockers = clearance.arm, [solid.name for solid in solids], set[str]()
+        self._margins = np.array([margin + obstacles.cell.margin_of(solid) for solid in solids]) if obstacles else np.zeros(0)
+        balls = self._inner_model.spheres
+        self._links = np.unique(balls.link[balls.link > BASE_LINK])
+        extents = np.linalg.norm(balls.center, axis=1) + balls.radius
+        self._link_extents = np.array([extents[balls.link == link].max() for link in self._links])
+        self._axes = np.array([joint.axis for joint in self._arm.joints])
+        self._self_clearance, self._margin = clearance.alone, margin
+        self._self_pairs = _find_self_pairs(clearance, limits or finite_limits(self._arm))
+
+    def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        """Return (N,) True where every configuration within ``half`` (N, n) of q (N, n) is blocked."""
+        is_blocked = np.zeros(len(q), dtype=bool)
+        indices = np.flatnonzero(np.sort(half_widths, axis=1)[:, half_widths.shape[1] // 2] < _MAX_HALF_WIDTH)
+        if self._self_pairs:
+            is_blocked[indices] = self.is_self_blocked(q[indices], half_widths[indices])
+        if self._links.size and self._margins.size:
+            indices = indices[~is_blocked[indices]]
+            is_blocked[indices] = self._is_blocked_by_objects(q[indices], half_widths[indices])
+        return is_blocked
+
+    def is_self_blocked(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked by the arm alone."""
+        is_blocked, pair_distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
+        for pair in self._self_pairs:
+            indices = np.flatnonzero(~is_blocked & (pair_distances[:, pair.columns].min(axis=1) < self._margin))
+            upper_bounds = (
+                pair.measure_distances(self._arm, q[indices], pair_distances[indices])
+                + half_widths[indices] @ pair.lipschitz_bounds.T
+            )
+            is_deep = (upper_bounds < self._margin - _CONTACT_TOLERANCE_M).any(axis=1)
+            is_blocked[indices] = is_deep
+            if is_deep.any():
+                self._blockers.add(pair.name)
+        return is_blocked
+
+    def _is_blocked_by_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        is_blocked = np.zeros(len(q), dtype=bool)
+        margins = self._inner_model.link_distances(q) - self._margins
+        indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
+        margins = margins[indices]
+        nearest, least_margins = margins.argmin(axis=2), margins.min(axis=2)
+        half_widths, frames = half_widths[indices], self._arm.frames(q[indices])
+        origins, axes = frames[:, 1:-1, :3, 3], np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], self._axes)
+        link_positions, max_motions = frames[:, self._links + 1][:, :, :3, 3], np.zeros_like(least_margins)
+        for index in range(self._arm.n - 1, -1, -1):
+            radii = np.ones_like(max_motions)
+            if not self._arm.prismatic[index]:
+                radii = (
+                    np.linalg.norm(np.cross(link_positions - origins[:, index, None], axes[:, index, None]), axis=2)
+                    + self._link_extents
+                    + max_motions
+                )
+            max_motions += np.where(self._links >= index, radii * half_widths[:, index, None], 0.0)
+        is_deep = least_margins + max_motions < -_ROUNDING_SLACK_M
+        is_blocked[indices] = is_deep.any(axis=1)
+        self._blockers |= {self._object_names[index] for index in np.unique(nearest[is_deep])}
+        return is_blocked
+
+    @property
+    def blocker_names(self) -> str:
+        """Names of the objects and the pairs of links that blocked a box so far."""
+        return ", ".join(sorted(self._blockers))
+
+
+@dataclass(frozen=True, eq=False)
+class _SelfCollisionPair:
+    """Two links of the arm.
+
+    Attributes:
+        name: Of their first pair.
+        columns: Their pairs of the clearance.
+        lipschitz_bounds: (K, n) most by which each of K distances changes per rad or m of each joint.
+        balls: Links, (K, 3) centres in their frames, and (K,) radii, both together, of balls within them; none if the distances
+            are those of the pairs.
+    """
+
+    name: str
+    columns: list[int]
+    lipschitz_bounds: FloatArray
+    balls: tuple[int, int, FloatArray, FloatArray, FloatArray] | None = None
+
+    def measure_distances(self, arm: Arm, q: FloatArray, pair_distances: FloatArray) -> FloatArray:
+        """Return distances (N, K) at q (N, n), from those of all pairs (N, P)."""
+        if self.balls is None:
+            return pair_distances[:, self.columns]
+        first_link, second_link, first_centers, second_centers, radii = self.balls
+        frames = arm.frames(q)
+        (first_position, first_rotation), (second_position, second_rotation) = (
+            (frames[:, link + 1, :3, 3], frames[:, link + 1, :3, :3]) for link in (first_link, second_link)
+        )
+        offsets = (
+            (first_position - second_position)[:, None]
+            + first_centers @ first_rotation.transpose(0, 2, 1)
+            - second_centers @ second_rotation.transpose(0, 2, 1)
+        )
+        return np.asarray(np.linalg.norm(offsets, axis=2) - radii)
+
+
+def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]) -> list[_SelfCollisionPair]:
+    """Return the links that may touch each other, with balls that are certainly inside them."""
+    self_pairs, arm, capsules = [], clearance.arm, clearance.capsules
+    if capsules.shape is None:
+        lipschitz_bounds, arm_capsule_count = clearance.alone.lipschitz_bounds(*limits), len(capsules) - capsules.held
+        parts_known = clearance.exactness.are_parts_known
+        indices = [index for index, pair in enumerate(clearance.pairs) if parts_known and max(pair) < arm_capsule_count]
+        return [_SelfCollisionPair(clearance.pair_names[index], [index], lipschitz_bounds[[index]]) for index in indices]
+    parts = clearance.exactness.parts
+    for columns, bodies in clearance.exactness.own_bodies:
+        ball_pairs = [
+            (LinkCapsule(parts[a].link, tuple(x), tuple(x), radius=r), LinkCapsule(parts[b].link, tuple(y), tuple(y), radius=s))
+            for a, b in bodies
+            if columns and parts[a].known and parts[b].known and not (parts[a].held or parts[b].held)
+            for x, r in _list_inner_balls(parts[a])
+            for y, s in _list_inner_balls(parts[b])
+        ]
+        if ball_pairs:
+            ball_capsules = Capsules(tuple(ball for pair in ball_pairs for ball in pair))
+            lipschitz_bounds = pair_lipschitz_bounds(
+                arm, ball_capsules, [(2 * index, 2 * index + 1) for index in range(len(ball_pairs))], *limits
+            )
+            first_centers, second_centers = (np.array([pair[index].start for pair in ball_pairs]) for index in (0, 1))
+            radii = np.array([x.radius + y.radius for x, y in ball_pairs])
+            link_pair = ball_pairs[0][0].link, ball_pairs[0][1].link
+            self_pairs.append(
+                _SelfCollisionPair(
+                    clearance.pair_names[columns[0]],
+                    columns,
+                    lipschitz_bounds,
+                    (*link_pair, first_centers, second_centers, radii),
+                )
+            )
+    return self_pairs
+
+
+def _list_inner_balls(part: ArmBody) -> list[tuple[FloatArray, float]]:
+    """Return the centers (3,) in the frame of the link and the radii, m, of balls inside a body."""
+    centers, radii = part.body.inner_spheres
+    centers = centers @ part.body.pose[:3, :3].T + part.body.pose[:3, 3]
+    return list(zip(centers, radii.tolist(), strict=True))

@@ -1,0 +1,408 @@
+"""Proofs that no motion leads to the goal, by a flood over cells of all or some of the moving joints.
+
+A cell is a box of joints. It is certainly blocked if a ball within a link, at its middle, is deeper in an object than it can
+move within the box, if the same is true of two links, or if a row kept is broken by more than it can change. What is left may
+be free. If those of it that are joined to the start, by a corner at least, hold no configuration of the goal, no motion leads
+to it; else they are halved.
+
+Of many joints a few are enough where these alone decide what is blocked: an elbow that is caught between two objects, whatever
+the wrist does, or a gripper beside a forearm. The other joints are then anywhere within their limits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from copy import copy
+from dataclasses import dataclass
+from itertools import islice, product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.interval_search.boxes import Blocked
+from holdfast.kinematics.solvers import joint_space
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_vectors
+from holdfast.model.cell.solids import PrimitiveSolid
+from holdfast.model.collision.capsules import BASE_LINK
+from holdfast.model.collision.clearance import Clearance
+from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
+from holdfast.response.recovery.space import FreeSpace
+from holdfast.response.recovery.task_rows import TaskRows
+
+if TYPE_CHECKING:
+    from holdfast.model.collision.exact.narrow_phase import ArmBody
+
+Cells = NDArray[np.int64]
+Indices = NDArray[np.intp]
+Holds = Callable[[FloatArray, FloatArray], BoolArray]
+"""Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
+
+_MAX_JOINTS = 3  # that move, at most
+_INITIAL_CELLS_PER_JOINT = 8  # cells of each joint, at first
+_MAX_CELLS = {1: 20_000, 2: 80_000, 3: 120_000}  # cells looked at, by the number of joints
+_ROUNDING_SLACK = 1e-9  # m and rad: rounding
+_SQUARE_ROOT_SLACK_M = 1e-7  # m: rounding of a square root where two squares cancel
+_BALLS_PER_BODY = 24  # along a body
+_CHUNK_ROWS = 4096
+_SAMPLED_CONFIGURATIONS = 64  # configurations
+_MAX_CONFINED_CELLS = 25_000  # the same of some of more joints
+_MAX_PENETRATION_M = 0.15  # m: deeper in an object hardly a ball is
+# _MAX_CONFINED_JOINTS and _MAX_CONFINED_FLOODS: of more joints: over how many of them a flood goes, and how often it is tried
+_MAX_CONFINED_JOINTS = 2
+_MAX_CONFINED_FLOODS = 2
+
+
+def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: Holds) -> str | None:
+    """Prove that no motion leads from a start (n,) to the goal, and return the proof as a sentence; None if that fails.
+
+    Of at most three joints that move; of more see :func:`find_confined_floods`.
+    """
+    joints = np.flatnonzero(space.free)
+    if len(joints) > _MAX_JOINTS or (space.manifold is None and space.clearance is None):
+        return None
+    for flood in _generate_floods(space, start, joints, _BlockedCells(space)):
+        if not may_hold_goal(flood.middle, flood.half_widths).any():
+            return flood.proof_sentence
+    return None
+
+
+def find_confined_floods(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[Flood]:
+    """Yield floods over one or two of more than three moving joints that are confined, wherever the other joints are.
+
+    Those between two links that touch each other, and the first two, whose links touch objects. Only floods that hold none of
+    the configurations (K, n) that are known of the goal, at most two over the same joints.
+    """
+    if space.clearance is None or space.free.sum() <= _MAX_JOINTS:
+        return
+    blocked, joints = _BlockedCells(space), np.flatnonzero(space.free)
+    self_blocked, first_joints = blocked.self_blocked, joints[:_MAX_CONFINED_JOINTS]
+    attempts: list[tuple[Indices, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
+    if self_blocked is not None:
+        attempts = [
+            (flood_joints, self_blocked.is_self_blocked) for flood_joints in _list_joints_between_links(space.clearance, joints)
+        ] + attempts
+    for flood_joints, is_blocked in attempts:
+        floods = _generate_floods(space, start, flood_joints, is_blocked, _MAX_CONFINED_CELLS)
+        yield from islice(
+            (flood for flood in floods if flood.excludes(known_goals, np.zeros_like(known_goals)).all()), _MAX_CONFINED_FLOODS
+        )
+
+
+def _list_joints_between_links(clearance: Clearance, joints: Indices) -> list[Indices]:
+    """Return the sets of one or two joints between two links that may touch each other, the smallest first."""
+    link_pairs = {tuple(sorted(clearance.capsules.parts[part].link for part in pair)) for pair in clearance.pairs}
+    joint_sets = {
+        tuple(joints[(joints > first_link) & (joints <= second_link)].tolist()) for first_link, second_link in link_pairs
+    }
+    return [
+        np.array(joint_set)
+        for joint_set in sorted(joint_sets, key=lambda joint_set: (len(joint_set), joint_set))
+        if 0 < len(joint_set) <= _MAX_CONFINED_JOINTS
+    ]
+
+
+@dataclass(frozen=True, eq=False)
+class Flood:
+    """Cells that may be connected to the start.
+
+    Attributes:
+        names: Of the joints of which they are cells.
+        joints, lower, cell_widths: (f,) which these are, where the first cell begins, and its width, rad and m.
+        is_unlimited: (f,) which of them turn round and round.
+        cells_per_joint: Of cells, each way.
+        cells: (N, f) numbers of those that are joined.
+        middle, half_widths: (N, n) and (n,), where they are, all joints.
+        checked_cells: How many cells were looked at so far.
+    """
+
+    names: list[str]
+    joints: Indices
+    lower: FloatArray
+    cell_widths: FloatArray
+    is_unlimited: BoolArray
+    cells_per_joint: int
+    cells: Cells
+    middle: FloatArray
+    half_widths: FloatArray
+    checked_cells: int
+
+    @property
+    def proof_sentence(self) -> str:
+        """Sentence that these cells hold no configuration of the goal."""
+        return (
+            f"what {' and '.join(self.names)} can get to from the start holds no configuration of the goal, by a flood over "
+            f"{self.checked_cells:,} cells of joints, up to {self.cells_per_joint} of each, up to floating point"
+        )
+
+    @cached_property
+    def _cumulative_counts(self) -> NDArray[np.int64]:
+        """Number of connected cells whose indices are below each corner of the grid."""
+        counts = np.zeros((self.cells_per_joint + 1,) * self.cells.shape[1], dtype=np.int64)
+        counts[tuple(self.cells.T + 1)] = 1
+        for axis in range(counts.ndim):
+            counts = counts.cumsum(axis=axis)
+        return counts
+
+    def excludes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        """Return (N,) True where no configuration within ``half_widths`` (N, n) of q (N, n) is in a connected cell."""
+        positions, widths = q[:, self.joints], half_widths[:, self.joints]
+        positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
+        first_cells = np.floor((positions - widths - self.lower - _ROUNDING_SLACK) / self.cell_widths).astype(np.int64)
+        last_cells = np.floor((positions + widths - self.lower + _ROUNDING_SLACK) / self.cell_widths).astype(np.int64) + 1
+        wraps_around = self.is_unlimited & (
+            (first_cells < 0) | (last_cells > self.cells_per_joint)
+        )  # past where a turn ends: anywhere
+        first_cells = np.clip(np.where(wraps_around, 0, first_cells), 0, self.cells_per_joint)
+        last_cells = np.clip(np.where(wraps_around, self.cells_per_joint, last_cells), 0, self.cells_per_joint)
+        cell_counts = np.zeros(len(q), dtype=np.int64)
+        for corner in product((0, 1), repeat=len(self.joints)):
+            sign = (-1) ** (len(corner) - sum(corner))
+            cell_counts += sign * self._cumulative_counts[tuple(np.where(corner, last_cells, first_cells).T)]
+        return np.asarray(cell_counts == 0)
+
+
+def _generate_floods(
+    space: FreeSpace, start: FloatArray, joints: Indices, blocked: Blocked, max_cells: int | None = None
+) -> Iterator[Flood]:
+    """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere within their
+    limits.
+    """
+    box = _bound_joints(space, joints)
+    if box is None:
+        return
+    lower, upper, is_unlimited = box
+    start_position = np.where(is_unlimited, np.arctan2(np.sin(start[joints]), np.cos(start[joints])), start[joints])
+    cells_per_joint, checked_cells = _INITIAL_CELLS_PER_JOINT, 0
+    cells = np.array(list(product(range(cells_per_joint), repeat=len(joints))), dtype=np.int64)
+    center, half_widths = (space.low + space.high) / 2, (space.high - space.low) / 2
+    while checked_cells + len(cells) <= (max_cells or _MAX_CELLS[len(joints)]) and not space.is_time_over:
+        half_widths = half_widths.copy()
+        half_widths[joints] = (upper - lower) / (2 * cells_per_joint)
+        middle = np.tile(center, (len(cells), 1))
+        middle[:, joints] = lower + (2 * cells + 1) * half_widths[joints]
+        checked_cells += len(cells)
+        is_open = ~np.concatenate(
+            [
+                blocked(chunk, np.broadcast_to(half_widths, chunk.shape))
+                for chunk in np.split(middle, range(_CHUNK_ROWS, len(cells), _CHUNK_ROWS))
+            ]
+        )
+        cells, middle = cells[is_open], middle[is_open]
+        distances = np.abs(middle[:, joints] - start_position)
+        distances = np.where(is_unlimited, np.minimum(distances, 2 * np.pi - distances), distances)
+        holds_start = (distances <= half_widths[joints] + _ROUNDING_SLACK).all(axis=1)
+        if not holds_start.any():
+            return  # the start is clear, so this cannot be
+        is_connected = _connect_cells(cells, holds_start, cells_per_joint, is_unlimited)
+        cells, middle = cells[is_connected], middle[is_connected]
+        yield Flood(
+            [space.arm.joint_names[index] for index in joints],
+            joints,
+            lower,
+            (upper - lower) / cells_per_joint,
+            is_unlimited,
+            cells_per_joint,
+            cells,
+            middle,
+            half_widths,
+            checked_cells,
+        )
+        cells = (2 * cells[:, None] + np.array(list(product((0, 1), repeat=len(joints))))).reshape(-1, len(joints))
+        cells_per_joint *= 2
+
+
+def make_configuration_test(space: FreeSpace, q: FloatArray) -> Holds:
+    """Return the test of cells for a goal that is a configuration (n,)."""
+    return lambda middle, half: np.asarray(
+        (np.abs(joint_space.joint_difference(space.arm, middle, q)) <= half + _ROUNDING_SLACK).all(axis=1, where=space.free)
+    )
+
+
+def make_pose_test(space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)) -> Holds:
+    """Return the test of cells for a goal that is any of poses (G, 4, 4); rows that mix translation and rotation
+    are ignored.
+    """
+    arm = space.arm
+    is_rotation = np.abs(rows.matrix[:, :3]).max(axis=1) == 0
+    is_translation = np.abs(rows.matrix[:, 3:]).max(axis=1) == 0
+    linear_rows = rows.matrix[is_translation, :3]
+    full_orientation = int(np.linalg.matrix_rank(rows.matrix[is_rotation, 3:])) == 3 if is_rotation.any() else False
+    tool_point = _LinkPoints(np.array([arm.n - 1]), arm.tool[None, :3, 3])
+
+    def may_hold_pose(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
+        frames = arm.frames(middle)
+        max_translations = tool_point.bound_motion(arm, frames, half_widths)[:, 0] + np.sqrt(3) * tolerance[0] + _ROUNDING_SLACK
+        max_rotation = float(half_widths[~arm.prismatic].sum()) + np.sqrt(3) * tolerance[1] + _ROUNDING_SLACK
+        may_hold = np.zeros(len(middle), dtype=bool)
+        for pose in poses:
+            position_errors, is_possible = pose[:3, 3] - frames[:, -1, :3, 3], np.ones(len(middle), dtype=bool)
+            max_errors = max_translations
+            if rows.linear == "tool":
+                position_errors = np.einsum("nji,nj->ni", frames[:, -1, :3, :3], position_errors)
+                max_errors = max_translations + np.linalg.norm(position_errors, axis=1) * max_rotation
+            is_possible &= (
+                np.abs(position_errors @ linear_rows.T) <= np.linalg.norm(linear_rows, axis=1) * max_errors[:, None]
+            ).all(axis=1)
+            if full_orientation:
+                orientation_errors = rotation_vectors(pose[:3, :3] @ frames[:, -1, :3, :3].transpose(0, 2, 1))
+                is_possible &= np.linalg.norm(orientation_errors, axis=1) <= max_rotation
+            may_hold |= is_possible
+        return may_hold
+
+    return may_hold_pose
+
+
+def _bound_joints(space: FreeSpace, free: Indices) -> tuple[FloatArray, FloatArray, BoolArray] | None:
+    """Return the bounds of the free joints and which of them are unlimited; None if the bounds are not known."""
+    lower, upper = space.arm.lower[free], space.arm.upper[free]
+    is_unlimited = joint_space.is_unlimited(space.arm)[free]
+    lower, upper = np.where(is_unlimited, -np.pi, lower), np.where(is_unlimited, np.pi, upper)
+    return (lower, upper, is_unlimited) if np.isfinite([lower, upper]).all() and (upper > lower).all() else None
+
+
+def _connect_cells(cells: Cells, holds_start: BoolArray, cells_per_joint: int, is_unlimited: BoolArray) -> BoolArray:
+    """Return (N,) True for cells (N, f) connected to a start cell, also through corners and around unlimited joints."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    dimensions = (cells_per_joint,) * cells.shape[1]
+    codes = np.ravel_multi_index(tuple(cells.T), dimensions)
+    order = np.argsort(codes)
+    sorted_codes = codes[order]
+    first_cells, second_cells = [], []
+    for step in product((-1, 0, 1), repeat=cells.shape[1]):
+        neighbors = cells + np.array(step)
+        neighbors = np.where(is_unlimited, neighbors % cells_per_joint, neighbors)
+        inside = np.flatnonzero(((neighbors >= 0) & (neighbors < cells_per_joint)).all(axis=1))
+        neighbor_codes = np.ravel_multi_index(tuple(neighbors[inside].T), dimensions)
+        positions = np.minimum(np.searchsorted(sorted_codes, neighbor_codes), len(sorted_codes) - 1)
+        is_found = sorted_codes[positions] == neighbor_codes
+        first_cells.append(inside[is_found])
+        second_cells.append(order[positions[is_found]])
+    row_indices, column_indices = np.concatenate(first_cells), np.concatenate(second_cells)
+    _, labels = connected_components(
+        coo_array((np.ones(len(row_indices)), (row_indices, column_indices)), shape=(len(cells),) * 2), directed=False
+    )
+    return np.isin(labels, labels[holds_start])
+
+
+@dataclass(frozen=True)
+class _LinkPoints:
+    """Points that move with the links of an arm.
+
+    Attributes:
+        link: (P,) the joint that moves each, from 0.
+        local_positions: (P, 3) in its frame, m.
+    """
+
+    link: NDArray[np.int64]
+    local_positions: FloatArray
+
+    def world_positions(self, frames: FloatArray) -> FloatArray:
+        """Return the positions (N, P, 3) in the world, m."""
+        positions = np.empty((len(frames), len(self.link), 3))
+        for link in np.unique(self.link):
+            on_link, pose = self.link == link, frames[:, link + 1]
+            positions[:, on_link] = self.local_positions[on_link] @ pose[:, :3, :3].transpose(0, 2, 1) + pose[:, None, :3, 3]
+        return positions
+
+    def bound_motion(
+        self, arm: Arm, frames: FloatArray, half_widths: FloatArray, positions: FloatArray | None = None
+    ) -> FloatArray:
+        """Return (N, P) upper bounds of the motion of each point where joints move by up to ``half_widths`` (n,), m.
+
+        From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
+        """
+        positions, motion_bounds = (
+            self.world_positions(frames) if positions is None else positions,
+            np.zeros((len(frames), len(self.link))),
+        )
+        for joint_index in range(arm.n - 1, -1, -1):
+            moved_points = np.flatnonzero(self.link >= joint_index)
+            if half_widths[joint_index] == 0 or not moved_points.size:
+                continue
+            if arm.prismatic[joint_index]:
+                motion_bounds[:, moved_points] += half_widths[joint_index]
+                continue
+            offsets = positions[:, moved_points] - frames[:, joint_index + 1, None, :3, 3]
+            axial_components = offsets @ (frames[:, joint_index + 1, :3, :3] @ arm.joints[joint_index].axis)[..., None]
+            axis_distances = (
+                np.sqrt(np.maximum(np.square(offsets).sum(axis=2) - axial_components[..., 0] ** 2, 0.0)) + _SQUARE_ROOT_SLACK_M
+            )
+            motion_bounds[:, moved_points] += (axis_distances + motion_bounds[:, moved_points]) * half_widths[joint_index]
+        return motion_bounds
+
+
+class _BlockedCells:
+    """Test whether cells are certainly blocked."""
+
+    def __init__(self, space: FreeSpace) -> None:
+        from holdfast.model.collision.exact.bodies import inner_primitives  # imports scipy
+
+        self._space = space
+        obstacles = None if space.clearance is None else space.clearance.obstacles
+        parts: Sequence[ArmBody] = [] if obstacles is None or space.clearance is None else space.clearance.exactness.parts
+        ball_rows = [
+            (part.link, *ball) for part in parts if part.link > BASE_LINK and part.known for ball in _list_body_balls(part)
+        ]
+        self._radii = np.array([radius for _, _, radius in ball_rows])
+        self._points = _LinkPoints(
+            np.array([link for link, _, _ in ball_rows]), np.array([centre for _, centre, _ in ball_rows]).reshape(-1, 3)
+        )
+        self._objects: list[tuple[PrimitiveSolid, float, BoolArray]] = []
+        for index, solid in enumerate(() if obstacles is None else obstacles.cell):
+            assert obstacles is not None
+            is_ignored = obstacles.may_touch[self._points.link + 1, index] if len(ball_rows) else np.zeros(0, dtype=bool)
+            self._objects += [(inner, obstacles.cell.margin_of(solid), is_ignored) for inner in inner_primitives(solid)]
+        clearance = space.clearance
+        self.self_blocked = None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
+
+    def restrict_to_joints(self, joints: Indices) -> _BlockedCells:
+        """Return the same test without the balls that the other joints always move too far for a proof."""
+        space, half_widths = self._space, (self._space.high - self._space.low) / 2
+        half_widths[joints] = 0.0
+        frames = space.arm.frames(space.sample(_SAMPLED_CONFIGURATIONS, np.random.default_rng(0)))
+        is_useful = self._points.bound_motion(space.arm, frames, half_widths).min(axis=0) < self._radii + _MAX_PENETRATION_M
+        restricted = copy(self)
+        restricted._points, restricted._radii = (
+            _LinkPoints(self._points.link[is_useful], self._points.local_positions[is_useful]),
+            self._radii[is_useful],
+        )
+        restricted._objects = [(solid, margin, is_ignored[is_useful]) for solid, margin, is_ignored in self._objects]
+        return restricted
+
+    def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        """Return (N,) True where every configuration within ``half_widths`` (N, n), all rows equal, of q (N, n) is blocked."""
+        joint_half_widths = half_widths[0]
+        space, is_blocked = self._space, np.zeros(len(q), dtype=bool)
+        if space.manifold is not None:
+            is_blocked |= (
+                space.manifold.constraint_margins(q) + space.manifold.bound_changes(joint_half_widths[None]) < -_ROUNDING_SLACK
+            ).any(axis=1)
+        if self.self_blocked is not None:
+            is_blocked |= self.self_blocked.is_self_blocked(q, half_widths)
+        if not self._objects or not len(self._radii):
+            return is_blocked
+        frames = space.arm.frames(q)
+        positions = self._points.world_positions(frames)
+        reach_bounds = self._points.bound_motion(space.arm, frames, joint_half_widths, positions) - self._radii
+        for solid, margin, is_ignored in self._objects:
+            distances = np.where(is_ignored, np.inf, solid.signed_distance(positions) + reach_bounds)
+            is_blocked |= distances.min(axis=1) < margin + space.margin - _ROUNDING_SLACK
+        return is_blocked
+
+
+def _list_body_balls(part: ArmBody) -> list[tuple[FloatArray, float]]:
+    """Return centers (3,) in the frame of the link and radii, m, of balls inside a body, closer together in round bodies."""
+    body = part.body
+    centers, radii = body.inner_spheres
+    if body.kind in ("capsule", "cylinder") and len(radii) > 1:
+        centers = np.linspace(centers[0], centers[-1], _BALLS_PER_BODY)
+        radii = np.full(_BALLS_PER_BODY, radii[0])
+    return [
+        (body.pose[:3, :3] @ center + body.pose[:3, 3], float(radius)) for center, radius in zip(centers, radii, strict=True)
+    ]

@@ -1,0 +1,129 @@
+"""Proofs that a tool path cannot be followed, from one of its poses or from a straight leg."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from holdfast.core.errors import TaskError
+from holdfast.kinematics.interval_search import prove_leg_impossible
+from holdfast.model.arm.task import Task
+from holdfast.model.failure_modes import Degraded
+from holdfast.response.recovery.continuation import RestOfPath
+from holdfast.response.recovery.problem import describe_goal_violation
+from holdfast.response.recovery.proofs.reach import (
+    EXACT_TOLERANCE,
+    MAX_BOXES,
+    Tolerance,
+    enumerate_collision_free,
+    make_blocked_boxes,
+    prove_unreachable,
+    proves_no_solution,
+)
+from holdfast.response.recovery.recovery import Recovery
+from holdfast.response.recovery.space import FreeSpace
+from holdfast.response.recovery.task_rows import RowSolver
+
+if TYPE_CHECKING:
+    from holdfast.kinematics.paths.path import Path
+
+_MAX_PROVED_POSES = 3  # poses of a path, of which no configuration was found, that are tried to be proved to have none
+
+
+def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, solver: RowSolver, space: FreeSpace) -> Recovery:
+    """Return the recovery with a proof that the path cannot be followed, if there is one, and its validity within the
+    tolerance.
+
+    Args:
+        recovery: The recovery, as far as it is known.
+        rest: What became of the path.
+        path: To be followed.
+        solver: Of the rows that count.
+        space: Where the arm may be.
+    """
+    fractions, is_reached, poses = rest.share, rest.found, path.pose(rest.share)
+    order = list(order_by_relevance(len(poses)))
+    hardest_samples = [sample for sample in order if not is_reached[sample]][:_MAX_PROVED_POSES]
+    request, q_locked = (recovery.degraded, recovery.task), np.where(space.free, recovery.at, recovery.degraded.lo)
+    constraint_proofs = (
+        (sample, describe_goal_violation(recovery.keep, solver.rows, poses[sample]) or None) for sample in order
+    )
+    reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
+    box_proofs = (
+        (sample, enumerate_collision_free(recovery, solver, space, poses[sample : sample + 1])[2][0])
+        for sample in hardest_samples
+    )
+    sample_proof = next(
+        ((sample, proof) for sample, proof in chain(constraint_proofs, reach_proofs, box_proofs) if proof is not None), None
+    )
+    if sample_proof is not None:
+        hardest_samples = list(dict.fromkeys([sample_proof[0], *hardest_samples]))
+        position = f"at {100 * fractions[sample_proof[0]]:.1f} % of the tool path"
+        constraint_proof = describe_goal_violation(recovery.keep, solver.rows, poses[sample_proof[0]])
+        pose = None if constraint_proof else poses[sample_proof[0]]
+        recovery = replace(recovery, proof=f"{position} {sample_proof[1]}", proof_kind="a pose of the path", proved_pose=pose)
+    else:
+        leg_proof = _prove_leg_impossible(*request, path, space)
+        if leg_proof is None:
+            return recovery
+        recovery = replace(recovery, proof=leg_proof, proof_kind="disconnected")
+    tolerance = recovery.tolerance
+    if tolerance is None:
+        return recovery
+    is_proved = any(
+        proves_no_solution(*request, poses[sample], space, tolerance) for sample in hardest_samples
+    ) or _prove_leg_impossible(*request, path, space, tolerance)
+    return replace(recovery, proved_within=bool(is_proved))
+
+
+def order_by_relevance(count: int) -> Iterator[int]:
+    """Yield 0 to count - 1, the most informative samples first: the last, the first, the middle, quarters, eighths, ..."""
+    yielded, parts = set[int](), 1
+    while len(yielded) < count:
+        for sample in (
+            [count - 1, 0] if parts == 1 else [round(numerator * (count - 1) / parts) for numerator in range(1, parts, 2)]
+        ):
+            if sample not in yielded:
+                yielded.add(sample)
+                yield sample
+        parts *= 2
+
+
+def _prove_leg_impossible(
+    degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance = EXACT_TOLERANCE
+) -> str | None:
+    """Prove that no continuous motion follows a straight leg of a tool path, and return the sentence; None if that fails.
+
+    Each leg gets half of the time that is left.
+    """
+    limits = degraded.lo, degraded.hi
+    if not np.isfinite(limits).all():  # joints that turn round and round join what boxes do not
+        return None
+    is_straight = path.shift.any(axis=1) & ~path.sweep.any(axis=1) & ~path.turn.any(axis=1)
+    for leg in np.flatnonzero(is_straight).tolist():
+        try:
+            box_count = prove_leg_impossible(
+                degraded.arm,
+                task,
+                path.starts[leg],
+                way=path.shift[leg],
+                limits=limits,
+                tolerance=tolerance,
+                time_limit=space.seconds_left / 2,
+                most_boxes=MAX_BOXES,
+                blocked=make_blocked_boxes(space),
+            )
+        except TaskError:
+            return None
+        if box_count is not None:
+            start_percent, end_percent = 100 * path.bounds[leg : leg + 2]
+            return (
+                f"from {start_percent:.4g} to {end_percent:.4g} % of the tool path no continuous motion leads through its "
+                f"poses: {box_count:,} "
+                "boxes of joints that may hold a configuration do not join its ends, up to floating point"
+            )
+    return None

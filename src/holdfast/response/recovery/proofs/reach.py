@@ -1,0 +1,242 @@
+"""Proofs that the goal or a pose of the tool path is unreachable."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.errors import TaskError
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.interval_search import Configurations, SearchOutcome, all_configurations
+from holdfast.kinematics.interval_search.box_bounds import BoundedTask, is_last_joint_idle
+from holdfast.kinematics.interval_search.boxes import Blocked
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, plane_normal
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.exact.certainty import find_certain_contacts
+from holdfast.model.failure_modes import Degraded
+from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
+from holdfast.response.recovery.recovery import Recovery
+from holdfast.response.recovery.space import FreeSpace
+from holdfast.response.recovery.task_rows import RowSolver
+
+MAX_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
+_RELATIVE_SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
+Tolerance = tuple[float, float]
+ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
+EXACT_TOLERANCE: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
+
+
+def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, pose: FloatArray) -> str | None:
+    """Prove that a pose (4, 4) is out of reach, if its position counts, and return the sentence; None if that fails.
+
+    Args:
+        solver: Of the rows that count, with the arm and the limits in force.
+        free: (n,) joints that move.
+        q_locked: (n,) where the others are.
+        pose: (4, 4) of the end effector, m.
+    """
+    rows, arm = solver.rows, solver.arm
+    linear_rows = rows.matrix[np.abs(rows.matrix[:, 3:]).max(axis=1) == 0, :3]
+    rank = int(np.linalg.matrix_rank(linear_rows)) if len(linear_rows) else 0
+    normal = plane_normal(arm)
+    if rank == 3:
+        normal = None
+    elif rank != 2 or normal is None or rows.linear != "base" or np.abs(linear_rows @ normal).max() > 1e-9:
+        return None
+    return prove_out_of_reach(arm, free, q_locked, pose, rows.m == 6, normal)
+
+
+def enumerate_collision_free(
+    recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: FloatArray
+) -> tuple[FloatArray, NDArray[np.int64], list[str | None]]:
+    """Enumerate the collision-free configurations of poses (G, 4, 4), each pose in half of the remaining time.
+
+    Returns:
+        Configurations (K, n), the pose (K,) of each, and for each pose the proof that it has none, if there is one. A proof
+        is about the rows of the task alone, so it holds for every tilt of the tool.
+    """
+    goals, pose_indices, proofs = np.zeros((0, recovery.arm.n)), np.zeros(0, dtype=np.int64), list[str | None]()
+    for pose_index, pose in enumerate(poses):
+        blocked = make_blocked_boxes(space)
+        solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked)
+        proofs.append(prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names))
+        configurations = goals[:0] if solutions is None else solutions.q
+        configurations = (
+            configurations[space.are_valid(configurations) & solver.is_inside_cone(configurations, pose)]
+            if len(configurations)
+            else configurations
+        )
+        goals, pose_indices = (
+            np.concatenate([goals, configurations]),
+            np.append(pose_indices, np.full(len(configurations), pose_index)),
+        )
+    return goals, pose_indices, proofs
+
+
+def proves_no_solution(degraded: Degraded, task: Task, pose: FloatArray, space: FreeSpace, tolerance: Tolerance) -> bool:
+    """Return True if it is proved that no collision-free configuration meets a pose (4, 4) within a tolerance, m and rad.
+
+    In half of the time that is left.
+    """
+    solutions = enumerate_configurations(degraded, task, pose, space.seconds_left / 2, make_blocked_boxes(space), tolerance)
+    return solutions is not None and solutions.proved_empty
+
+
+def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:
+    """Return the test for blocked boxes; None without a clearance."""
+    clearance = space.clearance
+    return None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
+
+
+def enumerate_configurations(
+    degraded: Degraded,
+    task: Task,
+    pose: FloatArray,
+    time_limit: float,
+    is_blocked: Blocked | None = None,
+    tolerance: Tolerance = EXACT_TOLERANCE,
+) -> Configurations | None:
+    """Enumerate the configurations of a pose (4, 4) within the limits in force; None if the list cannot be proved complete.
+
+    Those in which the arm certainly touches something are left out.
+
+    Args:
+        degraded: What is in force, every lock with its value.
+        task: Whose rows count.
+        pose: (4, 4) of the end effector, m.
+        time_limit: At most.
+        is_blocked: Which boxes are; None without a cell.
+        tolerance: m and rad by which the pose may be missed.
+    """
+    limits = degraded.lo, degraded.hi
+    is_enumerable = np.isfinite(limits).all(axis=0) | (
+        np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic
+    )  # or it turns once
+    if not is_enumerable.all() or not time_limit > 0:
+        return None
+    time_options = {} if np.isinf(time_limit) else {"time_limit": time_limit}
+    try:
+        return all_configurations(
+            degraded.arm,
+            pose,
+            task,
+            limits=limits,
+            tolerance=tolerance,
+            most_boxes=MAX_BOXES,
+            first=False,
+            blocked=is_blocked,
+            **time_options,
+        )
+    except TaskError:
+        return None
+
+
+def prove_no_configuration(
+    solutions: Configurations | None, clearance: Clearance | None, blocker_names: str = ""
+) -> str | None:
+    """Prove that no collision-free configuration exists, and return the sentence: there is none, or each touches something.
+
+    Args:
+        solutions: All there are.
+        clearance: By which they are judged.
+        blocker_names: Names of what blocked the boxes that were left out.
+    """
+    if solutions is None or solutions.finding not in (SearchOutcome.NONE, SearchOutcome.ALL):
+        return None
+    if not len(solutions.q) and solutions.blocked:
+        return (
+            f"every configuration within the limits that meets it touches something ({blocker_names}), by "
+            f"{solutions.boxes:,} boxes of "
+            "joints, up to floating point"
+        )
+    if not len(solutions.q):
+        return f"no configuration within the limits meets it, by {solutions.boxes:,} boxes of joints, up to floating point"
+    if solutions.lower[-1] < solutions.upper[-1] and is_last_joint_idle(
+        solutions.arm, BoundedTask.from_task(solutions.arm, solutions.task)
+    ):
+        return None  # the last joint was looked at in one place, and its turn may clear what touches
+    if clearance is None or not all(find_certain_contacts(clearance, solutions.q)):
+        return None
+    return (
+        f"each of its {len(solutions.q)} configurations touches something, by {solutions.boxes:,} boxes of joints and "
+        f"exact geometry"
+    )
+
+
+# ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------
+
+
+def prove_out_of_reach(
+    arm: Arm, free: BoolArray, q_locked: FloatArray, pose: FloatArray, whole_pose: bool, planar: FloatArray | None
+) -> str | None:
+    """Prove that a pose is out of reach with joints locked, and return the sentence; None if this bound cannot prove it.
+
+    The failed arm is a chain of rigid parts between the axes that still move. The end effector is no farther from the first of
+    them than the sum of the parts' lengths, and no nearer than the longest less the others. Of a full pose also the origin of
+    the last axis is known, which leaves one part less and a sharper bound.
+
+    Args:
+        arm: The arm.
+        free: (n,) joints that move.
+        q_locked: (n,) where the others are.
+        pose: (4, 4) of the end effector, m.
+        whole_pose: The orientation counts too.
+        planar: Normal (3,) of the plane in which the arm moves and the position counts, or None for the whole position.
+    """
+    moving = np.flatnonzero(free)
+    if not moving.size:
+        return None
+    is_planar = planar is not None and not arm.prismatic[moving].any()
+    frame, offsets = arm.base, []
+    for index, joint in enumerate(arm.joints):
+        frame = frame @ joint.origin
+        if free[index]:
+            offsets.append(frame[:3, 3])
+            frame = np.eye(4)
+        else:
+            frame = frame @ joint.motion(float(q_locked[index]))
+    tool_offset = frame @ arm.tool  # from the last moving joint to the tool
+    center = offsets[0]
+    lengths = [_bound_distance(arm, index, offset, is_planar) for index, offset in zip(moving[:-1], offsets[1:], strict=True)]
+    proofs = [("the end effector", pose[:3, 3], [*lengths, _bound_distance(arm, moving[-1], tool_offset[:3, 3], is_planar)])]
+    if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
+        wrist = pose @ np.linalg.inv(tool_offset)
+        proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
+    slack = _RELATIVE_SLACK * arm.length_unit
+    for target_name, target, spans in proofs:
+        offset_to_target = target - center
+        if planar is not None:
+            offset_to_target = offset_to_target - planar * (planar @ offset_to_target)
+        distance = float(np.linalg.norm(offset_to_target))
+        max_distance = sum(span_end for _, span_end in spans)
+        longest = max(spans, key=lambda span: span[0])
+        min_distance = longest[0] - (max_distance - longest[1])
+        if distance > max_distance + slack:
+            return (
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
+                f"with these "
+                f"joints locked it is at most {max_distance:.4g} m away"
+            )
+        if (planar is None or is_planar) and distance < min_distance - slack:
+            return (
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
+                f"with these "
+                f"joints locked it is at least {min_distance:.4g} m away"
+            )
+    return None
+
+
+def _bound_distance(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
+    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar:
+    across its axis.
+    """
+    joint = arm.joints[k]
+    axial_component = float(joint.axis @ offset)
+    axis_distance = float(np.linalg.norm(offset - axial_component * joint.axis))
+    if not joint.prismatic:
+        length = axis_distance if is_planar else float(np.hypot(axis_distance, axial_component))
+        return length, length
+    end_distances = [abs(axial_component + limit) for limit in (joint.lower, joint.upper)]
+    nearest = 0.0 if joint.lower <= -axial_component <= joint.upper else min(end_distances)
+    return float(np.hypot(axis_distance, nearest)), float(np.hypot(axis_distance, max(end_distances)))

@@ -1,0 +1,70 @@
+"""Proofs that no motion leads to the goal, or to the beginning of a tool path, and the tolerance for which they hold."""
+
+from __future__ import annotations
+
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.response.recovery.proofs.flood import (
+    Flood,
+    find_confined_floods,
+    make_configuration_test,
+    make_pose_test,
+    prove_disconnected,
+)
+from holdfast.response.recovery.proofs.reach import EXACT_TOLERANCE, Tolerance, enumerate_configurations, make_blocked_boxes
+from holdfast.response.recovery.recovery import Recovery
+from holdfast.response.recovery.space import FreeSpace
+from holdfast.response.recovery.task_rows import TaskRows
+
+
+def prove_separated(
+    recovery: Recovery,
+    rows: TaskRows,
+    space: FreeSpace,
+    *,
+    start: FloatArray,
+    known_goals: FloatArray,
+    poses: FloatArray,
+    q_goal: FloatArray | None = None,
+) -> tuple[str, bool] | None:
+    """Prove that no motion leads to the goal; return the sentence and its validity within the tolerance, or None.
+
+    Args:
+        recovery: The recovery, as far as it is known.
+        rows: That count.
+        space: Where the arm may be.
+        start: (n,) where it is.
+        known_goals: (K, n) configurations that were found and cannot be got to.
+        poses: (G, 4, 4) to any of which no motion leads.
+        q_goal: (n,) the configuration instead, if one is asked for.
+    """
+    requested_tolerance = recovery.tolerance or EXACT_TOLERANCE
+    proof = prove_disconnected(
+        space,
+        start,
+        make_pose_test(space, rows, poses, requested_tolerance) if q_goal is None else make_configuration_test(space, q_goal),
+    )
+    if proof is not None:
+        return proof, True
+    for flood in find_confined_floods(space, start, known_goals):
+        for tolerance in dict.fromkeys((requested_tolerance, EXACT_TOLERANCE)):
+            if q_goal is not None or all(_proves_no_goal_in_flood(flood, recovery, pose, space, tolerance) for pose in poses):
+                return flood.proof_sentence, tolerance == requested_tolerance
+    return None
+
+
+def _proves_no_goal_in_flood(
+    flood: Flood, recovery: Recovery, pose: FloatArray, space: FreeSpace, tolerance: Tolerance
+) -> bool:
+    """Return True if it is proved that no collision-free configuration of a pose (4, 4) is in a flood, in half of the time
+    left.
+    """
+    blocked_boxes = make_blocked_boxes(space)
+
+    def is_excluded(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
+        excluded = flood.excludes(middle, half_widths)
+        if blocked_boxes is not None and not excluded.all():
+            excluded[~excluded] = blocked_boxes(middle[~excluded], half_widths[~excluded])
+        return excluded
+
+    solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, is_excluded, tolerance)
+    return solutions is not None and solutions.proved_empty

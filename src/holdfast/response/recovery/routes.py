@@ -1,0 +1,324 @@
+"""Search for a short route through joint space: a straight line if it is free, else two growing trees, then shortcuts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.progress import track
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.response.recovery.space import FreeSpace, JointMetric
+
+Indices = NDArray[np.intp]
+
+_BATCH_SAMPLES = 48  # samples a round
+_MAX_ROUNDS = 200
+_MAX_NODES = 12_000  # of both trees together
+_STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
+_NODE_SPACING_STEPS = 5  # pieces of a walk from one node to the next
+_SHORTCUTS_PER_ROUND = 64  # shortcuts tried a round
+_SHORTCUT_WALKS = 24  # the same where rows are kept exactly
+_STAGNANT_ROUNDS = 20  # rounds of a tree in which hardly a walk leads to where it is not yet: it fills all that it can get to
+_NEW_REGION_FRACTION = 0.2  # of the reach, how far from every node of its tree a walk must lead to count
+_MAX_NEW_REGION_WALKS = 4  # walks that do so in these rounds, of 960
+_MAX_GOAL_SEARCHES = 8  # goals that are searched for one by one
+_MAX_IDLE_ROUNDS = 8  # rounds without a gain before the way counts as short
+
+
+@dataclass(frozen=True)
+class Route:
+    """Route from a configuration to one of several goals, straight in joint space from waypoint to waypoint.
+
+    Attributes:
+        q: (K, n) waypoints, rad and m.
+        length: Of the metric, its unit ``s`` or ``rad``.
+        lower_bound: No route to any of the goals is shorter: the straight line to the nearest of them.
+        goal: Which goal it leads to.
+        straight: It is one straight line.
+    """
+
+    q: FloatArray
+    length: float
+    lower_bound: float
+    goal: int
+    straight: bool
+
+
+def find_route(
+    space: FreeSpace,
+    metric: JointMetric,
+    start: FloatArray,
+    goals: FloatArray,
+    search_count: int,
+    rng: np.random.Generator,
+    *,
+    max_failures: int | None = None,
+) -> Route | None:
+    """Return the shortest route found from start (n,) to any of the goals (G, n), or None; all of them must be valid.
+
+    Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by
+    trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
+    what is found is cut short. Where rows are kept, every line is a walk along them (:meth:`FreeSpace.extend_paths`), as in
+    CBiRRT (Berenson, Srinivasa, Ferguson and Kuffner 2009). If none is found because one of the trees fills all that it can get
+    to, twice, :attr:`FreeSpace.closed_in` says which. No more is tried once ``max_failures`` searches found nothing, if that is
+    said.
+    """
+    goals = start + space.shortest_difference(goals, start)
+    direct_lengths = metric.measure_length(goals - start)
+    lower_bound = float(direct_lengths.min())
+    order = np.argsort(direct_lengths, kind="stable")
+    free_goals = np.flatnonzero(space.are_segments_valid(np.repeat(start[None], len(goals), axis=0), goals)[order])
+    best_route: Route | None = None
+    closed_in, failure_count = list[str](), 0
+    if free_goals.size:
+        nearest = int(order[free_goals[0]])
+        best_route = Route(np.stack([start, goals[nearest]]), float(direct_lengths[nearest]), lower_bound, nearest, True)
+    elif space.manifold is not None:
+        extensions, has_arrived = space.extend_paths(metric, np.repeat(start[None], len(goals), axis=0), goals - start)
+        candidates = [(np.concatenate([start[None], extensions[goal]]), goal) for goal in np.flatnonzero(has_arrived).tolist()]
+        if candidates:
+            q, goal = min(candidates, key=lambda candidate: float(metric.cumulative_length(candidate[0])[-1]))
+            q = shorten_path(space, metric, q, rng)
+            best_route = Route(q, float(metric.cumulative_length(q)[-1]), lower_bound, goal, False)
+    for _ in track("searches for a route", range(search_count), most=True):
+        length = np.inf if best_route is None else best_route.length
+        closer_goals = np.flatnonzero(direct_lengths < length * (1 - 1e-9))
+        if not closer_goals.size or space.is_time_over or (best_route is not None and space.manifold is not None):
+            break  # along rows that are kept a search takes long, and the bound hardly tells how much shorter a way could be
+        if space.manifold is None and failure_count == max_failures:
+            break
+        connection = _connect_by_trees(space, metric, start, goals[closer_goals], rng)
+        closed_in.append(space.closed_in)
+        if all(closed_in[-2:]) and len(closed_in) > 1:
+            return None
+        if connection is None:
+            failure_count += not space.closed_in
+            continue
+        q, goal = connection
+        q = shorten_path(space, metric, q, rng)
+        new_length = float(metric.cumulative_length(q)[-1])
+        if new_length < length:
+            best_route = Route(q, new_length, lower_bound, int(closer_goals[goal]), len(q) == 2)
+    space.closed_in = ""
+    return best_route
+
+
+def find_reachable_goals(
+    space: FreeSpace, metric: JointMetric, start: FloatArray, goals: FloatArray, rng: np.random.Generator
+) -> BoolArray:
+    """Return (G,) True for the goals (G, n) to which a motion from start (n,) was found, straight or by one search each."""
+    goals = start + space.shortest_difference(goals, start)
+    is_reached = space.extend_paths(metric, np.repeat(start[None], len(goals), axis=0), goals - start)[1]
+    for _ in range(_MAX_GOAL_SEARCHES):
+        is_new = is_reached.copy()
+        while is_new.any() and not is_reached.all():  # what can be got to from what was just found
+            unreached = np.flatnonzero(~is_reached)
+            nearest = metric.measure_length(goals[unreached, None] - goals[is_new][None]).argmin(axis=1)
+            sources = goals[is_new][nearest]
+            is_new = np.zeros_like(is_reached)
+            is_new[unreached] = space.extend_paths(metric, sources, goals[unreached] - sources)[1]
+            is_reached |= is_new
+        route = None if is_reached.all() or space.is_time_over else find_route(space, metric, start, goals[~is_reached], 1, rng)
+        if route is None:
+            break
+        is_reached[np.flatnonzero(~is_reached)[route.goal]] = True
+    return is_reached
+
+
+class _RouteTree:
+    """Configurations that can be reached from the roots, with the parent of each."""
+
+    def __init__(self, space: FreeSpace, metric: JointMetric, roots: FloatArray) -> None:
+        self._space, self._metric = space, metric
+        self._is_unlimited = joint_space.is_unlimited(space.arm) & space.free
+        self.nodes = roots.copy()
+        self.parent = np.full(len(roots), -1)
+        self._inner_points: dict[int, FloatArray] = {}
+        self._embedded_nodes = self._embed_configurations(roots)
+
+    def _embed_configurations(self, q: FloatArray) -> FloatArray:
+        """Return points (N, e) whose distances approximately order configurations as the metric does: a revolute joint is a
+        circle.
+        """
+        linear_part = (q * self._metric.scale)[:, self._space.free & ~self._is_unlimited]
+        scales = self._metric.scale[self._is_unlimited]
+        angles = q[:, self._is_unlimited]
+        return np.concatenate([linear_part, scales * np.cos(angles), scales * np.sin(angles)], axis=1)
+
+    def add_paths(self, extensions: list[FloatArray], parents: Indices) -> Indices:
+        """Add paths (k, n) from parents, except empty ones, and return the last nodes of the others."""
+        nodes, parent_nodes, last_nodes = list[FloatArray](), list[int](), list[int]()
+        for extension, parent in zip(extensions, parents.tolist(), strict=True):
+            for first in range(0, len(extension), _NODE_SPACING_STEPS):
+                piece = extension[first : first + _NODE_SPACING_STEPS]
+                node = len(self.nodes) + len(nodes)
+                if len(piece) > 1:
+                    self._inner_points[node] = piece[:-1]
+                nodes.append(piece[-1])
+                parent_nodes.append(parent)
+                parent = node
+            if len(extension):
+                last_nodes.append(parent)
+        if nodes:
+            self.nodes = np.concatenate([self.nodes, nodes])
+            self.parent = np.concatenate([self.parent, parent_nodes])
+            self._embedded_nodes = np.concatenate([self._embedded_nodes, self._embed_configurations(np.stack(nodes))])
+        return np.array(last_nodes, dtype=np.intp)
+
+    def find_nearest(self, q: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+        """Return the node nearest to each q (N, n), and ``q`` minus that node (N, n)."""
+        points, node_points = self._embed_configurations(q), self._embedded_nodes
+        indices = ((node_points**2).sum(axis=1) - 2 * points @ node_points.T).argmin(axis=1)
+        return indices, self._space.shortest_difference(q, self.nodes[indices])
+
+    def trace_to_root(self, node: int) -> tuple[FloatArray, int]:
+        """Return the configurations (K, n) from a node back to its root, and that root."""
+        pieces, root = [], node
+        while node >= 0:
+            pieces += [self.nodes[node][None], self._inner_points.get(node, self.nodes[:0])[::-1]]
+            root, node = node, int(self.parent[node])
+        return np.concatenate(pieces), root
+
+
+def _connect_by_trees(
+    space: FreeSpace, metric: JointMetric, start: FloatArray, goals: FloatArray, rng: np.random.Generator
+) -> tuple[FloatArray, int] | None:
+    """Return a route from start (n,) to one of the goals (G, n) and the index of the goal, or None after the last round."""
+    start_tree, goal_tree = _RouteTree(space, metric, start[None]), _RouteTree(space, metric, goals)
+    max_step = _STEP_FRACTION * float(metric.measure_length(np.where(space.free, space.high - space.low, 0.0)))
+    space.closed_in = ""
+    from_start, new_end_counts = True, {id(start_tree): list[int](), id(goal_tree): list[int]()}
+    for _ in track("rounds of a search for a route", range(_MAX_ROUNDS), most=True):
+        if len(start_tree.nodes) + len(goal_tree.nodes) > _MAX_NODES or space.is_time_over:
+            break
+        growing_tree, other_tree = (start_tree, goal_tree) if from_start else (goal_tree, start_tree)
+        nearest_nodes, differences = growing_tree.find_nearest(space.sample(_BATCH_SAMPLES, rng))
+        extensions, _ = space.extend_paths(
+            metric, growing_tree.nodes[nearest_nodes], _limit_step(metric, differences, max_step)
+        )
+        if space.manifold is not None:
+            counts = new_end_counts[id(growing_tree)]
+            counts.append(_count_new_ends(metric, growing_tree, extensions, max_step))
+            if len(counts) >= _STAGNANT_ROUNDS and sum(counts[-_STAGNANT_ROUNDS:]) <= _MAX_NEW_REGION_WALKS:
+                space.closed_in = "start" if from_start else "goal"
+                break
+        new_nodes = growing_tree.add_paths(extensions, nearest_nodes)
+        meeting_nodes = _grow_until_meeting(space, metric, growing_tree, other_tree, new_nodes, max_step)
+        if meeting_nodes is not None:
+            return _join_branches(space, start_tree, goal_tree, meeting_nodes if from_start else meeting_nodes[::-1])
+        from_start = not from_start
+    return None
+
+
+def _count_new_ends(metric: JointMetric, tree: _RouteTree, extensions: list[FloatArray], max_step: float) -> int:
+    """Count the extensions that end far from every node of the tree."""
+    ends = [extension[-1] for extension in extensions if len(extension)]
+    return (
+        int((metric.measure_length(tree.find_nearest(np.stack(ends))[1]) > _NEW_REGION_FRACTION * max_step).sum())
+        if ends
+        else 0
+    )
+
+
+def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -> FloatArray:
+    lengths = metric.measure_length(differences)
+    return np.asarray(differences * np.minimum(1.0, max_step / np.maximum(lengths, 1e-12))[:, None])
+
+
+def _grow_until_meeting(
+    space: FreeSpace, metric: JointMetric, growing_tree: _RouteTree, other_tree: _RouteTree, new_nodes: Indices, max_step: float
+) -> tuple[int, int] | None:
+    """Grow the other tree towards new nodes step by step, and return the two nodes where the trees meet."""
+    targets, is_constrained = new_nodes, space.manifold is not None
+    while targets.size:
+        nearest_nodes, differences = other_tree.find_nearest(growing_tree.nodes[targets])
+        extensions, has_arrived = space.extend_paths(
+            metric,
+            other_tree.nodes[nearest_nodes],
+            differences if is_constrained else _limit_step(metric, differences, max_step),
+        )
+        arrived = has_arrived if is_constrained else has_arrived & (metric.measure_length(differences) <= max_step)
+        if arrived.any():
+            index = int(np.flatnonzero(arrived)[0])
+            last_nodes = other_tree.add_paths([extensions[index][:-1]], nearest_nodes[index : index + 1])
+            return int(targets[index]), int(last_nodes[0] if last_nodes.size else nearest_nodes[index])
+        other_tree.add_paths(extensions, nearest_nodes)
+        targets = targets[:0] if is_constrained else targets[has_arrived]
+    return None
+
+
+def _join_branches(
+    space: FreeSpace, start_tree: _RouteTree, goal_tree: _RouteTree, meeting_nodes: tuple[int, int]
+) -> tuple[FloatArray, int]:
+    (start_branch, _), (goal_branch, root) = (
+        start_tree.trace_to_root(meeting_nodes[0]),
+        goal_tree.trace_to_root(meeting_nodes[1]),
+    )
+    # The trees may meet a turn apart: the rest of the way is moved by whole turns.
+    shift = start_branch[0] + space.shortest_difference(goal_branch[0], start_branch[0]) - goal_branch[0]
+    return np.concatenate([start_branch[::-1], goal_branch + shift]), root
+
+
+def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Shorten the path q (K, n) by straight segments between random points of it, until that no longer helps."""
+    if space.manifold is not None and space.manifold.has_equalities:
+        return _remove_waypoints(space, _shorten_constrained(space, metric, q, rng))
+    idle_rounds = 0
+    while len(q) > 2 and idle_rounds < _MAX_IDLE_ROUNDS and not space.is_time_over:
+        lengths = metric.cumulative_length(q)
+        ends = np.sort(rng.uniform(0, lengths[-1], (_SHORTCUTS_PER_ROUND, 2)), axis=1)
+        # Some whole pieces too: from waypoint to waypoint.
+        ends[: _SHORTCUTS_PER_ROUND // 4] = np.sort(rng.choice(lengths, (_SHORTCUTS_PER_ROUND // 4, 2)), axis=1)
+        cut_starts, cut_ends = (_interpolate(q, lengths, cut_lengths) for cut_lengths in ends.T)
+        gains = ends[:, 1] - ends[:, 0] - metric.measure_length(cut_ends - cut_starts)
+        useful = np.flatnonzero(gains > 1e-6 * lengths[-1])
+        useful = useful[space.are_segments_valid(cut_starts[useful], cut_ends[useful])]
+        if not useful.size:
+            idle_rounds += 1
+            continue
+        best = useful[gains[useful].argmax()]
+        idle_rounds = idle_rounds + 1 if gains[best] < 1e-4 * lengths[-1] else 0
+        is_before, is_after = lengths < ends[best, 0] - 1e-12, lengths > ends[best, 1] + 1e-12
+        q = np.concatenate([q[is_before], cut_starts[best][None], cut_ends[best][None], q[is_after]])
+        q = q[np.concatenate([[True], metric.measure_length(np.diff(q, axis=0)) > 1e-12])]
+    return _remove_waypoints(space, q)
+
+
+def _shorten_constrained(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Shorten a path on which constraints hold exactly, by extensions along them from waypoint to waypoint."""
+    idle_rounds = 0
+    while len(q) > 2 and idle_rounds < _MAX_IDLE_ROUNDS and not space.is_time_over:
+        lengths = metric.cumulative_length(q)
+        first_points, last_points = np.sort(rng.integers(0, len(q), (_SHORTCUT_WALKS, 2)), axis=1).T
+        extensions, has_arrived = space.extend_paths(metric, q[first_points], q[last_points] - q[first_points])
+        gains = np.zeros(_SHORTCUT_WALKS)
+        for index in np.flatnonzero(has_arrived).tolist():
+            gains[index] = (
+                lengths[last_points[index]]
+                - lengths[first_points[index]]
+                - metric.cumulative_length(np.concatenate([q[first_points[index]][None], extensions[index]]))[-1]
+            )
+        index = int(gains.argmax())
+        idle_rounds = idle_rounds + 1 if gains[index] < 1e-3 * lengths[-1] else 0
+        if gains[index] > 1e-6 * lengths[-1]:
+            q = np.concatenate([q[: first_points[index] + 1], extensions[index], q[last_points[index] + 1 :]])
+    return q
+
+
+def _interpolate(q: FloatArray, lengths: FloatArray, s: FloatArray) -> FloatArray:
+    """Return points (N, n) of the path q (K, n) with cumulative lengths (K,) at lengths s (N,)."""
+    return np.stack([np.interp(s, lengths, column) for column in q.T], axis=1)
+
+
+def _remove_waypoints(space: FreeSpace, q: FloatArray) -> FloatArray:
+    """Remove waypoints that no proof needs, because the path without one of them is not longer."""
+    index = 1
+    while index < len(q) - 1:
+        if space.are_segments_valid(q[index - 1][None], q[index + 1][None])[0]:
+            q = np.delete(q, index, axis=0)
+        else:
+            index += 1
+    return q

@@ -1,0 +1,265 @@
+"""Joint space of a failed arm: lengths of paths, valid configurations, and proofs that straight segments are valid."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from holdfast.core.errors import InputError
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
+from holdfast.kinematics.tool_constraints.manifold import ConstraintManifold
+from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.clearance import Clearance
+
+MetricName = Literal["travel", "time"]
+
+MIN_RESOLVED_MOTION_M = (
+    5e-4  # m of possible motion between what could collide: what cannot be told clear at this is taken as blocked
+)
+_MAX_EXTENSION_STEPS = 400  # pieces of one walk at most
+_MIN_PROGRESS_FRACTION = 0.1  # of a piece, by which it must come nearer to where it goes
+
+
+@dataclass(frozen=True)
+class JointMetric:
+    """Length of a route through joint space.
+
+    Attributes:
+        name: ``travel``: the Euclidean length of the joints' motion, each joint times its scale. ``time``: every straight
+            piece at the velocity limit of its slowest joint, accelerations left aside.
+        scale: (n,) of each joint: its weight (1 rad counts as 1 m), or 1 over its velocity limit.
+    """
+
+    name: MetricName
+    scale: FloatArray
+
+    @classmethod
+    def for_arm(cls, arm: Arm, name: MetricName, weights: FloatArray | None, free: BoolArray) -> JointMetric:
+        """Return the metric of an arm whose healthy joints are ``free`` (n,).
+
+        Raises:
+            InputError: An unknown name, weights that are not n positive numbers, or time without velocity limits.
+        """
+        if name not in ("travel", "time"):
+            raise InputError(f"metric '{name}' is not known; use 'travel' or 'time'")
+        if name == "time":
+            max_speeds = np.array([joint.velocity for joint in arm.joints])
+            unlimited_joints = [
+                arm.joint_names[index] for index in np.flatnonzero(free & ~(np.isfinite(max_speeds) & (max_speeds > 0)))
+            ]
+            if unlimited_joints:
+                raise InputError(
+                    f"metric 'time' needs velocity limits, and joint '{unlimited_joints[0]}' has none; use metric 'travel'"
+                )
+            if weights is not None:
+                raise InputError("weights go with metric 'travel'; for 'time' the velocity limits are the weights")
+            return cls(name, np.where(free, 1.0 / np.where(free, max_speeds, 1.0), 1.0))
+        scale = np.ones(arm.n) if weights is None else np.asarray(weights, dtype=np.float64)
+        if scale.shape != (arm.n,) or not (np.isfinite(scale).all() and (scale > 0).all()):
+            raise InputError(f"weights must be {arm.n} finite numbers above 0, one per joint")
+        return cls(name, scale)
+
+    @property
+    def unit(self) -> str:
+        """Unit ``s``, or ``rad`` (1 m of a prismatic joint counts as 1 rad)."""
+        return "s" if self.name == "time" else "rad"
+
+    def measure_length(self, differences: FloatArray) -> FloatArray:
+        """Return the length of differences (..., n)."""
+        scaled = differences * self.scale
+        return np.asarray(np.abs(scaled).max(axis=-1) if self.name == "time" else np.linalg.norm(scaled, axis=-1))
+
+    def cumulative_length(self, q: FloatArray) -> FloatArray:
+        """Return the length (K,) of the path q (K, n) up to each of its points."""
+        return np.concatenate([[0.0], np.cumsum(self.measure_length(np.diff(q, axis=0)))])
+
+
+class FreeSpace:
+    """Valid configurations of the failed arm: within the limits, and no closer to itself and its cell than requested.
+
+    Args:
+        arm: The arm.
+        free: (n,) joints that move.
+        clearance: Whose room is kept at least at ``margin``, m; None: nothing is in the way but the limits.
+        margin: m.
+        around: (K, n) configurations that the box of samples must hold.
+        constraints: What is kept of the tool's pose, through the pose at the start.
+
+    Attributes:
+        manifold: Where that is kept; None if nothing is.
+        closed_in: ``start`` or ``goal`` if what was searched from there could not grow; see :func:`find_route`.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        free: BoolArray,
+        clearance: Clearance | None,
+        margin: float,
+        around: FloatArray,
+        *,
+        constraints: Sequence[ToolConstraint] = (),
+    ) -> None:
+        self.arm, self.free, self.margin = arm, free, margin
+        self._deadline = np.inf
+        self.closed_in: Literal["", "start", "goal"] = ""
+        self.clearance = clearance if clearance is not None and clearance.pair_names else None
+        lower, upper = finite_limits(arm)
+        self.low = np.where(free, np.minimum(lower, around.min(axis=0)), around[0])
+        self.high = np.where(free, np.maximum(upper, around.max(axis=0)), around[0])
+        # Joints that turn may wind beyond the box, no bound below depends on their values; slides may not.
+        self._lower = np.where(arm.prismatic, self.low, arm.lower)
+        self._upper = np.where(arm.prismatic, self.high, arm.upper)
+        limits = np.where(free, self._lower, around[0]), np.where(free, self._upper, around[0])
+        self.manifold = ConstraintManifold(arm, constraints, free, limits) if constraints else None
+        self._lipschitz_bounds = None if self.clearance is None else self.clearance.lipschitz_bounds(self.low, self.high)
+
+    def stop_after(self, seconds: float) -> None:
+        """Set the time in seconds after which :attr:`is_time_over` is true."""
+        self._deadline = time.monotonic() + seconds
+
+    @property
+    def seconds_left(self) -> float:
+        """Remaining time for searches, s; infinite without a limit."""
+        return max(self._deadline - time.monotonic(), 0.0)
+
+    @property
+    def is_time_over(self) -> bool:
+        """True if the time for searches is over."""
+        return self.seconds_left == 0
+
+    def are_within_limits(self, q: FloatArray) -> BoolArray:
+        """Return (N,) True within the limits; locked joints are ignored."""
+        return np.asarray((((q >= self._lower) & (q <= self._upper)) | ~self.free).all(axis=-1))
+
+    def are_valid(self, q: FloatArray) -> BoolArray:
+        """Return (N,) True where configurations (N, n) respect limits, constraints, and clearance."""
+        is_valid = self.are_within_limits(q)
+        if self.manifold is not None and is_valid.any():
+            is_valid[is_valid] = self.manifold.is_satisfied(q[is_valid])
+        if self.clearance is not None and is_valid.any():
+            is_valid[is_valid] = self._constraint_margins(q[is_valid]).min(axis=1) >= 0
+        return is_valid
+
+    def are_segments_valid(self, a: FloatArray, b: FloatArray, deviations: FloatArray | None = None) -> BoolArray:
+        """Return (E,) True where the straight segment from a to b (E, n) provably respects limits, constraints, and clearance.
+
+        With ``deviations`` (E, n) also everything whose joints are off it by no more, limits left aside.
+
+        Between two configurations at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
+        most that its distance can change on the way (:meth:`Clearance.lipschitz_bounds`). Pieces for which that does not do are
+        halved, until it does or L is below half a millimetre: such a piece counts as blocked.
+        """
+        is_valid: BoolArray = self.are_within_limits(a) & self.are_within_limits(b)
+        if self.manifold is not None and is_valid.any():
+            is_valid[is_valid] = self.manifold.prove_edges(
+                a[is_valid], b[is_valid], None if deviations is None else deviations[is_valid]
+            )
+        if self.clearance is None or not is_valid.any():
+            return is_valid
+        assert self._lipschitz_bounds is not None
+        max_changes = np.abs(b - a) @ self._lipschitz_bounds.T
+        deviation_changes = 0 * max_changes if deviations is None else deviations @ self._lipschitz_bounds.T
+        segments = np.arange(len(a))
+        start_fractions, end_fractions = np.zeros(len(a)), np.ones(len(a))
+        first_margins, last_margins = (
+            self._constraint_margins(a) - deviation_changes,
+            self._constraint_margins(b) - deviation_changes,
+        )
+        is_valid &= (first_margins.min(axis=1) >= 0) & (last_margins.min(axis=1) >= 0)
+        while True:
+            changes = max_changes[segments] * (end_fractions - start_fractions)[:, None]
+            is_open = is_valid[segments] & ((first_margins + last_margins - changes).min(axis=1) < 0)
+            is_blocked = is_open & (changes.max(axis=1) < MIN_RESOLVED_MOTION_M)
+            is_valid[segments[is_blocked]] = False
+            is_retained = is_open & is_valid[segments]
+            if not is_retained.any():
+                return is_valid
+            segments, start_fractions, end_fractions, first_margins, last_margins = (
+                values[is_retained] for values in (segments, start_fractions, end_fractions, first_margins, last_margins)
+            )
+            middle = (start_fractions + end_fractions) / 2
+            middle_margins = (
+                self._constraint_margins(a[segments] + middle[:, None] * (b - a)[segments]) - deviation_changes[segments]
+            )
+            is_valid[segments[middle_margins.min(axis=1) < 0]] = False
+            segments = np.concatenate([segments, segments])
+            start_fractions, end_fractions = np.concatenate([start_fractions, middle]), np.concatenate([middle, end_fractions])
+            first_margins, last_margins = (
+                np.concatenate([first_margins, middle_margins]),
+                np.concatenate([middle_margins, last_margins]),
+            )
+
+    def extend_paths(
+        self, metric: JointMetric, start: FloatArray, directions: FloatArray
+    ) -> tuple[list[FloatArray], BoolArray]:
+        """Extend paths from start (N, n) towards ``start + directions`` as far as possible, and return which of them arrive.
+
+        A way is one straight piece, or nothing; where rows are kept it goes in pieces, each brought back to the rows, as long
+        as it comes nearer and is proved.
+        """
+        targets = start + directions
+        if self.manifold is None:
+            has_arrived = self.are_segments_valid(start, targets)
+            return [
+                target[None] if indices else start[:0] for target, indices in zip(targets, has_arrived, strict=True)
+            ], has_arrived
+        pieces: list[list[FloatArray]] = [[] for _ in start]
+        is_valid_target = self.manifold.is_satisfied(targets)
+        current, has_arrived, active = start.copy(), np.zeros(len(start), dtype=bool), np.arange(len(start))
+        for _ in range(_MAX_EXTENSION_STEPS):
+            remaining = targets[active] - current[active]
+            distances = metric.measure_length(remaining)
+            is_unfinished = distances > 0
+            active, remaining, distances = active[is_unfinished], remaining[is_unfinished], distances[is_unfinished]
+            if not active.size or self.is_time_over:
+                break
+            step_fractions = self.manifold.step_fraction(remaining)
+            steps = remaining * step_fractions[:, None]
+            is_last_step = (step_fractions == 1) & is_valid_target[active]
+            candidates = np.where(is_last_step[:, None], targets[active], self.manifold.project(current[active] + steps))
+            is_closer = distances - metric.measure_length(
+                targets[active] - candidates
+            ) > _MIN_PROGRESS_FRACTION * metric.measure_length(steps)
+            indices = np.flatnonzero(is_closer)
+            indices = indices[self.are_segments_valid(current[active[indices]], candidates[indices])]
+            for index in indices:
+                pieces[active[index]].append(candidates[index])
+            has_arrived[active[indices]] = is_last_step[indices]
+            current[active[indices]] = candidates[indices]
+            active = active[indices[~is_last_step[indices]]]
+        return [np.array(points) if points else start[:0] for points in pieces], has_arrived
+
+    def _constraint_margins(self, q: FloatArray) -> FloatArray:
+        """Return (N, P) the distance of every pair beyond the required one, m."""
+        assert self.clearance is not None
+        return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)
+
+    def name_closest_pair(self, q: FloatArray) -> str:
+        """Return the pair most often closest among the q (N, n) that are too close, as ``panda_joint4 & table``, or nothing."""
+        if self.clearance is None:
+            return ""
+        pairs = self.clearance.closest_pair(q[self.clearance.margin_left(q) < self.margin])
+        return self.clearance.pair_names[int(np.bincount(pairs).argmax())] if len(pairs) else ""
+
+    def describe_obstruction(self, start: FloatArray, goal: FloatArray) -> str:
+        """Name the pair that a straight line from a start (n,) to a goal (n,) collides with, a clause; empty if
+        there is none.
+        """
+        pair = self.name_closest_pair(start + np.linspace(0, 1, 201)[:, None] * self.shortest_difference(goal, start))
+        return f"; in the way of the straight line: {pair}" if pair else ""
+
+    def shortest_difference(self, a: FloatArray, b: FloatArray) -> FloatArray:
+        """Return ``a - b`` of the joints that move, the shorter way round for joints without limits."""
+        return np.where(self.free, joint_space.joint_difference(self.arm, a, b), 0.0)
+
+    def sample(self, count: int, rng: np.random.Generator) -> FloatArray:
+        """Sample random configurations (count, n) of the box."""
+        return rng.uniform(self.low, self.high, (count, self.arm.n))

@@ -1,0 +1,289 @@
+"""Waypoints as CSV files, and a check that replays them through kinematics, limits, and clearance.
+
+The first column is ``time_s`` (each straight piece at the velocity limit of its slowest joint, accelerations left aside) or,
+for an arm without velocity limits, ``travel_rad`` (length of the joints' motion so far, 1 m of a slide counted as 1 rad); the
+others are joints, ``joint1_rad`` or ``slide_m``. In between, joints move in a straight line. Of a motion that is timed within
+accelerations (:class:`holdfast.response.recovery.TimedMotion`) the rates and accelerations follow.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.core.errors import InputError
+from holdfast.core.files.output import open_replacement
+from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import require_real_numbers
+from holdfast.kinematics.paths.joint_table import JointTable, joint_columns, motion_columns, read_joint_table
+from holdfast.kinematics.tool_constraints.labels import KeepLike, anchor_constraints
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+from holdfast.model.collision.exact.exact_clearance import with_exact_distances
+from holdfast.model.failure_modes import Degraded, Locked, degraded_at
+from holdfast.response.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
+
+FIRST_COLUMNS = ("time_s", "travel_rad")
+_MAX_JOINT_STEP = 2e-3  # rad and m between configurations looked at
+_CHUNK_ROWS = 100_000
+
+
+def compute_first_column(arm: Arm, q: FloatArray) -> tuple[str, FloatArray]:
+    """Return the name and values (K,) of the first column for waypoints (K, n)."""
+    joint_steps = np.abs(np.diff(q, axis=0))
+    max_speeds = np.array([joint.velocity for joint in arm.joints])
+    moving = joint_steps.max(axis=0, initial=0.0) > 0
+    if (np.isfinite(max_speeds[moving]) & (max_speeds[moving] > 0)).all():
+        steps = (joint_steps[:, moving] / max_speeds[moving]).max(axis=1, initial=0.0)
+        return FIRST_COLUMNS[0], np.concatenate([[0.0], np.cumsum(steps)])[: len(q)]
+    return FIRST_COLUMNS[1], np.concatenate([[0.0], np.cumsum(np.linalg.norm(joint_steps, axis=1))])[: len(q)]
+
+
+def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
+    """Write waypoints (K, n), rad and m, with every digit.
+
+    Raises:
+        StoreError: The file cannot be written.
+    """
+    file = Path(path)
+    column_name, values = compute_first_column(arm, q)
+    with open_replacement(file, "waypoints") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(map(escape_cell, [column_name, *joint_columns(arm)]))
+        writer.writerows([[repr(float(value)) for value in row] for row in np.column_stack([values, q])])
+    return file
+
+
+def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
+    """Read waypoints (K, n), rad and m, from a file of :func:`write_waypoints`; other columns are not needed.
+
+    Raises:
+        InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
+    """
+    return _read_table(arm, path).read_columns(joint_columns(arm))
+
+
+def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
+    """Read the times (K,) of such waypoints, s; None where the file has none.
+
+    Raises:
+        InputError: As for :func:`read_waypoints`.
+    """
+    table = _read_table(arm, path)
+    return table.read_columns(FIRST_COLUMNS[:1])[:, 0] if FIRST_COLUMNS[0] in table.header else None
+
+
+def _read_table(arm: Arm, path: str | Path) -> JointTable:
+    table, known_columns = read_joint_table(arm, Path(path), "waypoints", FIRST_COLUMNS[0]), motion_columns(arm)
+    unknown_columns = [
+        name for name in table.header if name not in FIRST_COLUMNS and not any(name in names for names in known_columns)
+    ]
+    if unknown_columns:
+        raise InputError(
+            f"{table.title}: column '{unknown_columns[0]}' is not known; columns are "
+            f"{', '.join([FIRST_COLUMNS[0], *known_columns[0]])}"
+        )
+    return table
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaypointCheck(Result):
+    """Result of replaying a motion through waypoints in small steps.
+
+    Attributes:
+        q: (K, n) the waypoints, rad and m.
+        poses: (K, 4, 4) of the end effector at them, world, m.
+        looked_at: Configurations on the way that were looked at.
+        beyond_limits: Joints that leave their limits, by name, with the most by which they do, rad or m.
+        locks_moved: Locked joints that move, by name, with the farthest from their angle, rad or m.
+        least_clearance: m; None if the clearance was not looked at.
+        least_room: m, what is least left beyond the margins of the objects of a cell; None if that was not looked at.
+        closest: Names of the pair that attains it, ``panda_joint4 & table``; empty where there is none.
+        margin: m, that was asked for.
+        kept: By how much each thing that should be kept all the way is broken, a phrase; empty where it is not.
+        too_fast: Joints faster than they can be, by name, with their greatest mean speed between two waypoints, rad/s or m/s;
+            empty where no times were given.
+        too_hard: The same of mean accelerations over two pieces, rad/s^2 or m/s^2, from standstill to standstill.
+        paced: What of these was looked at: ``speeds``, ``speeds and accelerations``, or nothing.
+    """
+
+    q: FloatArray
+    poses: FloatArray
+    looked_at: int
+    beyond_limits: dict[str, float]
+    locks_moved: dict[str, float]
+    least_clearance: float | None
+    least_room: float | None
+    closest: str
+    margin: float
+    kept: tuple[str, ...] = ()
+    too_fast: dict[str, float] = field(default_factory=dict)
+    too_hard: dict[str, float] = field(default_factory=dict)
+    paced: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """True if limits, locks, constraints, clearance, and, where checked, speeds and accelerations are respected."""
+        broken = self.beyond_limits or self.locks_moved or self.too_fast or self.too_hard or any(self.kept)
+        return self._is_collision_free and not broken
+
+    @property
+    def _is_collision_free(self) -> bool:
+        return self.least_room is None or self.least_room >= self.margin
+
+    def describe(self) -> list[str]:
+        """Return the result in a few sentences."""
+        lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
+        lines += [f"{name} leaves its limits by {excess:.4g}" for name, excess in self.beyond_limits.items()]
+        lines += [f"{name} should be locked and moves {excess:.4g} away" for name, excess in self.locks_moved.items()]
+        lines += [f"{name} is too fast: {excess_rate:.4g} a second" for name, excess_rate in self.too_fast.items()]
+        lines += [f"{name} accelerates by {excess_rate:.4g} a second squared" for name, excess_rate in self.too_hard.items()]
+        lines += [f"the tool is {trouble}" for trouble in self.kept if trouble]
+        if self.kept and not any(self.kept):
+            lines.append("what is kept all the way is kept")
+        if self.least_clearance is None:
+            lines.append("clearance was not looked at")
+        else:
+            pair_text = f"{self.closest}, " if self.closest else ""
+            verdict = "kept" if self._is_collision_free else "NOT KEPT"
+            lines.append(f"least clearance {self.least_clearance:.4g} m ({pair_text}margin {self.margin:g} m): {verdict}")
+        if not self.beyond_limits and not self.locks_moved:
+            lines.append("limits and locks are kept")
+        if self.paced and not self.too_fast and not self.too_hard:
+            lines.append(f"{self.paced} are kept")
+        return lines
+
+
+def check_waypoints(
+    arm: Arm,
+    q: ArrayLike,
+    locked: Locked = (),
+    *,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    margin: float = 0.0,
+    keep: KeepLike | None = None,
+    time: ArrayLike | None = None,
+    accelerations: AccelerationsLike | None = None,
+) -> WaypointCheck:
+    """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, with code that is independent of the planner.
+
+    Args:
+        arm: The arm.
+        q: (K, n) waypoints, rad and m.
+        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it. Or a
+            :class:`holdfast.Degraded`, whose reduced ranges must be kept too.
+        clearance: Looked at if given.
+        cell: Objects around the arm, or their file; looked at if given. What the bound calls too close is asked exactly where a
+            library for that is installed.
+        margin: m that should be kept; from an object beyond what the cell keeps from it.
+        keep: What the tool should keep along the whole motion; see :func:`holdfast.recover`.
+        time: (K,) s, of each waypoint; then differences must keep the speeds that are left.
+        accelerations: Limits that second differences must keep, from standstill to standstill; see :func:`holdfast.recover`.
+
+    Raises:
+        InputError: Invalid waypoints or times, an unknown joint, accelerations without times, or a cell that cannot be read or
+            does not fit.
+    """
+    waypoints = np.atleast_2d(arm.check_configurations(q))
+    if not len(waypoints) or not np.isfinite(waypoints).all():
+        raise InputError("waypoints must be one configuration or more of finite numbers")
+    fine_steps = subdivide_path(waypoints)
+    degraded = degraded_at(arm, locked, waypoints[0])
+    limits = arm if degraded is None else degraded.limited
+    excesses = np.maximum(np.maximum(limits.lower - fine_steps, fine_steps - limits.upper).max(axis=0), 0.0)
+    locked_values = {} if degraded is None else degraded.locked
+    lock_errors = {
+        name: float(np.abs(fine_steps[:, arm.joint_index(name)] - value).max())
+        for name, value in locked_values.items()
+        if value is not None
+    }
+    checked_clearance = chosen_clearance(arm, clearance, cell, looks=False)
+    least_clearance = least_margin = None
+    closest = ""
+    if checked_clearance is not None:
+        least_clearance, least_margin, closest = _find_closest(checked_clearance, fine_steps)
+        exact_clearance = with_exact_distances(checked_clearance, margin) if least_margin < margin else None
+        if exact_clearance is not None:
+            least_clearance, least_margin, closest = _find_closest(exact_clearance, fine_steps)
+    poses = arm.forward_kinematics(waypoints)
+    constraints = anchor_constraints(keep, poses[0])
+    too_fast, too_hard = _check_pace(arm, degraded, waypoints, time, accelerations)
+    return WaypointCheck(
+        too_fast=too_fast,
+        too_hard=too_hard,
+        paced="" if time is None else "speeds" if accelerations is None else "speeds and accelerations",
+        q=waypoints,
+        poses=poses,
+        kept=tuple(constraint.trouble(arm.forward_kinematics(fine_steps)) for constraint in constraints),
+        looked_at=len(fine_steps),
+        beyond_limits={
+            arm.joint_names[joint_index]: float(excesses[joint_index]) for joint_index in np.flatnonzero(excesses > 1e-12)
+        },
+        locks_moved={name: lock_error for name, lock_error in lock_errors.items() if lock_error > 1e-12},
+        least_clearance=least_clearance,
+        least_room=least_margin,
+        closest=closest,
+        margin=margin,
+    )
+
+
+def _check_pace(
+    arm: Arm, degraded: Degraded | None, q: FloatArray, time: ArrayLike | None, accelerations: AccelerationsLike | None
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the joints that are too fast and those that accelerate too hard, by name, with means that some instant attains."""
+    if time is None:
+        if accelerations is not None:
+            raise InputError("accelerations need times; give the time of each waypoint, or a file with a column time_s")
+        return {}, {}
+    times = require_real_numbers(time, "time", "a number for each waypoint, s")
+    if times.shape != (len(q),) or not np.isfinite(times).all() or (np.diff(times) < 0).any():
+        raise InputError(f"time must be {len(q)} finite numbers that never fall, one for each waypoint, s")
+    time_steps = np.maximum(np.diff(times), 1e-12)[:, None]
+    rates = np.diff(q, axis=0) / time_steps
+    max_speeds = np.array([joint.velocity for joint in (arm if degraded is None else degraded.limited).joints])
+    rounding_error = 8 * np.finfo(float).eps * np.abs(q).max(initial=1.0)
+    peak_speeds = (np.abs(rates) - rounding_error / time_steps).max(axis=0, initial=0.0)
+    is_limited = np.isfinite(max_speeds) & (max_speeds > 0)
+    is_exceeded = peak_speeds > np.where(is_limited, max_speeds * (1 + 1e-9), np.inf)
+    too_fast = {arm.joint_names[joint_index]: float(peak_speeds[joint_index]) for joint_index in np.flatnonzero(is_exceeded)}
+    if accelerations is None or len(q) < 2:
+        return too_fast, {}
+    standstill = np.zeros((1, arm.n))
+    instant_spacing = np.concatenate([time_steps[:1], time_steps[:-1] + time_steps[1:], time_steps[-1:]]) / 2
+    joint_accelerations = np.diff(np.concatenate([standstill, rates, standstill]), axis=0) / instant_spacing
+    peak_accelerations = (np.abs(joint_accelerations) - 2 * rounding_error / instant_spacing**2).max(axis=0)
+    max_accelerations = parse_acceleration_limits(
+        arm, accelerations, np.ones(arm.n, dtype=bool) if degraded is None else degraded.moves
+    )
+    is_exceeded = peak_accelerations > np.where(max_accelerations > 0, max_accelerations * (1 + 1e-9), np.inf)
+    return too_fast, {
+        arm.joint_names[joint_index]: float(peak_accelerations[joint_index]) for joint_index in np.flatnonzero(is_exceeded)
+    }
+
+
+def _find_closest(clearance: Clearance, q: FloatArray) -> tuple[float, float, str]:
+    """Return the least clearance and margin of configurations (N, n), m, and the pair with the least margin."""
+    parts = [q[first : first + _CHUNK_ROWS] for first in range(0, len(q), _CHUNK_ROWS)]
+    margins = np.concatenate([clearance.margin_left(part) for part in parts])
+    pair_index = int(clearance.closest_pair(q[margins.argmin()]))
+    least_clearance = min(float(clearance(part).min()) for part in parts)
+    return least_clearance, float(margins.min()), clearance.pair_names[pair_index] if pair_index >= 0 else ""
+
+
+def subdivide_path(q: FloatArray) -> FloatArray:
+    """Return configurations along the path through q (K, n), at most 2 mrad or 2 mm of a joint apart, with the waypoints."""
+    parts = [q[:1]]
+    for start, end in pairwise(q):
+        count = max(int(np.ceil(float(np.abs(end - start).max()) / _MAX_JOINT_STEP)), 1)
+        parts.append(start + (np.arange(1, count + 1) / count)[:, None] * (end - start))
+        parts[-1][-1] = end
+    return np.concatenate(parts)

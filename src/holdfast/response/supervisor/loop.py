@@ -1,0 +1,310 @@
+"""Closed loop of an arm with faults: the body in MuJoCo, the monitor, and the controller's response."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.control.laws.law import Law
+from holdfast.control.physics.body import Body
+from holdfast.control.physics.drives import Drives
+from holdfast.control.physics.plant import MAX_PHYSICAL_SPEED
+from holdfast.control.physics.servos import Servos, reference_leads
+from holdfast.core.errors import InputError
+from holdfast.core.progress import reports_progress, track
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import check_arguments
+from holdfast.model.arm.mjcf import import_mujoco, silence_mujoco
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+from holdfast.response.diagnosis.monitor import Monitor
+from holdfast.response.faults.events import FaultEvent
+from holdfast.response.faults.fault_model import FaultModel
+from holdfast.response.faults.injector import FaultInjector
+from holdfast.response.supervisor.controller import Controller
+from holdfast.response.supervisor.masked_law import MaskedLaw
+from holdfast.response.supervisor.run import Ended, FaultRun, React
+
+CONTROL_RATE_HZ = 1000.0  # control cycles without a monitor
+DEFAULT_TIME_LIMIT_S = 12.0
+POSITION_TOLERANCE_M = 5e-3  # distance to a reached target
+ORIENTATION_TOLERANCE_RAD = np.deg2rad(1.0)  # angle to a reached target
+DWELL_S = 0.2  # time at the target after which it counts as reached
+POSE_RATE_HZ = 100.0  # measured tool poses
+IDLE_END_S = 0.5  # time at rest after which no further motion is expected
+
+
+@check_arguments
+@silence_mujoco()
+@reports_progress("simulating the faults")
+def simulate_faults(
+    law: Law,
+    q0: ArrayLike,
+    target: ArrayLike,
+    *,
+    faults: FaultModel | Sequence[FaultEvent] = (),
+    episode: int = 0,
+    monitor: Monitor | None = None,
+    react: React | None = None,
+    plan: bool = True,
+    body: Body | None = None,
+    servos: Servos | None = None,
+    centring: float = 0.0,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    pose: bool = True,
+    time_limit: float = DEFAULT_TIME_LIMIT_S,
+    seed: int = 0,
+) -> FaultRun:
+    """Simulate one closed-loop run in MuJoCo in which joints fail and are detected, and the task continues (needs
+    ``holdfast-arms[physics]``).
+
+    In every control cycle the law reads the joint sensors. Its rates, kept within the joint limits, the velocity limits and
+    10 rad/s^2, go to the servos, whose torques move a body that differs from the arm's model. Faults begin and end as the
+    fault model says. A monitor reads what a robot would measure: joint sensors, references, commanded torques, and the tool
+    pose 100 times a second. With ``react="chain"`` the controller responds to the monitor:
+
+    * A joint that does not move while its reference does, or that runs away, is braked 20 ms after the alarm and excluded from
+      the law. So is a joint that is locked, free-swinging, has a faulty sensor, or has a fault of an unknown kind. The arm then
+      waits for 0.05 s, and for 0.1 s more if the tool pose is measured, which shows whether the joint is where its sensor says.
+    * With a weak motor or more friction the arm continues at half the speed. A joint whose motor cannot carry 1.2 times the
+      weight of the arm is braked.
+    * During a contact the arm continues at 0.3 of the speed, and after 1 s as before.
+    * After each brake the remaining law is simulated forward. If it would miss the target, or has stopped short of it, the arm
+      first moves to another configuration from which the law converges: all joints nearer to the middle of their ranges, or
+      one of them turned over. If there is none, :func:`holdfast.recover` plans a route. Neither takes simulated time. If there
+      is no route, but one with the braked joint, the brake is released, once, and the arm follows that route as slowly as the
+      joint needs, because a joint at a stop, or with a slow motor, looks like one without torque. If the joint does not follow
+      it is braked again, and the arm stops.
+    * With a cell, or a clearance, the forward simulation of the law must also be collision-free, and the arm leaves the law
+      before it could no longer stop. Other configurations and routes are proved to be collision-free
+      (:func:`holdfast.recover`), and if there is none the arm stops, even without ``plan``. The controller does not check for
+      collisions before the first brake. ``contacts`` has the collisions of the run.
+
+    A brake stops its joint at once. From then on the monitor excludes that joint and watches the others, and the controller
+    responds to a second fault in the same way, with the joints that remain. Nothing is monitored from a brake to the end of the
+    wait.
+
+    Args:
+        law: Control law, with its arm, task, gain and speed limit. The arm needs inertial data.
+        q0: (n,) configuration at the start, rad and m, at rest.
+        target: (m,) or (4, 4), as for :func:`holdfast.simulate`.
+        faults: A fault model, or the events of the run.
+        episode: Episode of the fault model.
+        monitor: Monitor of the arm, with the bounds that it was made with; it is reset.
+        react: Response to faults: ``chain``, the default with a monitor; ``none``, the default without one; ``stop``, where
+            everything stops at the first alarm; ``known``, where each fault is known when it begins, without a monitor.
+        plan: True if a route may be planned where no other configuration helps; else the arm follows the law to its end.
+        body: Differences of the robot from the arm's model; default: :class:`holdfast.Body`.
+        servos: Servos of the joints; default: :class:`holdfast.Servos` at the rate of the monitor.
+        centring: Rate in 1/s at which the law draws joints to the middle of their range, in the null space of the task.
+        clearance: Shape of the arm and the objects that it must not touch, maybe with a cell; True: also the arm itself, by
+            capsules of an assumed radius. By default the arm does not avoid itself.
+        cell: Objects around the arm, or their file.
+        pose: True if the tool pose is measured.
+        time_limit: Time limit in s; the run ends earlier if the target is reached, or if nothing moves any more.
+        seed: Seed of the sensor noise.
+
+    Raises:
+        InputError: Wrong shapes or options, faults that the arm cannot have, or a monitor of another arm or rate.
+        ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+        HoldfastError: MuJoCo is not installed.
+    """
+    if not 0 < time_limit < np.inf:
+        raise InputError(f"time_limit is {time_limit:g}; it must be a finite number of seconds above 0")
+    if not 0 <= centring < np.inf:
+        raise InputError(f"centring is {centring:g}; it must be a finite number of 0 or more, 1/s")
+    if react is not None and react not in get_args(React):
+        raise InputError(f"react '{react}' is not known; use {', '.join(get_args(React))}")
+    response: React = react or ("none" if monitor is None else "chain")
+    if response in ("stop", "chain") and monitor is None:
+        raise InputError(
+            f"react='{response}' needs a monitor, which says what is wrong; make one by holdfast.response.diagnosis.Monitor"
+        )
+    chosen = servos or Servos(rate=CONTROL_RATE_HZ if monitor is None else monitor.bounds.rate)
+    if monitor is not None:
+        monitor.bounds.require(law.arm, chosen.rate)
+        monitor.reset()
+    start = law.arm.check_configurations(q0)
+    if start.ndim != 1 or not np.isfinite(start).all():
+        raise InputError(f"q0 has shape {start.shape}; a run starts from one configuration of finite numbers, ({law.arm.n},)")
+    looked = chosen_clearance(law.arm, clearance or False, cell, looks=False)
+    robot_body = Body() if body is None else body
+    masked = MaskedLaw(law, target, centring=centring, clearance=looked)
+    robot = _SimulatedRobot(
+        law, start, robot_body, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose
+    )
+    bounds = None if monitor is None else monitor.bounds
+    controller = Controller(masked, bounds=bounds, brakes=robot.injector, watch=monitor, react=response, plan=plan)
+    outcome = _run_cycles(robot, controller, masked, monitor if response in ("stop", "chain") else None, response, time_limit)
+    places = np.full(law.arm.n, np.nan)
+    for event, position in robot.began.items():
+        joint = law.arm.joint_index(event.joint)
+        places[joint] = position if np.isnan(places[joint]) else places[joint]
+    return FaultRun(
+        law=law,
+        servos=chosen,
+        body=robot_body,
+        target=masked.pose,
+        react=response,
+        events=robot.injector.events,
+        places=places,
+        actions=tuple(controller.actions),
+        verdicts=tuple(controller.verdicts),
+        degraded=controller.degraded,
+        outcome=outcome,
+        clearance=looked,
+        **robot.recorded_arrays(),
+    )
+
+
+class _SimulatedRobot:
+    """Robot body with servos and sensors, and the recording so far."""
+
+    def __init__(
+        self,
+        law: Law,
+        start: FloatArray,
+        body: Body,
+        servos: Servos,
+        *,
+        faults: FaultModel | Sequence[FaultEvent],
+        episode: int,
+        horizon: float,
+        seed: int,
+        pose: bool,
+    ) -> None:
+        self.mujoco, self.arm, self.servos, self.body = import_mujoco(), law.arm, servos, body
+        self.model, stiffness, damping = body.model(law.arm, servos)
+        self.data = self.mujoco.MjData(self.model)
+        self.data.qpos[:] = start
+        self.mujoco.mj_forward(self.model, self.data)
+        self.injector = FaultInjector(self.model, self.data, law.arm, faults=faults, horizon=horizon)
+        self.injector.reset(episode)
+        self.rng, self.dt, self.every = (
+            np.random.default_rng([2, seed]),
+            1 / servos.rate,
+            round(servos.rate / POSE_RATE_HZ) or 1,
+        )
+        effort = np.array([joint.effort for joint in law.arm.joints])
+        self.drives = Drives(stiffness, damping, effort=effort, period=self.dt)
+        self.reference, self.lead, self._pose = start.copy(), reference_leads(law.arm, stiffness), pose
+        self.gravity_of = law.arm._gravity_torque_kernel.single_row()
+        self.began: dict[FaultEvent, float] = {}
+        self.rows: list[tuple[FloatArray, ...]] = []
+        self.gravity = self.gravity_of(start)
+
+    def sense(self, cycle: int) -> tuple[FloatArray, FloatArray | None]:
+        """Return the measured joint positions in a cycle and the measured tool pose, None without a sample."""
+        self.injector.before_step(cycle * self.dt)
+        for event, position in self.injector.places.items():
+            self.began.setdefault(event, position)
+        true = self.data.qpos
+        q_measured = self.injector.read_sensors(true, reference=self.reference) + self.rng.normal(
+            0, self.body.joint, self.arm.n
+        )
+        self.drives.sense(q_measured, true)
+        self.v = self.data.qvel + self.drives.rate_error
+        if not self._pose or cycle % self.every:
+            return q_measured, None
+        return q_measured, self.body.measure_poses(self.arm.forward_kinematics(true[None]), self.rng)[0]
+
+    def move(self, q: FloatArray, rates: FloatArray, mask: FloatArray) -> FloatArray:
+        """Advance one cycle with commanded rates, the joints assumed at q (n,), and return the recorded motor torques (n,)."""
+        reference = np.minimum(np.maximum(self.reference + self.dt * rates, q - self.lead), q + self.lead)
+        inside = np.clip(reference, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
+        self.reference = np.where(mask > 0, inside, q)
+        self.gravity = self.gravity_of(q)
+        velocity = self.data.qvel
+        command = self.drives.compute_command(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
+        self.data.ctrl[:] = command
+        self.injector.before_step(self.injector.time)
+        before = self.data.qpos.copy()
+        self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
+        torque = self.drives.compute_torque(command, self.data.qpos - before)
+        return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
+
+    def record_cycle(
+        self, true: FloatArray, q_measured: FloatArray, torque: FloatArray, pose: FloatArray | None, errors: tuple[float, float]
+    ) -> None:
+        """Record a cycle."""
+        self.rows.append(
+            (true, q_measured, self.reference, torque, np.full(16, np.nan) if pose is None else pose.ravel(), np.array(errors))
+        )
+
+    def recorded_arrays(self) -> dict[str, FloatArray]:
+        """Return the fields of :class:`FaultRun` that are rows over time."""
+        from scipy.spatial.transform import Rotation
+
+        q, q_measured, reference, torque, poses, errors = (np.array(part) for part in zip(*self.rows, strict=True))
+        poses = poses.reshape(-1, 4, 4)
+        has_pose = np.isfinite(poses[:, 0, 0])
+        quat = np.full((len(q), 4), np.nan)
+        if has_pose.any():
+            quat[has_pose] = Rotation.from_matrix(poses[has_pose, :3, :3]).as_quat()
+        return {
+            "time": np.arange(len(q)) * self.dt,
+            "q": q,
+            "q_measured": q_measured,
+            "reference": reference,
+            "torque": torque,
+            "x": poses[:, :3, 3],
+            "quat": quat,
+            "position_error": errors[:, 0],
+            "orientation_error": errors[:, 1],
+        }
+
+
+@dataclass
+class _EndCounters:
+    """Counters of cycles that decide when a run ends."""
+
+    at_target: int = 0
+    idle: int = 0
+
+
+def _run_cycles(
+    robot: _SimulatedRobot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float
+) -> Ended:
+    """Run the control cycles and return the outcome."""
+    dt, ends, errors = robot.dt, _EndCounters(), (math.inf, math.inf)
+    last_onset = max((event.onset for event in robot.injector.events), default=0.0)
+    for cycle in track("control cycles", range(int(np.ceil(limit / dt))), most=True, every=1000):
+        time, true = cycle * dt, robot.data.qpos.copy()
+        q_measured, pose = robot.sense(cycle)
+        if cycle % robot.every == 0:
+            errors = law.target_errors(true)
+            ends.at_target = (
+                ends.at_target + robot.every
+                if errors[0] <= POSITION_TOLERANCE_M and errors[1] <= ORIENTATION_TOLERANCE_RAD
+                else 0
+            )
+        if react == "known":
+            for event in robot.injector.active:
+                controller.on_known_fault(time, event.kind, event.joint, robot.began[event])
+        if pose is not None:
+            controller.on_tool_pose(time, q_measured, pose)
+        rates = controller.rates(time, q_measured)
+        q = controller.trusted_positions(q_measured)
+        torque = robot.move(q, rates, law.mask)
+        robot.record_cycle(true, q_measured, torque, pose, errors)
+        if monitor is not None and not controller.is_stopped:
+            verdict = monitor.step(q, robot.reference, torque, pose=pose)
+            tracking_error = robot.reference - q
+            controller.on_verdict(
+                time, verdict, tracking_error=tracking_error, v=robot.v, commanded_rates=rates, gravity=robot.gravity
+            )
+        speed = float(np.abs(robot.data.qvel).max())
+        if not speed < MAX_PHYSICAL_SPEED:
+            return "unstable"
+        if ends.at_target * dt >= DWELL_S:
+            return "reached"
+        ends.idle = ends.idle + 1 if controller.is_idle(rates) and speed < 0.05 and time > last_onset else 0
+        if ends.idle * dt > IDLE_END_S:
+            return "stopped" if controller.is_stopped else "missed"
+    return "stopped" if controller.is_stopped else "missed"

@@ -1,5 +1,0 @@
-"""Solvers for configurations: inverse kinematics, the best one of a pose, self-motions, and the best path."""
-
-from holdfast._lazy import offer
-
-offer(__name__)

@@ -1,0 +1,12 @@
+from holdfast.studies.assessment.assessment import Assessment as Assessment
+from holdfast.studies.assessment.comparison import Comparison as Comparison
+from holdfast.studies.assessment.comparison import compare_assessments as compare_assessments
+from holdfast.studies.assessment.comparison import load_comparison as load_comparison
+from holdfast.studies.assessment.run import assess as assess
+from holdfast.studies.assessment.run import load as load
+from holdfast.studies.assessment.single_points import Structure as Structure
+from holdfast.studies.assessment.single_points import WeakJoint as WeakJoint
+from holdfast.studies.assessment.single_points import explain as explain
+from holdfast.studies.assessment.single_points import structure as structure
+from holdfast.studies.assessment.single_points import structures as structures
+from holdfast.studies.assessment.upgrade import Upgrade as Upgrade

@@ -1,0 +1,254 @@
+"""Answer of an assessment in sentences: how often a threshold is met, and the reasons against it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.caching import cached_property
+from holdfast.core.errors import InputError
+from holdfast.core.formatting import (
+    format_as_given,
+    format_interval,
+    format_number,
+    format_percent,
+    format_share,
+    indefinite_article,
+    list_alternatives,
+)
+from holdfast.core.probability.distribution import Distribution, Interval
+from holdfast.model.arm.task import as_task
+from holdfast.studies.assessment.plan import AssessmentPlan
+from holdfast.studies.assessment.single_points import Structure, structure, structures
+
+MIN_INFORMATIVE_PROBABILITY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
+ZERO_INDEX = 1e-9  # values that a structural failure leaves behind are rounding noise
+
+
+class AnswerSource(Protocol):
+    """Parts of an assessment that the answer uses; see :class:`holdfast.Assessment`."""
+
+    @property
+    def plan(self) -> AssessmentPlan: ...  # noqa: D102
+
+    @property
+    def has_rows(self) -> bool: ...  # noqa: D102
+    @property
+    def distribution(self) -> Distribution: ...  # noqa: D102
+    @property
+    def optimised(self) -> Distribution | None: ...  # noqa: D102
+    @property
+    def worst_counts(self) -> NDArray[Any]: ...  # noqa: D102
+    @property
+    def survivors(self) -> NDArray[Any] | None: ...  # noqa: D102
+
+    def survival(self) -> dict[str, Interval]: ...  # noqa: D102
+
+    def default_threshold(self) -> float: ...  # noqa: D102
+    def if_never_fails(self, joint: str | int) -> Distribution: ...  # noqa: D102
+    def interval(  # noqa: D102
+        self, at_least: float | None = None, at_most: float | None = None, optimised: bool = False
+    ) -> Interval: ...
+
+
+class ThresholdAnswer:
+    """Sentences about an assessment and a threshold.
+
+    Args:
+        assessment: What was found.
+        threshold: Value of the index that the task needs; the assessment's own if not given.
+
+    Raises:
+        InputError: The threshold is not a finite number.
+    """
+
+    def __init__(self, assessment: AnswerSource, threshold: float | None) -> None:
+        if threshold is not None and not np.isfinite(threshold):
+            raise InputError(f"threshold is {threshold:g}; it must be a finite number")
+        self.assessment = assessment
+        self.distribution = assessment.distribution
+        self.index = assessment.plan.index
+        self.larger_is_better = self.index.better == "larger"
+        self.noun = "configuration" if assessment.plan.region.kind == "joints" else "pose"
+        self.reached_noun = f"{self.noun}s" if assessment.plan.region.kind == "joints" else "reached poses"
+        self.is_chosen = threshold is not None
+        self.threshold = assessment.default_threshold() if threshold is None else float(threshold)
+
+    @property
+    def is_worst_everywhere(self) -> bool:
+        """True if the index has its worst value at every reached pose, up to rounding."""
+        if self.larger_is_better:
+            return self.distribution.reached > 0 and self.distribution.highest <= ZERO_INDEX
+        return self.distribution.reached > 0 and self.distribution.infinite == self.distribution.reached
+
+    @property
+    def has_threshold(self) -> bool:
+        """True if there is a meaningful threshold."""
+        return (
+            self.is_chosen or self.index.bound is not None or (self.distribution.reached > 0 and not self.is_worst_everywhere)
+        )
+
+    @cached_property
+    def probability(self) -> Interval:
+        """Probability that a pose of the region meets the threshold."""
+        threshold = self.threshold
+        return (
+            self.assessment.interval(at_least=threshold)
+            if self.larger_is_better
+            else self.assessment.interval(at_most=threshold)
+        )
+
+    @property
+    def condition(self) -> str:
+        """Threshold as a condition, for a formula."""
+        return f"index {'≥' if self.larger_is_better else '≤'} {format_as_given(self.threshold)}{self.unit_suffix}"
+
+    @property
+    def failure_phrase(self) -> str:
+        """Phrase for the failures, such as ``if joint2 or joint3 locks``."""
+        sizes = {len(failed) for failed in self.index.failures}
+        size = sizes.pop() if len(sizes) == 1 else 0
+        if size and len(self.index.failures) == math.comb(self.assessment.plan.arm.n, size):
+            return "whichever joint locks" if size == 1 else f"whichever {size} joints lock together"
+        count = len(self.index.failures)
+        return (
+            f"if {list_alternatives(self.index.failure_names)} locks"
+            if count == 1
+            else f"after any of the {count} failures considered"
+        )
+
+    @cached_property
+    def headline(self) -> str:
+        """Answer in one sentence."""
+        distribution, name, noun = self.distribution, self.index.name, self.noun
+        if not distribution.samples:
+            return "Nothing has been computed yet."
+        if not distribution.reached:
+            return (
+                f"No configuration within the joint limits was found for any of the {distribution.samples:,} poses of "
+                f"the region: "
+                "move the region, widen the joint limits or give more restarts."
+            )
+        lost_text = (
+            f"; for {format_percent(distribution.unreached_share)} of poses no configuration within the joint limits was found"
+            if distribution.unreached
+            else ""
+        )
+        if self.is_worst_everywhere:
+            worst_value = "0" if self.larger_is_better else "infinite"
+            verdict = f"the worst-case {name} is {worst_value} at each {noun} reached{lost_text}."
+            return (
+                f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict} {self.explanation}".rstrip()
+            )
+        bound = f"at {'least' if self.larger_is_better else 'most'} {format_as_given(self.threshold)}{self.unit_suffix}"
+        if self.larger_is_better and self.index.bound is not None:
+            bound += f" ({format_percent(self.threshold / self.index.bound)} of the largest possible value)"
+        kept_text = f"keeps {indefinite_article(name)} {name} of {bound} {self.failure_phrase}"
+        chance = f"probability {format_interval(self.probability)}"
+        if self.probability.value >= MIN_INFORMATIVE_PROBABILITY:
+            return f"{self.remaining_reach}With {chance} a {noun} of the region {kept_text}{lost_text}."
+        few_text = (
+            f"Hardly any {noun} of the region"
+            if self.probability.value
+            else f"None of the {distribution.samples:,} {noun}s drawn"
+        )
+        return f"{self.remaining_reach}{few_text} {kept_text}: {chance}{lost_text}. {self.explanation}"
+
+    @property
+    def remaining_reach(self) -> str:
+        """Sentence, followed by a space, on the reach after the most costly lock; empty if the run did not test locks."""
+        if self.costliest_lock is None:
+            return ""
+        name, fraction = self.costliest_lock
+        return f"Once {name} has locked, {format_percent(fraction)} of the poses of the region are still reached. "
+
+    @cached_property
+    def costliest_lock(self) -> tuple[str, float] | None:
+        """Joint whose lock leaves the fewest poses, and the fraction that remains; None if the run did not test locks."""
+        if self.assessment.survivors is None or not self.distribution.reached:
+            return None
+        fractions = {name: interval.value for name, interval in self.assessment.survival().items()}
+        return min(fractions.items(), key=lambda each: each[1])
+
+    @property
+    def explanation(self) -> str:
+        """Reason for a probability of nearly 0, from the joints or the structure, and the next informative numbers."""
+        assessment, index, names = self.assessment, self.index, self.assessment.plan.arm.joint_names
+        own_structure = self.task_structures[0]
+        fatal_joints = [joint for joint in own_structure.fatal if any(joint in failed for failed in index.failures)]
+        if own_structure.never:
+            return "The healthy arm itself is singular for this task in every configuration."
+        if fatal_joints:
+            reason = (
+                f"Once {list_alternatives([names[joint] for joint in fatal_joints])} locks, the task is singular in "
+                f"every configuration."
+            )
+            is_avoidable = any(fatal_joints[0] not in failed for failed in index.failures)
+            if len(fatal_joints) == 1 and is_avoidable and assessment.has_rows and self.distribution.reached:
+                median = format_number(float(assessment.if_never_fails(fatal_joints[0]).quantile(0.5)))
+                reason += f" If it never failed, the median of the {self.reached_noun} would be {median}."
+            return reason
+        counts = assessment.worst_counts
+        parts = []
+        if counts.sum() > 0:
+            joint = int(counts.argmax())
+            worst = format_percent(float(counts[joint] / counts.sum()))
+            parts.append(f"A lock of {index.failure_names[joint]} is the worst failure at {worst} of the {self.reached_noun}.")
+        parts.append(f"The median of the {self.reached_noun} is {format_number(float(self.distribution.quantile(0.5)))}")
+        best = assessment.optimised
+        if best is not None and best.reached:
+            best_probability = assessment.interval(
+                **{f"at_{'least' if self.larger_is_better else 'most'}": self.threshold}, optimised=True
+            )
+            parts[-1] += f"; at the best configuration of each pose it is {format_number(float(best.quantile(0.5)))}, "
+            parts[-1] += f"and the probability {format_interval(best_probability)}"
+        elif assessment.plan.region.kind != "joints":
+            parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
+        return f"{' '.join(parts)}."
+
+    @property
+    def sampling_text(self) -> str:
+        """Description of the choice of poses."""
+        listed = self.assessment.plan.region.listed
+        is_whole_list = listed is not None and self.assessment.plan.poses == len(listed)
+        return "each pose of the list once" if is_whole_list else f"{self.assessment.plan.sampling} poses of the region"
+
+    def format_share(self, count: int) -> str:
+        """Format a count of poses with its fraction of all, and with its interval if all count alike."""
+        distribution = self.distribution
+        return (
+            f"{count:,} of {distribution.samples:,} {self.noun}s, not weighted"
+            if distribution.has_weights
+            else format_share(count, distribution.samples)
+        )
+
+    @property
+    def weights_text(self) -> str:
+        """Explanation of the effect of weights on the numbers."""
+        return (
+            f"poses count by weight: {format_percent(1 - self.distribution.unreached_share)} of the weight is reached. "
+            f"Effective sample size "
+            f"{self.distribution.effective():,.0f} of {self.distribution.samples:,} (total weight over the largest "
+            f"weight): intervals and bands are "
+            "those of so many equal poses"
+        )
+
+    @property
+    def unit_suffix(self) -> str:
+        """Unit of the index after a space, or nothing."""
+        return "" if self.index.unit == "1" else f" {self.index.unit}".replace("^2", "²").replace("^3", "³")
+
+    @cached_property
+    def task_structures(self) -> tuple[Structure, list[Structure]]:
+        """Structure of the task of the run, and those of all tasks including it."""
+        everything = structures(self.assessment.plan.arm)
+        task = self.index.task
+        for candidate in everything:
+            standard = as_task(self.assessment.plan.arm, candidate.task)
+            if candidate.task == task.name and standard.rows.shape == task.rows.shape and np.allclose(standard.rows, task.rows):
+                return candidate, everything
+        own_structure = structure(self.assessment.plan.arm, task)
+        return own_structure, [own_structure, *everything]

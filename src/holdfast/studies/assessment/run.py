@@ -1,0 +1,231 @@
+"""Sample poses in a region, solve, evaluate, and count, in memory or chunk by chunk into a folder."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from holdfast.core.errors import InputError, StoreError
+from holdfast.core.files import reading
+from holdfast.core.progress import reports_progress
+from holdfast.core.sweeps.store import Store
+from holdfast.core.sweeps.study import STUDY_FILE, Study
+from holdfast.core.validation import check_arguments
+from holdfast.kinematics.indices.index import Index, by_name
+from holdfast.kinematics.regions.region import Region, Sampling, default_region
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike
+from holdfast.studies.assessment.assessment import Assessment
+from holdfast.studies.assessment.bins import add_chunks
+from holdfast.studies.assessment.block import compile_plan
+from holdfast.studies.assessment.plan import AssessmentPlan, Rows, make_plan
+from holdfast.studies.assessment.rows import (
+    AssessmentTally,
+    Progress,
+    compute_blocks,
+    compute_missing_chunks,
+    describe_provenance,
+    read_chunks,
+)
+
+_MAX_ROWS_IN_MEMORY = 2_000_000  # rows held in memory unless asked otherwise
+_MAX_NAMED_CELLS = 4  # of a study, in a message
+
+
+@check_arguments
+@reports_progress("assessing poses")
+def assess(
+    arm: Arm,
+    region: Region | None = None,
+    index: Index | str = "relative-manipulability",
+    *,
+    poses: int | None = None,
+    seed: int = 0,
+    sampling: Sampling = "random",
+    restarts: int = 100,
+    store: str | Path | None = None,
+    keep: bool | None = None,
+    progress: Progress | None = None,
+    task: str | Task | Sequence[str] | None = None,
+    optimise: bool = False,
+    after_lock: bool = False,
+    locked: Mapping[str | int, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    margin: float = 0.0,
+) -> Assessment:
+    """Compute the distribution of an index over a region.
+
+    Each pose is solved by inverse kinematics from random starts; the configuration found is evaluated as it is (the
+    paper's non-optimised sample) and, if asked for, the best configuration of the pose as well (the optimised sample).
+    A region of joints is evaluated directly.
+
+    Args:
+        arm: The arm.
+        region: Which poses, or configurations. Default: that of the paper for its arm, else a box around the arm's home.
+        index: An index of that arm, or its name.
+        poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
+        seed: The same seed gives the same result, whatever the number of threads or chunks.
+        sampling: ``random``, or ``sobol`` (scrambled; a power of two of poses is best).
+        restarts: Random starts per pose before it counts as not reached.
+        store: Folder for the results, written chunk by chunk; an existing folder of the same run is continued.
+        keep: Hold every row in memory. Default: if there are no more than two million and there is no store.
+        progress: Called with (poses done, poses in all).
+        task: Of the index, ``pose`` if not given. An index that is given has its own, and this must be the same.
+        optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
+        after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
+        locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
+            at another pose if ``after_lock``, and are left out if not.
+        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
+            of an assumed radius along the links (:meth:`holdfast.Capsules.along_links`); False: the arm may collide with
+            itself.
+            Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
+        cell: Objects around the arm, or their file. Configurations that touch them are counted, the best ones keep clear of
+            them, and so do those that reach a pose after a lock. The arm's own links are then looked at as well, but for an
+            arm that moves in a plane and with ``clearance=False``.
+        margin: Smallest clearance of the best configurations, m; from an object beyond what the cell keeps from it.
+
+    Raises:
+        InputError: Options out of range, or an index of another arm or task, or a clearance of another arm, or a cell that
+            cannot be read, does not fit the arm, or whose files changed while the run was under way.
+        TaskError: The arm is not redundant for the task, or the index cannot be optimised.
+        StoreError: The folder cannot be used; nothing committed is lost.
+        KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call resumes.
+
+    Source: Abdi et al. 2012, sections IV and V.
+    """
+    if isinstance(index, str):
+        index = by_name(index, arm, "pose" if task is None else task)
+    elif task is not None:
+        index_task, requested_task = index.task, as_task(arm, task)
+        if not index_task.same_rows(requested_task) or (isinstance(task, Task) and index_task.length != requested_task.length):
+            raise InputError(
+                f"the index is for task {index_task.describe()}, asked for is {requested_task.describe()}; make it with "
+                f"the task to assess, or "
+                "leave task out"
+            )
+    region = default_region(arm) if region is None else region
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin, cell)
+    start_time = time.monotonic()
+    keep = (store is None and plan.poses <= _MAX_ROWS_IN_MEMORY) if keep is None else keep
+    folder = None if store is None else plan.create_store(Path(store))
+    compile_plan(plan)
+    tally = AssessmentTally(plan)
+    kept_rows: list[Rows] = []
+
+    def add_rows(rows: Rows) -> None:
+        tally.add(rows)
+        if keep:
+            kept_rows.append(rows)
+
+    if folder is None:
+        for start, rows in compute_blocks(plan, 0, plan.poses):
+            add_rows(rows)
+            if progress is not None:
+                progress(start + len(rows["status"]), plan.poses)
+    else:
+        with folder.lock_for_writing():
+            was_complete = folder.is_complete
+            compute_missing_chunks(folder, plan, progress)
+            if not was_complete:
+                earlier_seconds = folder.notes.get("seconds") or 0.0
+                folder.add_notes(**describe_provenance(earlier_seconds + time.monotonic() - start_time))
+        for rows in read_chunks(folder, plan):
+            add_rows(rows)
+    if plan.cell is not None:
+        plan.cell.require_unchanged()
+    merged = {name: np.concatenate([block[name] for block in kept_rows]) for name in kept_rows[0]} if kept_rows else None
+    return _make_assessment(plan, tally, folder, time.monotonic() - start_time, True, merged)
+
+
+@check_arguments
+def load(path: str | Path) -> Assessment:
+    """Read the assessment in a results folder, or in the folder of a study or of one of its cells.
+
+    Of a run that was stopped it has what is there. A study that kept counts (``keep: counts``) has distributions in bins and no
+    rows. A study with several cells has several assessments, each in a folder of its own.
+
+    Args:
+        path: What ``--out`` of ``holdfast assess`` or ``holdfast study run`` named, or a folder in ``cells`` of the latter.
+
+    Raises:
+        StoreError: Not a results folder of an assessment, or damaged, or a study of several cells; the message names them.
+    """
+    folder = _find_cell_folder(Path(path))
+    store = Store.open(folder)
+    kind = store.plan.get("kind")
+    if kind == "assess-counts":
+        return _load_counted(store)
+    if kind != "assess":
+        raise StoreError(f"'{folder}' is not an assessment; give the folder that `holdfast assess --out` wrote")
+    plan = AssessmentPlan.from_store(store, store.rows)
+    tally = AssessmentTally(plan)
+    for rows in read_chunks(store, plan):
+        tally.add(rows)
+    return _make_assessment(plan, tally, store, store.notes.get("seconds"), store.is_complete, None)
+
+
+def _find_cell_folder(folder: Path) -> Path:
+    """Return the folder of the only cell of a study; any other folder as it is."""
+    if not reading.path_exists(folder / STUDY_FILE):
+        return folder
+    study = Study.open(folder)
+    if len(study.cells) == 1:
+        return study.cell_folder(0)
+    cells = [f"'{study.cell_folder(number)}'" for number in range(min(len(study.cells), _MAX_NAMED_CELLS))]
+    more_text = f" or one of {len(study.cells) - len(cells)} more" if len(study.cells) > len(cells) else ""
+    raise StoreError(f"'{folder}' is a study of {len(study.cells)} cells; load one of them: {', '.join(cells)}{more_text}")
+
+
+def _load_counted(store: Store) -> Assessment:
+    """Build the assessment of a study's cell that kept counts instead of rows."""
+    parent = store.path.resolve().parents[1]
+    rows_by_cell = {}
+    if reading.path_exists(parent / STUDY_FILE):
+        rows_by_cell = {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
+    one_pose_plan = AssessmentPlan.from_store(store, 1, rows=False)
+    parts = add_chunks(
+        one_pose_plan.index, one_pose_plan.optimise, (store.read_checked(chunk) for chunk in store.committed_chunks)
+    )
+    samples = int(parts[0][0].facts[:2].sum())
+    plan = replace(one_pose_plan, poses=max(rows_by_cell.get(store.path.resolve().name, samples), 1))
+    best_counts = parts[1] if plan.optimise else None
+    return Assessment(
+        plan=plan,
+        distribution=parts[0][0].finish(),
+        worst_counts=parts[0][1],
+        optimised=None if best_counts is None else best_counts[0].finish(),
+        optimised_worst_counts=None if best_counts is None else best_counts[1],
+        survivors=None,
+        collisions=None,
+        clear=None,
+        store=None,
+        seconds=sum(entry.seconds for entry in store.entries.values()),
+        complete=store.is_complete,
+    )
+
+
+def _make_assessment(
+    plan: AssessmentPlan, tally: AssessmentTally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
+) -> Assessment:
+    best_statistics = tally.optimised
+    return Assessment(
+        plan=plan,
+        distribution=tally.unoptimised.finish(),
+        worst_counts=tally.unoptimised.worst_counts,
+        optimised=None if best_statistics is None else best_statistics.finish(),
+        optimised_worst_counts=None if best_statistics is None else best_statistics.worst_counts,
+        survivors=tally.survivors,
+        collisions=tally.collisions,
+        clear=tally.clear,
+        store=store,
+        seconds=seconds,
+        complete=complete,
+        _rows=rows,
+    )

@@ -1,0 +1,246 @@
+"""Single points of failure by structure: joints whose failure ends the task in every configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from holdfast.core.errors import TaskError
+from holdfast.core.formatting import format_number, format_percent, list_alternatives
+from holdfast.core.labels import TASK_SIZES
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.indices.determinants import Manipulability, RelativeManipulability
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task, plane_normal
+
+_SAMPLE_CONFIGURATIONS = 256
+# _MAX_SET_SIZE and _MAX_NAMED_SETS: joints of a set, and sets that are named
+_MAX_SET_SIZE = 3
+_MAX_NAMED_SETS = 4
+_SQUARED_RHO_TOLERANCE = 1e-10  # rho^2 of several joints is rounding noise, or that of 1.5708 for pi/2 in a file
+_ZERO_RHO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
+WEAK_FRACTION = 0.03  # of the best manipulability: below it the lock of a joint all but ends a task
+_NEAR_POINT_M = 0.05  # axes that miss a common point by more do not nearly meet
+_NEARLY_ZERO_RHO = 0.01  # rho that is left where axes meet but for half a millimetre, or for the digits of pi/2 in a file
+
+
+@dataclass(frozen=True, kw_only=True)
+class WeakJoint:
+    """Joint whose lock leaves little of the manipulability of a task in every configuration.
+
+    Attributes:
+        joint: Index from 0.
+        manipulability_left: Largest manipulability found once the joint has locked, as a fraction of the largest one found
+            of the healthy arm.
+        best: Largest relative manipulability found after the worst single failure, which is compared with the bound.
+        bound: The value no configuration can exceed.
+        axis_distance: Distance in metres by which the three axes before or after the joint miss a common point, the larger
+            of both; None where they are not three, not revolute, or do not nearly meet.
+    """
+
+    joint: int
+    manipulability_left: float
+    best: float
+    bound: float
+    axis_distance: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Structure:
+    """Effect of locking each joint on a task, for any configuration.
+
+    Attributes:
+        task: Name of the task.
+        redundancy: Joints minus rows; 0 or less means that any lock ends the task.
+        fatal: Joints, indices from 0, without which the task is singular in every configuration.
+        never: The healthy arm itself is singular for the task in every configuration.
+        together: Sets of two and three joints that do so when they lock at once and no fewer of them do; of those alone that
+            leave as many joints as the task has rows.
+        nearly: Joints, indices from 0, whose lock leaves almost nothing, and the most of it that was found, above 0 and
+            at most 0.01: axes that would meet but for the rounding or the calibration in the arm's file.
+        weak: Joints whose lock leaves at most 3 % of the best manipulability; they are no single points of failure by
+            structure, but nearly.
+    """
+
+    task: str
+    redundancy: int
+    fatal: tuple[int, ...]
+    never: bool
+    together: tuple[tuple[int, ...], ...] = ()
+    nearly: tuple[tuple[int, float], ...] = ()
+    weak: tuple[WeakJoint, ...] = ()
+
+    @property
+    def survives(self) -> bool:
+        """True if no single lock ends the task, or nearly ends it, by structure."""
+        return self.redundancy > 0 and not self.fatal and not self.nearly and not self.never
+
+
+def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
+    """Find the joints whose lock makes a task singular everywhere.
+
+    A joint is one if its relative manipulability vanishes at each of 256 random configurations (seeded): a function that
+    is analytic in q and zero there is zero everywhere, up to events of probability zero.
+    """
+    arm_task = as_task(arm, task)
+    redundancy = arm.n - arm_task.m
+    if redundancy <= 0:
+        return Structure(task=arm_task.name, redundancy=redundancy, fatal=tuple(range(arm.n)), never=False)
+    generator = np.random.default_rng(20120514)
+    # Not the joint limits: a narrow range could hide what another part of it shows.
+    q = generator.uniform(-np.pi, np.pi, (_SAMPLE_CONFIGURATIONS, arm.n))
+    index = RelativeManipulability(arm, arm_task)
+    result = index.evaluate(q)
+    largest = result.by_failure.max(axis=0)
+    fatal = tuple(np.flatnonzero(largest < _ZERO_RHO).tolist())
+    nearly = tuple(
+        (int(joint), float(largest[joint])) for joint in np.flatnonzero((largest >= _ZERO_RHO) & (largest <= _NEARLY_ZERO_RHO))
+    )
+    never = bool((result.value == 0).all() and (result.by_failure == 0).all())
+    together = () if never else _find_fatal_sets(index.task_jacobian(q), fatal)
+    weak = () if never or fatal or nearly else _find_weak_joints(arm, arm_task, q, result.by_failure, index.bound or 1.0)
+    return Structure(
+        task=arm_task.name, redundancy=redundancy, fatal=fatal, never=never, together=together, nearly=nearly, weak=weak
+    )
+
+
+def _find_weak_joints(arm: Arm, task: Task, q: FloatArray, by_failure: FloatArray, bound: float) -> tuple[WeakJoint, ...]:
+    """Find the joints after whose lock the largest manipulability at q (N, n) is at most 3 % of the healthy one."""
+    after_lock = Manipulability(arm, task).by_joint(q)
+    healthy = np.divide(after_lock, by_failure, out=np.zeros_like(after_lock), where=by_failure > 0).max()
+    fractions = after_lock.max(axis=0) / (healthy or 1.0)
+    best = float(by_failure.min(axis=1).max())
+    return tuple(
+        WeakJoint(
+            joint=int(joint),
+            manipulability_left=float(fractions[joint]),
+            best=best,
+            bound=bound,
+            axis_distance=_measure_axis_distance(arm, int(joint)),
+        )
+        for joint in np.flatnonzero(fractions <= WEAK_FRACTION)
+    )
+
+
+def _measure_axis_distance(arm: Arm, joint: int) -> float | None:
+    """Measure how far the three axes before and the three after a joint are from meeting in a point each, in metres."""
+    groups = [range(joint - 3, joint), range(joint + 1, joint + 4)]
+    if joint < 3 or joint + 3 >= arm.n or arm.prismatic[[number for group in groups for number in group]].any():
+        return None
+    frames = arm.frames(np.full(arm.n, 0.5))[1:-1]  # the distances of neighbouring axes are the same at every configuration
+    axes = [frames[number][:3, :3] @ axis_joint.axis for number, axis_joint in enumerate(arm.joints)]
+    largest = 0.0
+    for group in groups:
+        nearest = [
+            _find_nearest_points(frames[number][:3, 3], axes[number], frames[number + 1][:3, 3], axes[number + 1])
+            for number in group[:2]
+        ]
+        if any(pair is None for pair in nearest):
+            return None
+        (first, on_middle), (again_on_middle, last) = (pair for pair in nearest if pair is not None)
+        gaps = (first - on_middle, again_on_middle - on_middle, last - again_on_middle)
+        largest = max(largest, *(float(np.linalg.norm(gap)) for gap in gaps))
+    return largest if largest <= _NEAR_POINT_M else None
+
+
+def _find_nearest_points(p: FloatArray, u: FloatArray, r: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+    """Find the nearest points of the lines p + s u and r + t v, unit vectors u and v; None for parallel lines."""
+    cosine = float(u @ v)
+    if 1 - cosine**2 < _SQUARED_RHO_TOLERANCE:
+        return None
+    gap = r - p
+    s, t = np.linalg.solve([[1.0, -cosine], [cosine, -1.0]], [u @ gap, v @ gap])
+    return p + s * u, r + t * v
+
+
+def _find_fatal_sets(jacobians: FloatArray, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
+    """Return the minimal sets of two and three joints whose minors of the null-space projector vanish for all Jacobians (N, m,
+    n).
+    """
+    m, n = jacobians.shape[1:]
+    row_basis = np.linalg.svd(jacobians)[2][:, :m]
+    projector = np.eye(n) - np.swapaxes(row_basis, 1, 2) @ row_basis
+    fatal_sets = [frozenset({joint}) for joint in fatal]
+    for size in range(2, min(_MAX_SET_SIZE, n - m) + 1):
+        for candidate in combinations(range(n), size):
+            if any(smaller <= set(candidate) for smaller in fatal_sets):
+                continue
+            if np.linalg.det(projector[:, candidate][:, :, candidate]).max() < _SQUARED_RHO_TOLERANCE:
+                fatal_sets.append(frozenset(candidate))
+    return tuple(tuple(sorted(fatal_set)) for fatal_set in fatal_sets if len(fatal_set) > 1)
+
+
+def structures(arm: Arm) -> list[Structure]:
+    """Return the structure of every task that the arm's kind of motion has, the most demanding first."""
+    is_planar = plane_normal(arm) is not None
+    results = []
+    for name in sorted(
+        (name for name in TASK_SIZES if name.startswith("planar") == is_planar), key=TASK_SIZES.__getitem__, reverse=True
+    ):
+        try:
+            results.append(structure(arm, name))
+        except TaskError:
+            continue
+    return results
+
+
+def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
+    """Explain the structure of one task in one or two sentences, with the tasks that survive."""
+    survivors = [
+        candidate.task for candidate in others if candidate.survives and not candidate.weak and candidate.task != found.task
+    ]
+    instead = f" A task that every single lock leaves possible: {', '.join(survivors)}." if survivors else ""
+    if found.never:
+        return f"'{arm.name}' can never do task '{found.task}': it is singular in every configuration.{instead}"
+    if found.redundancy <= 0:
+        return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
+    if found.weak:
+        return " ".join(_describe_weak(arm, found, weak) for weak in found.weak) + instead
+    if not found.fatal and not found.nearly:
+        set_texts = [" + ".join(arm.joint_names[joint] for joint in candidate) for candidate in found.together]
+        more_text = f" and {len(set_texts) - _MAX_NAMED_SETS} more" if len(set_texts) > _MAX_NAMED_SETS else ""
+        sets_text = (
+            f" Sets whose locks together end it in every configuration: {', '.join(set_texts[:_MAX_NAMED_SETS])}{more_text}."
+            if set_texts
+            else ""
+        )
+        return f"No single joint of '{arm.name}' is a point of failure by structure for task '{found.task}'.{sets_text}"
+    sentences = []
+    if found.fatal:
+        sentences.append(
+            f"Single point of failure by structure: once {_name_joints(arm, found.fatal)} locks, '{arm.name}' is "
+            f"singular for task "
+            f"'{found.task}' in every configuration, however well it is chosen."
+        )
+    for joint, fraction in found.nearly:
+        sentences.append(
+            f"All but a single point of failure by structure: once {_name_joints(arm, [joint])} locks, '{arm.name}' "
+            f"has at most "
+            f"{format_number(fraction)} of its manipulability for task '{found.task}' left, at each of "
+            f"{_SAMPLE_CONFIGURATIONS} random configurations."
+        )
+    return " ".join(sentences) + instead
+
+
+def _describe_weak(arm: Arm, task_structure: Structure, weak: WeakJoint) -> str:
+    sentence = (
+        f"No joint of '{arm.name}' is exactly a single point of failure for task '{task_structure.task}', but "
+        f"{_name_joints(arm, [weak.joint])} nearly is: its lock leaves at most {format_percent(weak.manipulability_left)} "
+        f"of the best "
+        f"manipulability, and at {_SAMPLE_CONFIGURATIONS} random configurations the best relative manipulability after "
+        f"the worst lock is "
+        f"{format_number(weak.best)} of at most {format_number(weak.bound)}."
+    )
+    if weak.axis_distance is not None:
+        sentence += (
+            f" The three axes before the joint, or the three after it, miss a common point by "
+            f"{1000 * weak.axis_distance:.2g} mm."
+        )
+    return sentence
+
+
+def _name_joints(arm: Arm, joints: Sequence[int]) -> str:
+    return list_alternatives([f"{arm.joint_names[joint]} (joint {joint + 1})" for joint in joints])

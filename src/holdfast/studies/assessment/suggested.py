@@ -1,0 +1,29 @@
+"""Claims that an assessment suggests for a certificate."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from holdfast.certificates import ReachClaim, reach_claim
+from holdfast.core.errors import InputError
+from holdfast.kinematics.regions import Region
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task
+
+
+def make_region_claim(arm: Arm, region: Region, task: Task, unreached: float) -> ReachClaim:
+    """Return the claim that the arm reaches every pose of a region, of which a sample missed ``unreached``.
+
+    Raises:
+        InputError: The region is no box of positions, the task neither position nor pose, or some poses were not reached.
+    """
+    if region.kind != "box" or task.name not in ("position", "pose"):
+        raise InputError("certificates are for boxes of positions and angles, and for tasks position and pose")
+    if unreached:
+        raise InputError("poses of the sample were not reached, so that not every one of the region is; take a smaller region")
+    center, sizes = np.array(region.center), np.array(region.size)
+    if task.name == "position":
+        return reach_claim(arm, center[:3], sizes[:3])
+    # A region has its angles in the order of the paper, about z, y and x; a certificate in that of URDF.
+    angle_ranges = np.column_stack([center - sizes / 2, center + sizes / 2])[:2:-1]
+    return reach_claim(arm, center[:3], sizes[:3], rpy=angle_ranges)

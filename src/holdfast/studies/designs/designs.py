@@ -1,0 +1,221 @@
+"""Result of a search of designs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.formatting import format_count, format_number, indefinite_article
+from holdfast.core.probability.distribution import Distribution
+from holdfast.core.probability.intervals import Interval
+from holdfast.core.result import Result
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.indices.index import Index
+from holdfast.kinematics.regions.region import Region
+from holdfast.model.arm.model import Arm
+from holdfast.studies.designs.ranking import SAME_VALUE_TOLERANCE, describe_farther_design
+from holdfast.studies.designs.space import DesignSpace
+
+
+@dataclass(frozen=True)
+class HeldOutResult:
+    """Index of an arm on held-out poses: an estimate from a sample, not a proof.
+
+    Attributes:
+        distribution: Of the index at the best configuration of every pose; one that is not reached counts as 0.
+        guaranteed: Lower quantile of the index over the poses, with its 95 % confidence interval.
+    """
+
+    distribution: Distribution
+    guaranteed: Interval
+
+    @classmethod
+    def from_values(
+        cls, value: FloatArray, reached: NDArray[Any], weights: FloatArray, *, level: float, heaviest: float = 0.0
+    ) -> HeldOutResult:
+        """Return the distribution on held-out poses, and its quantile with the order statistics that enclose it.
+
+        Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
+
+        Args:
+            value: (P,) index of each pose.
+            reached: (P,) whether it was reached.
+            weights: (P,) of the poses; empty if all count alike.
+            level: Share of the poses that have at least the quantile.
+            heaviest: Largest weight that a pose can have.
+
+        Source: David and Nagaraja 2003, section 7.1, for the interval.
+        """
+        from scipy.stats import binom
+
+        is_reached = reached.astype(bool)
+        if weights.size:
+            distribution = Distribution.from_values(
+                value[is_reached],
+                "larger",
+                int((~is_reached).sum()),
+                weights=weights[is_reached],
+                unreached_weights=weights[~is_reached],
+                heaviest=heaviest,
+            )
+        else:
+            distribution = Distribution.from_values(value[is_reached], "larger", int((~is_reached).sum()))
+        sample_count, fraction, confidence = int(distribution.effective() + 1e-9), 1 - level, 0.95
+        end_fractions = (
+            np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], sample_count, fraction)) / sample_count
+        )
+        lower, middle, upper = distribution.quantile(
+            np.clip([end_fractions[0], fraction, end_fractions[1] + 1 / sample_count], 0, 1), reachable_only=False
+        ).tolist()
+        return cls(
+            distribution, Interval(value=middle, low=lower if end_fractions[0] > 0 else 0.0, high=upper, confidence=confidence)
+        )
+
+
+@dataclass(frozen=True)
+class HeldOutCheck:
+    """Baseline arm and best design on the same held-out poses, on which no choice was based.
+
+    Attributes:
+        given, best: Each on those poses.
+        optimism: By how much the best design looked better on the poses it was chosen on.
+    """
+
+    given: HeldOutResult
+    best: HeldOutResult
+    optimism: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Designs(Result):
+    """Result of :func:`holdfast.design`: D designs, the baseline arm first.
+
+    Attributes:
+        space: What was varied.
+        values: (D, k) rad and m.
+        guaranteed: (D,) index that a share ``level`` of the poses of the search has at least.
+        reach: (D,) largest distance of the tool point from the arm's base within the limits, m.
+        reached: (D,) share of the poses with a configuration.
+        front: Numbers of the designs that no other one beats in both reach and guaranteed value, by reach.
+        best: Number of the design with the greatest guaranteed value; of several within 0.1 % of it the farthest-reaching one.
+        checked: The given arm and the best design on fresh poses.
+        index: Of the given arm.
+        region: The poses; the same for all designs.
+        level: Share of the poses for which the value is guaranteed.
+        poses: Number of poses of the search.
+        screened: Designs spread over the space.
+        climbs: Climbs from the best of them.
+        seed: Of everything random.
+        seconds: Time this call took; less than the search where it went on from a folder. None if not known.
+        method: How it was computed, for reports: words and texts.
+    """
+
+    space: DesignSpace
+    values: FloatArray
+    guaranteed: FloatArray
+    reach: FloatArray
+    reached: FloatArray
+    front: NDArray[np.intp]
+    best: int
+    checked: HeldOutCheck
+    index: Index
+    region: Region
+    level: float
+    poses: int
+    screened: int
+    climbs: int
+    seed: int
+    seconds: float | None
+    method: list[tuple[str, str]]
+
+    @property
+    def start_guaranteed(self) -> float:
+        """Guaranteed index of the baseline arm, in the unit of the index."""
+        return float(self.guaranteed[0])
+
+    @property
+    def start_reach(self) -> float:
+        """Reach of the baseline arm, m."""
+        return float(self.reach[0])
+
+    @property
+    def best_is_start(self) -> bool:
+        """True if no design beats the baseline arm."""
+        return self.best == 0
+
+    def arm(self, number: int | None = None) -> Arm:
+        """Return the arm of a design, by default the best one."""
+        return self.space.arm_of(self.values[self.best if number is None else number])
+
+    @property
+    def headline(self) -> str:
+        """Answer in one or two sentences."""
+        baseline, best = self.checked.given, self.checked.best
+        baseline_text, best_text = format_value_interval(baseline.guaranteed), format_value_interval(best.guaranteed)
+        index_name, level_text = self.index.name, format_level(self.level)
+        if not best.guaranteed.value > 0 and not baseline.guaranteed.value > 0:
+            return (
+                f"No design within these bounds keeps any {index_name} at {level_text} of the poses of the region: too "
+                f"many poses "
+                "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or "
+                "level."
+            )
+        farther_text = describe_farther_design(self.guaranteed, self.reach, self.best)
+        if self.best_is_start:
+            answer = (
+                f"No design was found that keeps more than the given arm: at {level_text} of the poses of the region its "
+                f"{index_name} "
+                f"is at least {baseline_text}, {self._describe_failures()}."
+            )
+            return f"{answer} {farther_text}".rstrip()
+        if self.guaranteed[self.best] <= (1 + SAME_VALUE_TOLERANCE) * self.start_guaranteed:
+            return (
+                f"No design keeps more than the given arm, but the best one keeps as much, {best_text} "
+                f"at {level_text} of the poses (the given arm {baseline_text}), and reaches {self.reach[self.best]:.3f} m "
+                f"instead of {self.start_reach:.3f} m. {farther_text}"
+            ).rstrip()
+        if best.guaranteed.value <= baseline.guaranteed.value:
+            return (
+                f"No gain that lasts was found: on the {format_count(self.poses, 'pose')} of the search the best design "
+                f"keeps a {index_name} of {format_number(float(self.guaranteed[self.best]))}, but on fresh ones "
+                f"{best_text}, and the given "
+                f"arm {baseline_text}. Search with more poses."
+            )
+        reaches = f"The reach goes from {self.start_reach:.3f} m to {self.reach[self.best]:.3f} m."
+        return (
+            f"For {level_text} of the poses of the region the best design keeps {indefinite_article(index_name)} "
+            f"{index_name} of at least "
+            f"{best_text}, {self._describe_failures()}; the given arm {baseline_text}. {reaches} {farther_text}"
+        ).rstrip()
+
+    def _describe_failures(self) -> str:
+        sizes = {len(failed) for failed in self.index.failures}
+        if len(sizes) > 1 or len(self.index.failures) != math.comb(self.space.arm.n, min(sizes)):
+            return "after any of the failures considered"
+        return "whichever joint locks" if sizes == {1} else f"whichever {min(sizes)} joints lock together"
+
+    def describe(self) -> list[str]:
+        """Return the result in a few sentences."""
+        reach_range = f"{self.reach[self.front[0]]:.4g} to {self.reach[self.front[-1]]:.4g} m"
+        return [
+            self.headline,
+            f"{len(self.values):,} designs tried; {len(self.front)} of them are on the Pareto front of reach and "
+            f"{self.index.name}, reach {reach_range}",
+        ]
+
+
+def format_level(fraction: float) -> str:
+    """Format a fraction that the user chose, as percent."""
+    return f"{100 * fraction:.4g} %"
+
+
+def format_value_interval(interval: Interval) -> str:
+    """Format a value with its interval."""
+    return (
+        f"{format_number(interval.value)} ({format_number(interval.low)} to {format_number(interval.high)}, "
+        f"{100 * interval.confidence:.4g} %)"
+    )

@@ -1,0 +1,279 @@
+"""Evaluate designs pose by pose: find the best configuration of every design and pose, in one batch.
+
+The search for configurations is that of :func:`holdfast.optimise` (same steps, compiled once for all designs), but most of its
+random starts are spared: a design begins where a design near it has ended.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.core.typing import FloatArray
+from holdfast.kernels.compiled import expect_rows
+from holdfast.kinematics.solvers.optimum import FIRST_STEPS, INITIAL_RADIUS, LAST_STEPS, best_per_owner, default_starts
+from holdfast.model.arm.configurations import make_limits_finite
+from holdfast.studies.designs.family import Family
+
+Index = NDArray[np.intp]
+
+POSE_TOLERANCE = 1e-6  # of the pose, m and rad; of an arm that is shorter than 1 m as much less
+_IK_STEPS = 40
+_KEPT_CONFIGURATIONS = 2  # configurations of a design and pose that the next designs begin from
+_START_DIVISOR = 8  # of a design with neighbours: the given number of random starts by this, besides what the neighbours found
+_IK_RESTARTS = 24  # more starts of inverse kinematics where nothing was found
+_POOL_SIZE = 1 << 12
+# _POSE_STRIDE and _START_STRIDE: odd: each pose walks through the whole pool of starts
+_POSE_STRIDE = 2654435761
+_START_STRIDE = 40503
+# _IK_ROWS and _ASCENT_ROWS: steps for each design and pose (measured: 519 and 113)
+_IK_ROWS = 500
+_ASCENT_ROWS = 100
+_BATCH_ROWS = 1 << 16  # starts side by side; no result depends on it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evaluated:
+    """D designs evaluated at P poses.
+
+    Attributes:
+        values: (D, k) the designs.
+        q: (D, P, n) the best configuration found, rad and m; where the pose is not reached the one that comes nearest.
+        value: (D, P) the index there; 0 where the pose is not reached.
+        reached: (D, P) a configuration within the limits was found.
+        miss: (D, P) how near the end effector came where it was not: length of the task's error, m and rad; 0 where it was.
+        kept: (D, P, K, n) configurations to begin from nearby, best first; NaN where there are fewer.
+    """
+
+    values: FloatArray
+    q: FloatArray
+    value: FloatArray
+    reached: NDArray[np.bool_]
+    miss: FloatArray
+    kept: FloatArray
+
+    def take(self, designs: Any) -> Evaluated:
+        """Return some of the designs."""
+        return Evaluated(**{name: getattr(self, name)[designs] for name in self.__dataclass_fields__})
+
+    @staticmethod
+    def concatenate(parts: list[Evaluated]) -> Evaluated:
+        """Concatenate several results."""
+        return Evaluated(**{name: np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__})
+
+    @property
+    def signed_index(self) -> FloatArray:
+        """(D, P) index; where the pose is not reached, minus the pose error of the end effector, one per m and rad.
+
+        So that a search is drawn towards poses that a design does not reach yet.
+        """
+        return np.where(self.reached, self.value, -self.miss)
+
+
+class Evaluator:
+    """Evaluator of designs at fixed poses; equal designs give equal bits for any number of threads.
+
+    Args:
+        family: The designs and what is asked of them.
+        poses: (P, 4, 4) in the world.
+        seed: Of the random starts.
+
+    Attributes:
+        family, poses: The same.
+        starts: Random starts of a design that has no neighbours, as :func:`holdfast.optimise` takes.
+    """
+
+    def __init__(self, family: Family, poses: FloatArray, seed: int = 0) -> None:
+        self.family, self.poses = family, poses
+        self.starts = default_starts(family.arm, family.task)
+        self._tolerance = POSE_TOLERANCE * min(family.space.arm.length_unit, 1.0)
+        self._targets = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
+        self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(4,))).random((_POOL_SIZE, family.arm.n))
+
+    def __call__(self, values: FloatArray, near: Evaluated | None = None, fresh: int | None = None) -> Evaluated:
+        """Evaluate designs.
+
+        Args:
+            values: (D, k).
+            near: Designs evaluated before: each new one begins from the configurations of the nearest two of them. If not
+                given, the first design is searched from many random starts, and the others grow from it, each round twice as
+                many as the one before.
+            fresh: Random starts of each design and pose besides; an eighth of ``starts`` if not given.
+        """
+        fresh = self.starts // _START_DIVISOR if fresh is None else fresh
+        for steps, kernel in ((_IK_ROWS, "inverse"), (_ASCENT_ROWS, "ascent")):
+            with expect_rows(len(values) * len(self.poses) * steps):
+                getattr(self.family, kernel)
+        if near is not None:
+            return self._search_near(values, near, fresh)
+        if not len(values):
+            return self._empty_result()
+        results = [self._search_configurations(values[:1], np.empty((1, len(self.poses), 0, self.family.arm.n)), self.starts)]
+        start = 1
+        while start < len(values):
+            end, rounds = min(2 * start, len(values)), int(start).bit_length()
+            results.append(
+                self._search_near(values[start:end], Evaluated.concatenate(results), max(fresh, self.starts >> rounds))
+            )
+            start = end
+        return Evaluated.concatenate(results)
+
+    def _empty_result(self) -> Evaluated:
+        pose_count, n, parameter_count = len(self.poses), self.family.arm.n, len(self.family.space.parameters)
+        no_values, no_flags = np.empty((0, pose_count)), np.empty((0, pose_count), dtype=bool)
+        return Evaluated(
+            values=np.empty((0, parameter_count)),
+            q=np.empty((0, pose_count, n)),
+            value=no_values,
+            reached=no_flags,
+            miss=no_values,
+            kept=np.empty((0, pose_count, _KEPT_CONFIGURATIONS, n)),
+        )
+
+    def _search_near(self, values: FloatArray, neighbours: Evaluated, random_count: int) -> Evaluated:
+        space = self.family.space
+        width = space.upper - space.lower
+        distance = np.linalg.norm((values[:, None] - neighbours.values) / width, axis=2)
+        nearest = np.argsort(distance, axis=1, kind="stable")[:, :2]
+        starts = np.moveaxis(neighbours.kept[nearest], 1, 2)  # (D, P, 2, K, n)
+        starts = starts.reshape(*starts.shape[:2], -1, starts.shape[-1])
+        block_size = max(1, _BATCH_ROWS // (len(self.poses) * (starts.shape[2] + random_count)))
+        parts = [
+            self._search_configurations(values[first : first + block_size], starts[first : first + block_size], random_count)
+            for first in range(0, len(values), block_size)
+        ]
+        return Evaluated.concatenate(parts) if parts else self._empty_result()
+
+    # ---- configurations ----------------------------------------------------------------------------------------------
+
+    def _search_configurations(self, values: FloatArray, given_starts: FloatArray, random_count: int) -> Evaluated:
+        """Find the best configurations from given starts (D, P, S, n), NaN where there is none, and from some random starts."""
+        design_count, pose_count, n = len(values), len(self.poses), self.family.arm.n
+        all_rows = np.arange(design_count * pose_count)
+        is_finite = np.isfinite(given_starts).all(axis=-1)  # (D, P, S)
+        owners = [np.repeat(all_rows, is_finite.reshape(design_count * pose_count, -1).sum(axis=1))]
+        starts = [given_starts.reshape(-1, n)[is_finite.reshape(-1)]]
+        if random_count:
+            owners.append(np.repeat(all_rows, random_count))
+            starts.append(self._sample_starts(values, owners[-1], np.tile(np.arange(random_count), design_count * pose_count)))
+        rows, q = np.concatenate(owners), np.concatenate(starts)
+        nearest, pose_errors = np.full((design_count * pose_count, n), np.nan), np.full(design_count * pose_count, np.inf)
+        rows, q = self._solve_inverse_kinematics(values, rows, q, nearest, pose_errors)
+        unsolved = np.setdiff1d(all_rows, rows)
+        if unsolved.size:
+            retry_rows = np.repeat(unsolved, _IK_RESTARTS)
+            start_numbers = np.tile(np.arange(random_count, random_count + _IK_RESTARTS), unsolved.size)
+            retry_rows, retry_q = self._solve_inverse_kinematics(
+                values, retry_rows, self._sample_starts(values, retry_rows, start_numbers), nearest, pose_errors
+            )
+            rows, q = np.concatenate([rows, retry_rows]), np.concatenate([q, retry_q])
+        rows, q, value = self._maximise_index(values, rows, q)
+        best_rows = best_per_owner(rows, value, _KEPT_CONFIGURATIONS)
+        rows, q, value = rows[best_rows], q[best_rows], value[best_rows]
+        kept_q = np.full((design_count * pose_count, _KEPT_CONFIGURATIONS, n), np.nan)
+        is_first = np.r_[True, rows[1:] != rows[:-1]] if rows.size else np.zeros(0, dtype=bool)
+        rank = np.arange(rows.size) - np.maximum.accumulate(np.where(is_first, np.arange(rows.size), 0)) if rows.size else rows
+        kept_q[rows, rank] = q
+        reached = np.zeros(design_count * pose_count, dtype=bool)
+        reached[rows[is_first]] = True
+        best_values = np.zeros(design_count * pose_count)
+        best_values[rows[is_first]] = value[is_first]
+        nearest[rows[is_first]] = q[is_first]
+        # A pose that is not reached hands on where the arm came nearest.
+        kept_q[~reached, 0] = nearest[~reached]
+        pose_errors = np.where(reached, 0.0, pose_errors)
+        shape = (design_count, pose_count)
+        return Evaluated(
+            values=values,
+            q=nearest.reshape(*shape, n),
+            value=best_values.reshape(shape),
+            reached=reached.reshape(shape),
+            miss=pose_errors.reshape(shape),
+            kept=kept_q.reshape(*shape, _KEPT_CONFIGURATIONS, n),
+        )
+
+    def _sample_starts(self, values: FloatArray, owner: Index, start_number: Index) -> FloatArray:
+        """Return start ``start_number`` of each design and pose: a fraction of the joint ranges that depends on the
+        pose alone.
+        """
+        design, pose = np.divmod(owner, len(self.poses))
+        lower, upper = self.finite_limits(values)
+        fractions = self._pool[(pose * _POSE_STRIDE + start_number * _START_STRIDE) % _POOL_SIZE]
+        return np.asarray(lower[design] + fractions * (upper - lower)[design])
+
+    def finite_limits(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return limits (D, n) to sample between; see ``holdfast.model.arm.configurations.finite_limits``."""
+        return make_limits_finite(*self.family.limits(values), self.family.prismatic)
+
+    def _solve_inverse_kinematics(
+        self, values: FloatArray, owner: Index, q: FloatArray, nearest: FloatArray, pose_errors: FloatArray
+    ) -> tuple[Index, FloatArray]:
+        """Solve inverse kinematics from starts q (R, n) and return the converged ones; the nearest end of the others is
+        recorded.
+        """
+        design, pose = np.divmod(owner, len(self.poses))
+        lower, upper = self.family.limits(values)
+        parameters = np.concatenate([self._targets[pose], values[design]], axis=1)
+        run = self.family.inverse.run(np.clip(q, lower[design], upper[design]), parameters, self._tolerance**2, _IK_STEPS)
+        error_sizes = np.sqrt(np.where(np.isnan(run.residual), np.inf, run.residual))
+        best_rows = best_per_owner(owner, -error_sizes, 1)
+        best_rows = best_rows[error_sizes[best_rows] < pose_errors[owner[best_rows]]]
+        nearest[owner[best_rows]], pose_errors[owner[best_rows]] = run.state[best_rows], error_sizes[best_rows]
+        return owner[run.done], run.state[run.done]
+
+    def _maximise_index(self, values: FloatArray, owner: Index, q: FloatArray) -> tuple[Index, FloatArray, FloatArray]:
+        """Move q along the poses to the best configurations; return the owners, configurations, and values of those still on
+        their pose.
+        """
+        if not owner.size:
+            return owner, q, np.empty(0)
+        q, radius = self._ascend_index(values, owner, q, FIRST_STEPS, np.full(len(q), INITIAL_RADIUS))
+        best_rows = best_per_owner(owner, self.value(values, owner, q), 2 * _KEPT_CONFIGURATIONS)
+        owner, q, radius = owner[best_rows], q[best_rows], radius[best_rows]
+        q, _ = self._ascend_index(values, owner, q, LAST_STEPS, radius)
+        design, pose = np.divmod(owner, len(self.poses))
+        parameters = np.concatenate([self._targets[pose], values[design]], axis=1)
+        q = self.family.inverse.run(q, parameters, (1e-3 * self._tolerance) ** 2, _IK_STEPS).state
+        q = np.where(self.family.turning, np.arctan2(np.sin(q), np.cos(q)), q)
+        is_valid = self.on_pose(values, owner, q)
+        return owner[is_valid], q[is_valid], self.value(values, owner[is_valid], q[is_valid])
+
+    def _ascend_index(
+        self, values: FloatArray, owner: Index, q: FloatArray, steps: int, radius: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        n = self.family.arm.n
+        design, pose = np.divmod(owner, len(self.poses))
+        position, rotation, design_values = self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3), values[design]
+        state = np.concatenate([q, radius[:, None], np.zeros_like(q)], axis=1)
+        if n <= self.family.task.m:
+            return q, radius
+        for _ in range(steps):
+            before = state
+            state = self.family.ascent.rows(state[:, :n], state[:, n], state[:, n + 1 :], position, rotation, design_values)
+            is_invalid = ~np.isfinite(state).all(axis=1)  # a step that divided by zero (a singular configuration) is not taken
+            state[is_invalid] = before[is_invalid]
+        return state[:, :n], state[:, n]
+
+    # ---- facts -------------------------------------------------------------------------------------------------------
+
+    def value(self, values: FloatArray, owner: Index, q: FloatArray) -> FloatArray:
+        """Return the index (R,) of rows ``owner`` (design times P plus pose) at q (R, n); 0 where the arm is singular."""
+        index_values = self.family.value.rows(q, values[owner // len(self.poses)])
+        return np.asarray(np.nan_to_num(index_values.min(axis=1), nan=0.0, posinf=0.0, neginf=0.0))
+
+    def on_pose(self, values: FloatArray, owner: Index, q: FloatArray) -> NDArray[np.bool_]:
+        """Return (R,) True where q is on its pose and within the limits of its design."""
+        design, pose = np.divmod(owner, len(self.poses))
+        lower, upper = self.family.limits(values)
+        position, rotation = self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3)
+        errors = self.family.errors.rows(q, position, rotation, values[design])
+        inside = ((q >= lower[design]) & (q <= upper[design])).all(axis=1)
+        return np.asarray(inside & (errors <= self._tolerance).all(axis=1))
+
+    def rows(self, owner: Index, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return position (R, 3), rotation (R, 3, 3), and design (R, k) of rows."""
+        design, pose = np.divmod(owner, len(self.poses))
+        return self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3), values[design]

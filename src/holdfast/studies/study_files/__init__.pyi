@@ -1,0 +1,2 @@
+from holdfast.studies.study_files.study_file import StudyFile as StudyFile
+from holdfast.studies.study_files.study_file import read_study_file as read_study_file

@@ -1,0 +1,112 @@
+"""Assessments as cells of a study: each is the run of :func:`holdfast.assess`, in chunks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from holdfast.core.status import Status
+from holdfast.core.sweeps.job import Chunk
+from holdfast.core.sweeps.store import Column
+from holdfast.studies.assessment.bins import FACT_NAMES, IndexCounts, compute_bin_edges
+from holdfast.studies.assessment.block import compile_plan, evaluate_block, evaluate_worst_cases
+from holdfast.studies.assessment.plan import AssessmentPlan, Rows
+from holdfast.studies.study_files.jobs.process import PlannedJob
+
+Keep = Literal["rows", "counts"]
+_JOINT_BLOCKS_PER_STEP = 8  # blocks of joints; no value depends on it but the last digits of sums
+_SAMPLE_COLUMNS = (("", "index", "worst"), ("optimised_", "optimised_index", "optimised_worst"))
+
+
+@dataclass(frozen=True, eq=False)
+class AssessJob(PlannedJob[AssessmentPlan]):
+    """Poses of a region, solved and evaluated.
+
+    Attributes:
+        plan: As :meth:`holdfast.studies.assessment.plan.AssessmentPlan.to_dict` gives it.
+        rows, chunk: Poses, in all and of a chunk.
+        keep: ``rows``: every pose, a folder that :func:`holdfast.load` reads; ``counts``: only how values are distributed.
+    """
+
+    rows: int
+    chunk: int
+    keep: Keep = "rows"
+
+    def compile_plan(self) -> AssessmentPlan:
+        """Return the plan after compiling its equations."""
+        plan = AssessmentPlan.from_dict(self.plan, self.rows)
+        compile_plan(plan)
+        if self.keep == "counts" and plan.region.kind == "joints":
+            plan.index.worst_case(np.zeros((1, plan.arm.n)))
+        return plan
+
+    def columns(self) -> list[Column]:
+        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        plan = self.compiled_parts
+        if self.keep == "rows":
+            return plan.columns()
+        columns = []
+        bins, failures = len(compute_bin_edges(plan.index)) - 1, len(plan.index.failures)
+        for prefix, _, _ in _SAMPLE_COLUMNS[: 1 + plan.optimise]:
+            columns += [
+                Column(f"{prefix}bins", "int64", (("bin", bins),), units="1", about="values in each bin of the index"),
+                Column(f"{prefix}facts", "float64", (("fact", len(FACT_NAMES)),), units="1", about=", ".join(FACT_NAMES)),
+                Column(
+                    f"{prefix}worst_counts",
+                    "int64",
+                    (("failure", failures),),
+                    units="1",
+                    about="how often each failure is the worst",
+                ),
+            ]
+        return columns
+
+    def run(self, chunk: Chunk) -> Rows:
+        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        plan = self.compiled_parts
+        if self.keep == "rows":
+            parts = list(self._iterate_blocks(plan, chunk))
+            return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        samples = [
+            (IndexCounts(plan.index), np.zeros(len(plan.index.failures), np.int64))
+            for _ in _SAMPLE_COLUMNS[: 1 + plan.optimise]
+        ]
+        for rows in self._iterate_blocks(plan, chunk):
+            reached = (rows["status"] == Status.OK) | (rows["status"] == Status.SINGULAR)
+            for (prefix, index, worst), (counts, worst_counts) in zip(_SAMPLE_COLUMNS, samples, strict=False):
+                is_counted = reached
+                if prefix and "optimised_status" in rows:
+                    is_counted = reached & (rows["optimised_status"] != Status.INFEASIBLE)
+                values, singular = rows[index], int(np.count_nonzero(is_counted & (rows[worst] < 0)))
+                counts.add(values if is_counted.all() else values[is_counted], int(np.count_nonzero(~is_counted)), singular)
+                worst_counts += np.bincount(rows[worst] + 1, minlength=worst_counts.size + 1)[1:]  # -1: there is none
+        result: Rows = {}
+        for (prefix, _, _), (counts, worst_counts) in zip(_SAMPLE_COLUMNS, samples, strict=False):
+            result |= {
+                f"{prefix}bins": counts.bins[None],
+                f"{prefix}facts": counts.facts[None],
+                f"{prefix}worst_counts": worst_counts[None],
+            }
+        return result
+
+    def _iterate_blocks(self, plan: AssessmentPlan, chunk: Chunk) -> Iterator[Rows]:
+        """Yield the rows of a chunk, one or several blocks at a time; they equal those of an assessment where chunks are whole
+        blocks.
+
+        Nothing else is drawn for configurations of joints, so many blocks go at once; where only the worst cases are counted,
+        through the same memory again and again. Threads that pass Python, and the pages of new arrays, to one another after
+        every block are hardly 1.4 times as fast as one.
+        """
+        block_size, joints = plan.region.block, plan.region.kind == "joints"
+        first, step = chunk.number * -(-self.chunk // block_size), _JOINT_BLOCKS_PER_STEP * block_size if joints else block_size
+        buffer = np.empty((min(step, chunk.stop - chunk.start), plan.arm.n)) if joints and self.keep == "counts" else None
+        for start in range(chunk.start, chunk.stop, step):
+            stop, number = min(start + step, chunk.stop), first + (start - chunk.start) // block_size
+            output = None if buffer is None else buffer[: stop - start]
+            samples = plan.region.samples(
+                start, stop, number, seed=plan.seed, sampling=plan.sampling, count=self.rows, out=output
+            )
+            yield evaluate_block(plan, samples, number) if output is None else evaluate_worst_cases(plan, samples)

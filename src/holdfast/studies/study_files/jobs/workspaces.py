@@ -1,0 +1,60 @@
+"""Workspaces as cells of a study: the starts from which a target is still reached."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.convergence.analysis import StartConfigurations, TargetAnalysis, choose_method, prepare_analysis
+from holdfast.control.convergence.places import Places, read_places
+from holdfast.core.errors import InputError
+from holdfast.core.sweeps.job import Chunk
+from holdfast.core.sweeps.store import Column
+from holdfast.studies.study_files.jobs.laws import PlannedLaw
+
+Rows = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class WorkspaceJob(PlannedLaw[tuple[TargetAnalysis, Places]]):
+    """Random starts of :func:`holdfast.workspace`, a chunk with its own seed; a row is a start.
+
+    Attributes:
+        plan: Arm, task, law, target, configurations and points of each start, time limit, seed.
+        rows: Starts in all.
+    """
+
+    rows: int
+
+    def compile_plan(self) -> tuple[TargetAnalysis, Places]:
+        """Return the job that all starts share, and the poses from which they are sampled."""
+        plan = self.plan
+        law = self.make_law()
+        method = choose_method(law)
+        job = prepare_analysis(
+            law,
+            plan["target"],
+            plan["configurations"],
+            plan["points"],
+            method,
+            time_limit=plan["time_limit"],
+            seed=plan["seed"],
+        )
+        if not job.is_reached:
+            raise InputError(f"no configuration of '{law.arm.name}' was found at the target; choose one within its reach")
+        places = read_places(law.arm, law.task, self.rows, np.random.default_rng(plan["seed"]))
+        return job, places
+
+    def columns(self) -> list[Column]:
+        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        return self.compiled_parts[0].store_columns()
+
+    def run(self, chunk: Chunk) -> Rows:
+        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        job, places = self.compiled_parts
+        chunk_places = Places(places.poses[chunk.start : chunk.stop])
+        beginnings = StartConfigurations(job.law, chunk_places, job.configurations, job.method, chunk.own_seed)
+        return job.analyse(*beginnings.find_block(0, len(chunk)), len(chunk))

@@ -1,0 +1,296 @@
+"""Read the results of the cells of a study, a chunk at a time, for any number of chunks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.convergence.maps import NO_CONFIGURATION, average_fraction
+from holdfast.control.convergence.start_workspace import mean_intervals, mean_over
+from holdfast.control.simulation.runs import RunOutcome
+from holdfast.core.errors import StoreError
+from holdfast.core.probability.distribution import Distribution
+from holdfast.core.probability.intervals import Difference, Interval
+from holdfast.core.sweeps.store import Store
+from holdfast.core.sweeps.study import Study
+from holdfast.core.typing import FloatArray
+from holdfast.studies.assessment.answer import ZERO_INDEX
+from holdfast.studies.assessment.bins import add_chunks
+from holdfast.studies.assessment.plan import AssessmentPlan
+from holdfast.studies.assessment.rows import AssessmentTally
+from holdfast.teleop.trials.recordings import End
+
+Rows = dict[str, NDArray[Any]]
+
+
+def read_chunks(study: Study, cell: int) -> Iterator[Rows]:
+    """Yield the committed chunks of a cell after comparing their checksums.
+
+    Raises:
+        StoreError: A chunk is damaged.
+    """
+    if not study.cell_folder(cell).exists():
+        return
+    store = study.cell_store(cell)
+    for chunk in store.committed_chunks:
+        try:
+            rows = store.read_checked(chunk)
+        except StoreError as error:
+            raise StoreError(
+                f"chunk {chunk + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged ({error}); give "
+                f"'holdfast study verify {study.path}', then the run again"
+            ) from error
+        yield rows
+
+
+_SWEPT_LABELS = ("index", "task", "region", "failures")
+_LABELS_BY_JOB = {"assess": (*_SWEPT_LABELS, "keep"), "designs": _SWEPT_LABELS}
+
+
+def read_labels(study: Study, cell: int) -> dict[str, Any]:
+    """Return the labels of a cell in the sweep.
+
+    Raises:
+        StoreError: A label is missing.
+    """
+    labels: dict[str, Any] = study.cells[cell]["labels"]
+    for name in ("job", "arm", *_LABELS_BY_JOB.get(str(labels.get("job")), ("law", "task"))):
+        if not isinstance(labels.get(name), str):
+            raise StoreError(
+                f"'{study.path}' is damaged: cell '{study.cells[cell]['name']}' has no label '{name}'; give the study file to "
+                "'holdfast study run' again, which writes it anew"
+            )
+    return labels
+
+
+@dataclass(frozen=True)
+class AssessedCell:
+    """Result of a cell with an index over a region.
+
+    Attributes:
+        labels: Of the cell.
+        plan: What was computed.
+        plain, optimised: Distributions; None where nothing is computed, or was not asked for.
+        worst: Name of the failure that is the worst most often, and its share; None if there is none.
+        survival_fraction: Share of the poses left after a lock, mean over the joints; None if not asked for.
+    """
+
+    labels: dict[str, Any]
+    plan: AssessmentPlan
+    plain: Distribution | None
+    optimised: Distribution | None
+    worst: tuple[str, float] | None
+    survival_fraction: float | None
+
+    def interval(self, threshold: float, optimised: bool) -> Interval | None:
+        """Return the probability that the index meets a threshold, or None."""
+        distribution = self.optimised if optimised else self.plain
+        if distribution is None or not distribution.samples:
+            return None
+        larger = self.plan.index.better == "larger"
+        return distribution.interval(at_least=threshold) if larger else distribution.interval(at_most=threshold)
+
+
+def read_assessment(study: Study, cell: int) -> AssessedCell:
+    """Read the result of an assessment."""
+    labels = read_labels(study, cell)
+    store = study.cell_store(cell)
+    plan = AssessmentPlan.from_store(store, study.cells[cell]["rows"], rows=labels["keep"] == "rows")
+    if labels["keep"] == "counts":
+        return _read_counts(study, cell, labels, plan)
+    tally, has_rows = AssessmentTally(plan), False
+    for rows in read_chunks(study, cell):
+        tally.add(rows)
+        has_rows = True
+    plain = tally.unoptimised.finish() if has_rows else None
+    best = tally.optimised.finish() if has_rows and tally.optimised is not None else None
+    survival_fraction = None
+    if has_rows and tally.survivors is not None and plain is not None:
+        survival_fraction = float(np.mean(tally.survivors) / plain.total_weight())
+    return AssessedCell(labels, plan, plain, best, _find_worst_failure(plan, tally.unoptimised.worst_counts), survival_fraction)
+
+
+def _read_counts(study: Study, cell: int, labels: dict[str, Any], plan: AssessmentPlan) -> AssessedCell:
+    parts = add_chunks(plan.index, plan.optimise, read_chunks(study, cell))
+    distributions = [counts.finish() if counts.facts[:2].any() else None for counts, _ in parts]
+    return AssessedCell(
+        labels,
+        plan,
+        distributions[0],
+        distributions[1] if plan.optimise else None,
+        _find_worst_failure(plan, parts[0][1]),
+        None,
+    )
+
+
+def _find_worst_failure(plan: AssessmentPlan, counts: NDArray[Any]) -> tuple[str, float] | None:
+    if not counts.sum() > 0:
+        return None
+    return plan.index.failure_names[int(counts.argmax())], float(counts.max() / counts.sum())
+
+
+def choose_threshold(cells: list[AssessedCell]) -> float:
+    """Choose a threshold for several arms: half of the smallest bound, or about the median of the medians."""
+    bounds = [cell.plan.index.bound for cell in cells]
+    known_bounds = [bound for bound in bounds if bound is not None]
+    if known_bounds and len(known_bounds) == len(bounds):
+        return float(f"{min(known_bounds) / 2:.2g}")
+    medians = [float(cell.plain.quantile(0.5)) for cell in cells if cell.plain is not None and cell.plain.reached]
+    medians = [median for median in medians if np.isfinite(median) and abs(median) > ZERO_INDEX]
+    return float(f"{np.median(medians):.2g}") if medians else 1.0
+
+
+@dataclass(frozen=True)
+class DrivenCell:
+    """Motions under a law; fractions are over the motions, each a mean over the joints that may have locked.
+
+    Attributes:
+        labels: Of the cell.
+        joints: Names.
+        motions: Those that had a configuration to start from.
+        ends: Shares of converged, stuck, moving and undecided, of each locked joint and of none, (n + 1, 4).
+        reaches: (n + 1,) fractions that reach the target, with intervals.
+        fraction_by_motion: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was
+            no start.
+        mean_fraction: Its mean, with its interval.
+        in_reach: Share of the runs with a locked joint in which the target was in reach.
+        touched: Share of them in which something is touched on the way, at most; None if nobody looked.
+    """
+
+    labels: dict[str, Any]
+    joints: tuple[str, ...]
+    motions: int
+    ends: FloatArray
+    reaches: tuple[Interval, ...]
+    fraction_by_motion: FloatArray
+    mean_fraction: Interval
+    in_reach: float
+    touched: float | None = None
+
+
+def read_convergence(study: Study, cell: int) -> DrivenCell | None:
+    """Read the result of a convergence map; None if there is none."""
+    store = study.cell_store(cell)
+    parts = [(rows["code"], rows["in_reach"], rows.get("touched")) for rows in read_chunks(study, cell)]
+    if not parts:
+        return None
+    codes, in_reach = (np.concatenate([part[number] for part in parts]) for number in (0, 1))
+    contact_flags = [part[2] for part in parts if part[2] is not None]
+    is_known = codes[:, 0] != NO_CONFIGURATION
+    runs = int(is_known.sum())
+    if not runs:
+        return None
+    ends = np.stack([(codes[is_known] == number).mean(axis=0) for number in RunOutcome], axis=1)
+    has_converged = codes == RunOutcome.CONVERGED
+    fraction_by_motion = np.where(is_known, has_converged[:, :-1].mean(axis=1), np.nan)
+    reaches = tuple(Interval.from_counts(int(has_converged[is_known, number].sum()), runs) for number in range(codes.shape[1]))
+    joints = tuple(joint["name"] for joint in store.plan["arm"]["joints"] if joint["type"] != "fixed")
+    whole = average_fraction(fraction_by_motion, codes.shape[1] - 1, 0.95)
+    labels = read_labels(study, cell)
+    in_reach_fraction = float(in_reach[is_known, :-1].mean())
+    touched = float(np.concatenate(contact_flags)[is_known, :-1].mean()) if contact_flags else None
+    return DrivenCell(labels, joints, runs, ends, reaches, fraction_by_motion, whole, in_reach_fraction, touched)
+
+
+def compare_laws(first_cell: DrivenCell, second_cell: DrivenCell) -> Difference | None:
+    """Return the gain of the second law over the first, on the same motions; None if there are none."""
+    in_both = (
+        ~np.isnan(first_cell.fraction_by_motion) & ~np.isnan(second_cell.fraction_by_motion)
+        if first_cell.fraction_by_motion.shape == second_cell.fraction_by_motion.shape
+        else np.zeros(1, bool)
+    )
+    return (
+        Difference.of_fractions(second_cell.fraction_by_motion[in_both] - first_cell.fraction_by_motion[in_both])
+        if in_both.any()
+        else None
+    )
+
+
+@dataclass(frozen=True)
+class MeasureTable:
+    """Further measures of a cell: names of quantities, with values and interval ends.
+
+    Attributes:
+        labels: Of the cell.
+        samples: Starts, or sets of tasks.
+        values: (value, low, high) by name; NaN where there is none.
+    """
+
+    labels: dict[str, Any]
+    samples: int
+    values: dict[str, tuple[float, float, float]]
+
+
+def read_workspace(study: Study, cell: int) -> MeasureTable | None:
+    """Read the means over the starts of the measures of a workspace, for an arbitrary joint, percent."""
+    parts = list(read_chunks(study, cell))
+    if not parts:
+        return None
+    values = {}
+    for name in ("R100", "Ravg", "F100", "Favg"):
+        column = np.concatenate([part[name][:, -1] for part in parts])
+        lower, upper = mean_intervals(column[:, None], 0.95)[0]
+        values[name] = (float(mean_over(column[:, None], 0)[0]), float(lower), float(upper))
+    return MeasureTable(read_labels(study, cell), sum(len(part["lost"]) for part in parts), values)
+
+
+def read_bank(study: Study, cell: int) -> MeasureTable | None:
+    """Read the fractions of the tasks completed without an operator, healthy and failed, and the median time, cycles."""
+    parts = list(read_chunks(study, cell))
+    if not parts:
+        return None
+    endings = np.concatenate([part["end"] for part in parts])
+    cycles = np.concatenate([part["measures"][..., 0] for part in parts])
+    values = {}
+    for number, case in enumerate(("healthy", "failed")):
+        has_arrived = endings[..., number] == End.ARRIVED
+        interval = Interval.from_counts(int(has_arrived.sum()), has_arrived.size)
+        values[f"reached, {case}"] = (100 * interval.value, 100 * interval.low, 100 * interval.high)
+        median = float(np.median(cycles[..., number][has_arrived])) if has_arrived.any() else np.nan
+        values[f"time, {case}"] = (median, np.nan, np.nan)
+    return MeasureTable(read_labels(study, cell), len(endings), values)
+
+
+@dataclass(frozen=True)
+class DesignSweep:
+    """Designs of one arm, the baseline arm first if it is computed.
+
+    Attributes:
+        labels: Of the cell.
+        plan: What was computed.
+        values: (D, k) rad or m.
+        guaranteed, median: (D,) of the index over the poses.
+        reached: (D,) share of the poses.
+        reach: (D,) m.
+        start: The row of the given arm; None if it is not computed yet.
+    """
+
+    labels: dict[str, Any]
+    plan: Mapping[str, Any]
+    values: FloatArray
+    guaranteed: FloatArray
+    median: FloatArray
+    reached: FloatArray
+    reach: FloatArray
+    start: int | None
+
+
+def read_design_sweep(study: Study, cell: int) -> DesignSweep | None:
+    """Read the result of a sweep of designs; None if there is none."""
+    parts = list(read_chunks(study, cell))
+    if not parts:
+        return None
+    names = ("design", "guaranteed", "median", "reached", "reach")
+    values, guaranteed, median, reached, reach = (np.concatenate([part[name] for part in parts]) for name in names)
+    store = study.cell_store(cell)
+    start = 0 if 0 in store.committed_chunks else None
+    return DesignSweep(read_labels(study, cell), store.plan, values, guaranteed, median, reached, reach, start)
+
+
+def measure_store(store: Store) -> int:
+    """Return the bytes of the committed chunks of a store."""
+    return sum(entry.size for entry in store.entries.values())

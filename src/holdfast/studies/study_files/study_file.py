@@ -1,0 +1,427 @@
+"""Read study files: YAML, validated, and the requested cells.
+
+.. code-block:: yaml
+
+    name: two arms
+    seed: 1
+    poses: 2000            # of each cell
+    chunk: 500             # computed and committed together
+    arms: [panda, {file: my_arm.urdf, tip: tool0}, {arm: pa10-9dof, vary: {tool.z: [0, 0.3]}, designs: 500}]
+    assess:                # every arm with every index, task, region and failure set
+      indices: [relative-manipulability, manipulability]
+      optimise: true
+      cell: bench.yaml     # as --cell; beside this file
+    convergence:           # every arm with every law
+      laws: [pseudoinverse, failure-tolerant:0.3]
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
+
+from holdfast.core.errors import HoldfastError, InputError
+from holdfast.core.files import reading
+from holdfast.core.files.yaml import Number, Strict, describe_error, parse_yaml, read_mapping
+from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY
+from holdfast.core.sweeps.folder import MAX_CHUNKS, MAX_ROWS, exceeds_limits
+from holdfast.core.sweeps.job import SweepCell
+from holdfast.model.arms.spec import ArmSpec
+
+if TYPE_CHECKING:
+    from holdfast.kinematics.indices.index import Index
+    from holdfast.model.arm.model import Arm
+    from holdfast.model.arm.task import Task
+    from holdfast.model.failure_modes import FailureSpec
+
+_MAX_CELLS = 100_000
+_EXAMPLE_COMMAND = "'holdfast study new'"
+_Count = Annotated[int, Field(ge=1, strict=True)]
+_Names = Annotated[list[str], Field(min_length=1)]
+_DEFAULT_ENTRY = "default"
+
+
+def _join_bounds(value: Any) -> Any:
+    """Return ``{a3: [0.2, 0.6], alpha4: -90..90deg}`` with every pair of bounds as one text."""
+    if not isinstance(value, dict):
+        raise ValueError("it must be names with their bounds, as {a3: [0.2, 0.6], alpha4: -90..90deg}")
+    for name, bounds in value.items():
+        if not isinstance(bounds, (str, list)) or (isinstance(bounds, list) and len(bounds) != 2):
+            raise ValueError(f"{name} must have two bounds, as [0.2, 0.6] (m) or -90..90deg")
+    return {str(key): pair if isinstance(pair, str) else "..".join(map(str, pair)) for key, pair in value.items()}
+
+
+class _ArmFile(Strict):
+    file: str
+    base: str | None = None
+    tip: str | None = None
+    hold: dict[str, Number] = Field(default_factory=dict)
+    name: str | None = None
+
+
+class _Designs(Strict):
+    arm: str
+    base: str | None = None
+    tip: str | None = None
+    hold: dict[str, Number] = Field(default_factory=dict)
+    vary: Annotated[dict[str, str], Field(min_length=1), BeforeValidator(_join_bounds)]
+    designs: _Count
+    chunk: _Count = 64
+    level: Annotated[Number, Field(gt=0, lt=1)] = 0.95
+
+
+_ARM_TAGS = ("as a name", "as a file", "as designs")
+
+
+def _tag_arm(value: Any) -> str:
+    if isinstance(value, dict):
+        return _ARM_TAGS[2] if "vary" in value or "designs" in value else _ARM_TAGS[1]
+    return _ARM_TAGS[0]
+
+
+_ArmEntry = Annotated[
+    Annotated[str, Tag(_ARM_TAGS[0])] | Annotated[_ArmFile, Tag(_ARM_TAGS[1])] | Annotated[_Designs, Tag(_ARM_TAGS[2])],
+    Discriminator(_tag_arm),
+]
+
+
+class _Block(Strict):
+    chunk: _Count | None = None
+
+
+class _Assess(_Block):
+    poses: _Count | None = None
+    indices: _Names = Field(default_factory=lambda: ["relative-manipulability"])
+    tasks: _Names = Field(default_factory=lambda: [_DEFAULT_ENTRY])
+    regions: _Names = Field(default_factory=lambda: [_DEFAULT_ENTRY])
+    failures: _Names = Field(default_factory=lambda: ["single"])
+    optimise: bool = False
+    after_lock: bool = False
+    clearance: bool | None = None
+    cell: str | None = None
+    sampling: Literal["random", "sobol"] = "random"
+    restarts: _Count = 100
+    length: Number = 1.0
+    keep: Literal["rows", "counts"] = "rows"
+    thresholds: dict[str, Number] = Field(default_factory=dict)
+
+
+class _Laws(_Block):
+    laws: _Names = Field(default_factory=lambda: ["pseudoinverse", "failure-tolerant"])
+    tasks: _Names = Field(default_factory=lambda: [_DEFAULT_ENTRY])
+
+
+class _Timed(_Laws):
+    time_limit: Annotated[Number, Field(gt=0)] | None = None
+
+
+class _Convergence(_Timed):
+    motions: _Count | None = None
+    cell: str | None = None
+
+
+class _Workspace(_Timed):
+    targets: Annotated[list[Annotated[list[Number], Field(min_length=2, max_length=3)]], Field(min_length=1)]
+    starts: _Count | None = None
+    configurations: _Count = 8
+    points: Annotated[int, Field(ge=0, strict=True)] = 3
+
+
+class _Bank(_Laws):
+    sets: _Count | None = None
+    distance: Annotated[Number, Field(gt=0)] | None = None
+
+
+class _StudyModel(Strict):
+    name: str = "study"
+    seed: Annotated[int, Field(ge=0, strict=True)] = 0
+    poses: _Count
+    chunk: _Count
+    arms: Annotated[list[_ArmEntry], Field(min_length=1)]
+    assess: _Assess | None = None
+    convergence: _Convergence | None = None
+    workspace: _Workspace | None = None
+    bank: _Bank | None = None
+
+
+@dataclass(frozen=True)
+class StudyFile:
+    """Content of a study file.
+
+    Attributes:
+        name: Of the study.
+        seed: Of all its cells.
+        cells: What is computed.
+        text: The file.
+    """
+
+    name: str
+    seed: int
+    cells: tuple[SweepCell, ...]
+    _: KW_ONLY
+    text: str
+
+
+def read_study_file(path: str | Path) -> StudyFile:
+    """Read the study in a file.
+
+    Raises:
+        InputError: Unreadable, a key that is unknown, missing or wrong, or an arm, index, task or law that is; the message
+            names it.
+    """
+    file = Path(path)
+    try:
+        text, model = _parse_file(file)
+        cells = tuple(_name_cells(_iterate_cells(model, file.parent)))
+    except HoldfastError as error:
+        raise InputError(f"study file '{file}': {error}") from error
+    return StudyFile(model.name, model.seed, cells, text=text)
+
+
+def read_thresholds(text: str) -> dict[str, float]:
+    """Read the thresholds of a report from the text of a valid study file."""
+    block = (parse_yaml(text) or {}).get("assess") or {}
+    return {index: float(value) for index, value in (block.get("thresholds") or {}).items()}
+
+
+def _parse_file(file: Path) -> tuple[str, _StudyModel]:
+    data = read_mapping(file, _EXAMPLE_COMMAND, "poses, chunk, arms and a job")
+    try:
+        model = _StudyModel.model_validate(data)
+    except ValidationError as error:
+        raise InputError(describe_error(error, _StudyModel, _ARM_TAGS)) from error
+    if not any((model.assess, model.convergence, model.workspace, model.bank)):
+        raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
+    return reading.read_text(file), model
+
+
+def _name_cells(cells: Iterator[SweepCell]) -> Iterator[SweepCell]:
+    """Yield the cells with unique names that are valid folder names."""
+    used_names: set[str] = set()
+    for cell in cells:
+        if exceeds_limits(cell.rows, cell.chunk):
+            raise InputError(
+                f"cell '{cell.name}' has {cell.rows} rows in chunks of {cell.chunk}; a cell may have at most "
+                f"{MAX_ROWS} rows and {MAX_CHUNKS} chunks, so give fewer rows or a larger chunk"
+            )
+        if len(used_names) == _MAX_CELLS:
+            raise InputError(f"it asks for more than {_MAX_CELLS} cells (every arm with every index, task, ...); split it")
+        name = re.sub(r"[^A-Za-z0-9._=-]+", "-", cell.name).strip("-.")[:120] or "cell"
+        unique = next(
+            candidate
+            for candidate in itertools.chain([name], (f"{name}-{number}" for number in itertools.count(2)))
+            if candidate not in used_names
+        )
+        used_names.add(unique)
+        yield SweepCell(unique, cell.job, cell.plan, rows=cell.rows, chunk=cell.chunk, summed=cell.summed, labels=cell.labels)
+
+
+def _iterate_cells(model: _StudyModel, folder: Path) -> Iterator[SweepCell]:
+    for entry in model.arms:
+        if isinstance(entry, _Designs):
+            yield from _make_design_cells(model, entry, folder)
+            continue
+        spec, arm, label = _load_arm(entry, folder)
+        if model.assess is not None:
+            yield from _make_assess_cells(model, model.assess, spec, arm, label, folder)
+        for kind, block in (("convergence", model.convergence), ("workspace", model.workspace), ("bank", model.bank)):
+            if block is not None:
+                yield from _make_law_cells(model, kind, block, spec, arm, label, folder)
+
+
+def _load_arm(arm_entry: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
+    """Return the specification of an arm, the arm, and its name for display."""
+    from holdfast.model import arms
+
+    if isinstance(arm_entry, str) and arm_entry in arms.names():
+        return arm_entry, arms.load(arm_entry), arm_entry
+    entry = _ArmFile(file=arm_entry) if isinstance(arm_entry, str) else arm_entry
+    spec = str(folder / entry.file) if Path(entry.file).suffix else entry.file
+    arm = ArmSpec(spec, entry.base, entry.tip, entry.hold, entry.name).load()
+    return spec, arm, arm.name
+
+
+def _make_assess_cells(
+    model: _StudyModel, block: _Assess, spec: str, arm: Arm, label: str, folder: Path
+) -> Iterator[SweepCell]:
+    from holdfast.kinematics.regions.region import Region, default_region
+    from holdfast.model.arms.spec import read_task
+    from holdfast.model.failure_modes import read_failures
+    from holdfast.studies.assessment.plan import make_plan
+    from holdfast.studies.study_files.jobs.assessments import AssessJob
+
+    for name in block.thresholds:
+        if name not in block.indices:
+            raise InputError(f"assess.thresholds: '{name}' is not among the indices; name one of {', '.join(block.indices)}")
+    rows, chunk = block.poses or model.poses, block.chunk or model.chunk
+    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
+        rows_of_task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, "assess.tasks")
+        measure = _make_index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+        cell_region = default_region(arm, spec) if region == _DEFAULT_ENTRY else Region.load(folder / region)
+        plan = make_plan(
+            arm,
+            cell_region,
+            measure,
+            rows,
+            model.seed,
+            block.sampling,
+            block.restarts,
+            block.optimise,
+            block.after_lock,
+            clearance=block.clearance,
+            cell=None if block.cell is None else folder / block.cell,
+        )
+        if block.keep == "counts" and (plan.has_weights or plan.after_lock):
+            reason = "poses have weights" if plan.has_weights else "after_lock needs every pose"
+            raise InputError(f"assess.keep: counts cannot be kept where {reason}; use keep: rows")
+        data = plan.to_dict()
+        if chunk % cell_region.block:
+            data["seeds"] = (
+                f"as for an assessment, blocks of at most {cell_region.block} poses counted anew in chunks of {chunk}"
+            )
+        if block.keep == "counts":
+            data["kind"] = "assess-counts"
+        labels = {"job": "assess", "arm": label, "index": index, "task": measure.task.name, "region": cell_region.name}
+        options = {"failures": failures, "keep": block.keep, "optimise": block.optimise}
+        name = "-".join([label, index, *_list_unusual_parts(task, region, failures)])
+        job = AssessJob(data, rows, chunk, block.keep)
+        yield SweepCell(name, job, data, rows=rows, chunk=chunk, summed=block.keep == "counts", labels=labels | options)
+
+
+def _make_design_cells(model: _StudyModel, entry: _Designs, folder: Path) -> Iterator[SweepCell]:
+    from holdfast.kinematics.indices.own_file import plan_entries
+    from holdfast.kinematics.regions.region import Region, default_region
+    from holdfast.model.arms.serial import to_dict
+    from holdfast.model.arms.spec import read_task
+    from holdfast.model.failure_modes import read_failures
+    from holdfast.studies.designs.search import sample_comparison_poses
+    from holdfast.studies.designs.space import DesignSpace, parse_vary
+    from holdfast.studies.study_files.jobs.designs import DesignJob
+
+    block = model.assess
+    if block is None:
+        raise InputError(f"arms: there is no assess block for the designs of '{entry.arm}'; give one (as 'assess: {{}}')")
+    if block.cell is not None:
+        raise InputError(f"assess.cell: designs of '{entry.arm}' are not looked at in a cell; leave it out")
+    for name in ("convergence", "workspace", "bank"):
+        if getattr(model, name) is not None:
+            raise InputError(f"arms: designs of '{entry.arm}' cannot be swept in {name}; give that block in a file of its own")
+    has_options = entry.base or entry.tip or entry.hold
+    arm_entry = _ArmFile(file=entry.arm, base=entry.base, tip=entry.tip, hold=entry.hold) if has_options else entry.arm
+    spec, arm, label = _load_arm(arm_entry, folder)
+    texts = [f"{name}={bounds}" for name, bounds in entry.vary.items()]
+    space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))
+    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
+        rows_of_task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, "assess.tasks")
+        measure = _make_index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+        if measure.better == "smaller":
+            raise InputError(
+                f"assess.indices: {index} is better when smaller, and a guaranteed value must be larger; leave it out"
+            )
+        cell_task, cell_region = (
+            measure.task,
+            default_region(arm, spec) if region == _DEFAULT_ENTRY else Region.load(folder / region),
+        )
+        sample_comparison_poses(cell_region, 1, 0)  # says if it has none
+        plan: dict[str, Any] = {
+            "kind": "designs",
+            "arm": to_dict(arm),
+            "fingerprint": arm.fingerprint,
+            "vary": [[parameter.name, parameter.lower, parameter.upper, parameter.unit] for parameter in space.parameters],
+            "region": cell_region.to_dict(),
+            **plan_entries(measure),
+            "task": cell_task.to_dict(),
+            "failures": [[arm.joint_names[joint] for joint in failed] for failed in measure.failures],
+            "level": entry.level,
+            "poses": block.poses or model.poses,
+            "seed": model.seed,
+        }
+        labels = {
+            "job": "designs",
+            "arm": label,
+            "index": index,
+            "task": cell_task.name,
+            "region": cell_region.name,
+            "failures": failures,
+        }
+        name = "-".join(["designs", label, index, *_list_unusual_parts(task, region, failures)])
+        yield SweepCell(name, DesignJob(plan, entry.designs), plan, rows=entry.designs, chunk=entry.chunk, labels=labels)
+
+
+def _make_index(label: str, arm: Arm, task: str | Task, failures: FailureSpec, length: float) -> Index:
+    index: Index = INDEX_REGISTRY.make(label, arm, option="assess.indices", task=task, failures=failures, length=length)
+    return index
+
+
+def _list_unusual_parts(task: str, region: str, failures: str) -> list[str]:
+    """Return the parts of a name that are not default values."""
+    pairs = ((task, _DEFAULT_ENTRY), (Path(region).stem, _DEFAULT_ENTRY), (failures, "single"))
+    return [text for text, default in pairs if text != default]
+
+
+def _make_law_cells(
+    model: _StudyModel, kind: str, block: Any, spec: str, arm: Arm, label: str, folder: Path
+) -> Iterator[SweepCell]:
+    from holdfast.model.arm.task import as_task
+    from holdfast.model.arms.serial import to_dict
+    from holdfast.model.arms.spec import read_task
+    from holdfast.studies.study_files.jobs.banks import BankJob
+    from holdfast.studies.study_files.jobs.convergence import ConvergenceJob, describe_surroundings
+    from holdfast.studies.study_files.jobs.workspaces import WorkspaceJob
+
+    chunk = block.chunk or model.chunk
+    for task, text in itertools.product(block.tasks, block.laws):
+        law = LAW_REGISTRY.make(text, arm, option=f"{kind}.laws", task=_resolve_law_task(task, spec, arm, kind, read_task))
+        cell_task = as_task(arm, law.task)
+        plan: dict[str, Any] = {
+            "kind": kind,
+            "arm": to_dict(arm),
+            "fingerprint": arm.fingerprint,
+            "task": cell_task.to_dict(),
+            "law": text,
+            "seed": model.seed,
+            "seeds": "of chunk c: SeedSequence(seed, spawn_key=(c,))",
+        }
+        if isinstance(block, _Timed):
+            plan["time_limit"] = block.time_limit
+        labels = {"job": kind, "arm": label, "law": law.label, "task": cell_task.name}
+        name = "-".join([label, *_list_unusual_parts(task, _DEFAULT_ENTRY, "single"), text])
+        if kind == "convergence":
+            plan |= describe_surroundings(arm, None if block.cell is None else folder / block.cell)
+            yield SweepCell(name, ConvergenceJob(plan), plan, rows=block.motions or model.poses, chunk=chunk, labels=labels)
+        elif kind == "bank":
+            from holdfast.teleop.bank.tasks import TASK_DISTANCE_M
+            from holdfast.teleop.trials.plant import check_joystick_task
+
+            check_joystick_task(cell_task)
+            plan["distance"] = TASK_DISTANCE_M if block.distance is None else block.distance
+            yield SweepCell(f"bank-{name}", BankJob(plan), plan, rows=block.sets or model.poses, chunk=chunk, labels=labels)
+        else:
+            rows = block.starts or model.poses
+            for number, target in enumerate(block.targets):
+                target_plan = {**plan, "target": target, "configurations": block.configurations, "points": block.points}
+                target_labels = {**labels, "target": target}
+                yield SweepCell(
+                    f"workspace-{name}-{number + 1}",
+                    WorkspaceJob(target_plan, rows),
+                    target_plan,
+                    rows=rows,
+                    chunk=chunk,
+                    labels=target_labels,
+                )
+
+
+def _resolve_law_task(task: str, spec: str, arm: Arm, kind: str, read_task: Any) -> str | Task:
+    """Return the task of a law; the default of teleoperated jobs is the motion that a joystick commands."""
+    from holdfast.model.arm.task import plane_normal
+
+    if task == _DEFAULT_ENTRY and kind in ("bank", "workspace"):
+        return "planar" if plane_normal(arm) is not None else "position"
+    resolved: str | Task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, f"{kind}.tasks")
+    return resolved

@@ -1,0 +1,180 @@
+"""Template of a study file, with an explanation of every line."""
+
+from __future__ import annotations
+
+import os
+import textwrap
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from holdfast.core.errors import InputError
+from holdfast.core.files import reading
+from holdfast.core.files.output import replace_file
+from holdfast.core.labels import FAILURES_HELP, TASK_SIZES
+from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, Registry
+from holdfast.model import arms
+from holdfast.model.arms.spec import ArmSpec
+
+_SMALL_CHUNK = 500
+_MAX_CHUNKS = 1000
+_BLOCK_POSES = 1024  # poses of a block of a box region, which draw from one seed
+
+_STUDY_TEXT = """\
+# A study of holdfast: what is computed is every combination of the lists below.
+#
+#   holdfast study run {file} --dry-run        what it would compute, how long it would take, how large it would be
+#   holdfast study run {file} --out DIR        compute; Ctrl-C stops, and the same command resumes
+#   holdfast study status|verify|report DIR    how far it is; is every chunk sound; one HTML page
+#
+# Folders of different seeds are different studies. Everything but name and thresholds defines the results.
+
+name: {name}
+
+# The same seed gives the same bits, whatever computes it: threads, a Dask cluster, with or without a stop.
+seed: {seed}
+
+# Samples of each cell, and how many of them are computed and committed together: a chunk of a second to a minute is good.
+# A crash costs at most the chunks being computed.
+poses: {poses}
+chunk: {chunk}
+
+# Built-in names (see 'holdfast arms') or files, relative to this one: {{file: my_arm.urdf, base: base_link, tip: tool0}}
+# or designs of one arm, each evaluated at the best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
+arms: {arms}
+
+# The probability that an arm keeps its dexterity when a joint fails, over a region: see 'holdfast assess --help'.
+assess:
+{known_indices}
+  indices: {indices}
+  tasks: [default]          # {known_tasks}, or rows as "tool:vx,vy"; default: the arm's
+  regions: [default]        # region files, relative to this one; default: around the arm's home
+  failures: [single]        # {known_failures}
+  optimise: {optimise}           # also the best configuration of each pose
+  after_lock: false         # also which poses are left once each joint has locked
+  sampling: random          # or sobol
+  restarts: 100             # random starts before a pose counts as not reached
+  keep: rows                # every pose; counts keeps only how values are distributed, for very many samples
+  # thresholds: {{relative-manipulability: 0.3}}    # what the report asks for; half of the bound, or the median, if not given
+
+# Whether an arm with an unidentified locked joint still reaches the target, by law: see 'holdfast convergence-map --help'.
+{convergence}
+# Further jobs: workspace (laws, targets, starts, configurations, points) and bank (laws, sets, distance); see the guide
+# "From laptop to cluster".
+"""
+
+_LAWS_TEXT = """\
+convergence:
+{known_laws}
+  laws: {laws}
+  motions: {motions}              # random motions of each cell; poses, if not given
+  chunk: {motions_chunk}
+"""
+
+
+def write(
+    file: str | Path,
+    arm: Sequence[ArmSpec],
+    poses: int,
+    chunk: int | None,
+    seed: int,
+    indices: Sequence[str] = ("relative-manipulability",),
+    laws: Sequence[str] = (),
+    optimise: bool = False,
+) -> Path:
+    """Write a study file with comments.
+
+    Args:
+        file: Where; it must not exist yet.
+        arm: Built-in names, or arm files with their base, tip and what is held.
+        poses: Samples of each cell.
+        chunk: Of them computed and committed together; :func:`choose_chunk` if None.
+        seed: Of everything random.
+        indices: Of the assessments.
+        laws: Of the maps of convergence; none if empty.
+        optimise: Also the best configurations.
+
+    Raises:
+        InputError: Wrong numbers, an unknown arm, index or law, or there is such a file already.
+        StoreError: It cannot be written.
+    """
+    from holdfast.studies.study_files.study_file import read_study_file
+
+    path = Path(file)
+    chunk = choose_chunk(poses) if chunk is None else chunk
+    for option, number, minimum in (("--poses", poses, 1), ("--chunk", chunk, 1), ("--seed", seed, 0)):
+        if number < minimum:
+            raise InputError(f"{option} is {number}; it must be {minimum} or more")
+    if not arm:
+        raise InputError("no arm is named; give --arm, a built-in name or a file")
+    for spec in arm:
+        spec.load()
+    if reading.path_exists(path):
+        raise InputError(f"'{path}' exists; give another name, or remove it first")
+    motions = min(poses, 200)
+    convergence_text = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
+    if laws:
+        convergence_text = _LAWS_TEXT.format(
+            known_laws=_list_known(LAW_REGISTRY),
+            laws=_format_list(laws),
+            motions=motions,
+            motions_chunk=min(chunk, 50, motions),
+        )
+    study_text = _STUDY_TEXT.format(
+        file=path.name,
+        name=_format_on_one_line(path.stem),
+        seed=seed,
+        poses=poses,
+        chunk=min(chunk, poses),
+        arms=_format_list(_make_arm_entry(spec, path) for spec in arm),
+        known_indices=_list_known(INDEX_REGISTRY),
+        known_tasks=", ".join(TASK_SIZES),
+        known_failures=FAILURES_HELP,
+        indices=_format_list(indices),
+        optimise=str(optimise).lower(),
+        convergence=convergence_text,
+    )
+    replace_file(path, study_text, "study file")
+    try:
+        read_study_file(path)
+    except InputError:
+        path.unlink()
+        raise
+    return path
+
+
+def choose_chunk(poses: int) -> int:
+    """Choose a number of samples to compute and commit together.
+
+    A study of at most half a million samples has chunks of 500. A larger one has at most a thousand chunks of whole blocks,
+    because each chunk costs a file per column and a line of the journal.
+    """
+    if poses <= _SMALL_CHUNK * _MAX_CHUNKS:
+        return _SMALL_CHUNK
+    return _BLOCK_POSES * -(-poses // (_BLOCK_POSES * _MAX_CHUNKS))
+
+
+def _make_arm_entry(arm: ArmSpec, file: Path) -> str | dict[str, Any]:
+    """Return a built-in name, or the path of an arm file relative to the study file, with its options."""
+    source = arm.spec if arm.spec in arms.names() else Path(os.path.relpath(arm.spec, file.parent)).as_posix()
+    options = {"base": arm.base, "tip": arm.tip, "hold": dict(arm.hold), "name": arm.name}
+    chosen = {key: value for key, value in options.items() if value}
+    return {"file": source, **chosen} if chosen else source
+
+
+def _list_known(registry: Registry) -> str:
+    """Return comment lines with all values that a list may contain."""
+    usages = ", ".join(entry.usage for entry in registry.values())
+    return textwrap.fill(usages, 120, initial_indent="  # ", subsequent_indent="  # ", break_on_hyphens=False)
+
+
+def _format_list(items: Iterable[str | dict[str, Any]]) -> str:
+    return _format_on_one_line(list(items))
+
+
+def _format_on_one_line(data: object) -> str:
+    """Return data as YAML on one line."""
+    text: str = yaml.safe_dump(data, default_flow_style=True, width=10_000, allow_unicode=True)
+    return text.removesuffix("...\n").strip()

@@ -1,0 +1,320 @@
+"""The small 3-D view: what stands in the page, and what a browser makes of it."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from wellformed import check
+
+import axe
+import chromium
+import holdfast as hf
+import oracles
+from holdfast import arms
+from holdfast.core.errors import InputError
+from holdfast.interface.presentation.arm.view import scene
+from holdfast.interface.report import page, viewer
+from holdfast.model.arm import generic_configuration
+
+
+def data(html):
+    return json.loads(re.search(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)[1])
+
+
+def test_the_page_is_whole_and_asks_no_other_host():
+    shown = arms.load("panda").show(locked=["panda_joint4"])
+    html = shown.to_html()
+    check(html, 1)
+    assert not re.search(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}", html)
+    assert len(html) < 45_000
+    assert "</script" not in json.dumps(data(html))
+    frame = shown._repr_html_()
+    assert frame.startswith("<iframe srcdoc=")
+    assert "<script" not in frame
+
+
+def test_the_library_is_in_a_page_once_and_only_where_there_are_views():
+    arm = arms.load("planar-3r")
+    views = [page.Picture(scene(arm).to_html(f"view{k}", "An arm <b>"), "c") for k in range(3)]
+    html = page.render(page.Page("t", "h", [page.Section("", views)]))
+    assert html.count("WebGL") == viewer.build_view_page(scene(arm).to_html("alone", "An arm"), "t").count("WebGL")
+    assert html.count('class="view3d"') == 3
+    bare = page.render(page.Page("t", "h", [page.Section("", [page.Text("none")])]))
+    assert "view3d" not in bare
+
+
+def test_a_file_is_written_whole(tmp_path):
+    shown = arms.load("planar-3r").show([0.1, 0.2, 0.3])
+    assert shown.save(tmp_path / "arm.html").read_text() == shown.to_html()
+    with pytest.raises(hf.StoreError, match="page"):
+        shown.save(tmp_path / "none" / "arm.html")
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"q": np.zeros(3)}, r"q for 'panda' has shape \(3,\)"),
+        ({"q": np.full(7, np.nan)}, "finite"),
+        ({"q": np.zeros((4, 7)), "time": [0, 1, 2]}, "time has 3 moments and the motion 4"),
+        ({"labels": ["a", "b"]}, "labels must be 1"),
+        ({"locked": ["elbow"]}, "no joint 'elbow'"),
+        ({"targets": [np.zeros(2)]}, "a target has shape"),
+        ({"points": np.zeros((4, 3)), "colors": np.zeros((2, 3))}, "colors are 2"),
+    ],
+)
+def test_bad_input_gets_a_sentence(options, sentence):
+    with pytest.raises(InputError, match=sentence):
+        scene(arms.load("panda"), **options)
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.2])
+def test_objects_of_a_cell_are_drawn_where_they_are(turn):
+    pose = np.eye(4)
+    pose[:3, 3] = 0.6, -0.2, 0.4
+    base = np.eye(4)
+    base[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    base[:3, 3] = 0.1, 0.2, 0.3
+    solids = [
+        hf.cell.Box("box", [0.2, 0.3, 0.4], pose=pose),
+        hf.cell.Cylinder("cylinder", 0.1, 0.4, pose=pose),
+        hf.cell.Capsule("capsule", 0.1, 0.4, pose=pose),
+        hf.cell.Sphere("sphere", 0.2, pose=pose),
+    ]
+    shown = scene(arms.load("panda").with_base(base), cell=hf.Cell(solids))
+    assert [x["name"] for x in shown.data["objects"]] == ["box", "cylinder", "capsule", "sphere"]
+    for solid, corners in zip(solids, shown.object_corners, strict=True):
+        outside = solid.signed_distance(corners)
+        assert np.abs(outside).min() < 1e-9  # its corners are on its surface
+        assert outside.max() < 1e-9
+        np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, pose[:3, 3], atol=0.002)
+    drawn = viewer.draw_scene_svg(shown, "a cell")
+    assert drawn.count("<polygon") == len(solids)
+
+
+def test_meshes_are_thinned_and_packed(rng):
+    t = np.linspace(0, np.pi, 120)
+    around = np.linspace(0, 2 * np.pi, 240)
+    sphere = np.stack(
+        [np.outer(np.sin(t), np.cos(around)), np.outer(np.sin(t), np.sin(around)), np.outer(np.cos(t), around**0)], -1
+    )
+    k = np.arange(119 * 239)
+    a = k // 239 * 240 + k % 239
+    faces = np.concatenate([np.stack([a, a + 240, a + 1], 1), np.stack([a + 1, a + 240, a + 241], 1)])
+    vertices = 3 * sphere.reshape(-1, 3) + rng.normal(size=3)
+    few, corners = viewer.simplify_mesh(vertices, faces, 2000)
+    assert 800 < len(corners) <= 2000
+    assert corners.max() == len(few) - 1
+    radius = np.linalg.norm(few - (vertices.max(axis=0) + vertices.min(axis=0)) / 2, axis=1)
+    assert np.abs(radius - 3).max() < 0.15
+    same, all_faces = viewer.simplify_mesh(few, corners, 2000)
+    assert same is few
+    assert all_faces is corners
+
+
+def test_the_directions_that_a_lock_takes_are_those_no_joint_rate_gives():
+    # The elbow of the iiwa is the one joint that changes how far the wrist is from the shoulder.
+    arm = arms.load("iiwa14")
+    q = generic_configuration(arm)
+    [lost] = scene(arm, q, locked=[3]).data["lost"]
+    reduced = np.delete(oracles.jacobian(arm, q[None])[0], 3, axis=1)
+    assert lost["words"] == "lost"
+    np.testing.assert_allclose(np.array(lost["twist"]) @ reduced, 0, atol=1e-6)
+    assert scene(arm, q).data["lost"] == []
+    assert scene(arm, np.stack([q, q]), time=[0, 1], locked=[3]).data["lost"] == []
+
+
+def box_stl(file, size, per_edge):
+    """A cube of ``12 per_edge^2`` triangles, binary STL."""
+    u, v = (x.ravel() for x in np.meshgrid(np.arange(per_edge), np.arange(per_edge)))
+    quads = np.stack([np.stack([u + a, v + b], 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))], 1) / per_edge - 0.5
+    sides = []
+    for axis in range(3):
+        for s in (-0.5, 0.5):
+            corners = np.insert(quads, axis, s, axis=2)
+            sides += [corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]
+    triangles = size * np.concatenate(sides)
+    rows = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    rows["corners"] = triangles
+    file.write_bytes(b" " * 80 + np.uint32(len(rows)).tobytes() + rows.tobytes())
+
+
+def test_meshes_never_blow_up_a_page(tmp_path):
+    pytest.importorskip("trimesh")
+    box_stl(tmp_path / "link.stl", 0.3, 30)
+    visual = '<visual><geometry><mesh filename="{}"/></geometry></visual>'
+    links = [f'<link name="l{k}">{visual.format("none.stl" if k == 4 else "link.stl")}</link>' for k in range(5)]
+    joints = [
+        f'<joint name="j{k}" type="continuous"><parent link="l{k}"/><child link="l{k + 1}"/><origin xyz="0 0.1 0.4"/>'
+        f'<axis xyz="{k % 2} 0 {1 - k % 2}"/></joint>'
+        for k in range(4)
+    ]
+    file = tmp_path / "arm.urdf"
+    file.write_text(f'<robot name="blocks">{"".join(links + joints)}</robot>')
+    arm = hf.Arm.from_urdf(file)
+    made = scene(arm, locked=["j1"])
+    bodies = [p["mesh"] for p in made.data["parts"] if "mesh" in p]
+    assert len(bodies) == 4
+    assert sum(len(p["faces"]) for p in bodies) // 8 <= 16_000
+    assert any("43,200 triangles" in note for note in made.notes)
+    assert any("none.stl" in note for note in made.notes)
+    [marked] = [p for p in made.data["parts"] if p.get("mark") and p["joint"] == 1]
+    assert "tube" in marked
+    both = viewer.build_view_page(made.to_html("one", "x") + scene(arm).to_html("two", "x"), "t")
+    assert len(both) < 1.25 * len(viewer.build_view_page(made.to_html("one", "x"), "t")) < 350_000
+    assert len(scene(arm, meshes=False).to_html("three", "x")) < 15_000
+
+
+# ---- in Chromium ---------------------------------------------------------------------------------------------------------
+
+COUNT = """canvas => {
+  const c = canvas.getContext("2d"), d = c.getImageData(0, 0, canvas.width, canvas.height).data;
+  const shades = new Set(); let sum = 0;
+  for (let k = 0; k < d.length; k += 4) if (d[k + 3]) { shades.add(d[k] + 256 * d[k + 1] + 65536 * d[k + 2]); sum += k * d[k]; }
+  return [shades.size, sum];
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium.opened(chromium.required, scenes=True) as opened:
+        yield opened
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """``opened(html)``: a page that shows it, whose errors fail the test."""
+    made = []
+
+    def show(html, **options):
+        context = browser.new_context(viewport={"width": 700, "height": 900}, **options)
+        made.append(context)
+        context.route(re.compile("^(?!file:)"), lambda route: pytest.fail(f"the page asks for {route.request.url}"))
+        found = context.new_page()
+        found.on("pageerror", lambda error: pytest.fail(str(error)))
+        file = tmp_path / f"{len(made)}.html"
+        file.write_text(html, encoding="utf-8")
+        found.goto(file.as_uri())
+        return found
+
+    yield show
+    for context in made:
+        context.close()
+
+
+def painted(found):
+    """What is on the canvas, once something is."""
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[0] > 50")
+    return found.locator("canvas").first.evaluate(COUNT)
+
+
+def test_it_draws_the_arm_where_it_is_and_moves_it(opened, rng):
+    arm = arms.load("ur5-rail")
+    q = generic_configuration(arm)
+    found = opened(arm.show(q, locked=[2]).to_html())
+    first = painted(found)
+    assert first[0] > 200
+    assert axe.serious(found) == []
+
+    def frames():
+        return np.array(found.evaluate("document.querySelector('.view3d').view3d.frames()")).reshape(-1, 3, 4)
+
+    np.testing.assert_allclose(frames(), np.array(oracles.frames(arm, q[None]))[:, 0, :3], atol=1e-6)
+    found.get_by_text("Move the joints").click()
+    slider = found.get_by_role("slider", name=arm.joint_names[1])
+    slider.press("Home")
+    moved = np.where(np.arange(arm.n) == 1, arm.lower, q)
+    np.testing.assert_allclose(frames(), np.array(oracles.frames(arm, moved[None]))[:, 0, :3], atol=1e-6)
+    assert found.get_by_role("slider", name=arm.joint_names[2]).is_disabled()
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {first[1]}")
+    second = painted(found)
+    found.locator("canvas").press("ArrowLeft")
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {second[1]}")
+
+
+def test_a_motion_follows_its_slider_and_plays(opened):
+    arm = arms.load("planar-3r")
+    time = np.linspace(0, 2, 21)
+    q = np.stack([np.sin(time), 0.5 * time, 0.3 + 0 * time], axis=1)
+    html = scene(
+        arm,
+        [q, 0.5 * q],
+        labels=["one", "other"],
+        time=time,
+        locked={2: 1.0},
+        free=["joint2"],
+        readings=[f"{t:.1f} s" for t in time],
+    )
+    found = opened(viewer.build_view_page(html.to_html("motion", "An arm moving"), "t"))
+    before = painted(found)
+    slider = found.get_by_role("slider", name="Time of the motion")
+    slider.press("End")
+    assert slider.get_attribute("aria-valuetext") == "2.0 s"
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {before[1]}")
+    last = found.evaluate("document.querySelector('.view3d').view3d.configurations()")
+    np.testing.assert_allclose(last, [q[-1], 0.5 * q[-1]], atol=1e-6)
+    found.get_by_role("button", name="Play").click()
+    found.wait_for_function("Number(document.querySelector('input').value) > 1")
+    found.get_by_role("button", name="Pause").click()
+
+
+@pytest.mark.parametrize("off", ["script", "webgl"])
+def test_without_a_script_or_webgl_there_is_a_drawing(opened, off):
+    html = arms.load("panda").show().to_html()
+    if off == "webgl":
+        html = html.replace("<script>", "<script>HTMLCanvasElement.prototype.getContext = () => null;", 1)
+    found = opened(html, java_script_enabled=off == "webgl")
+    assert found.locator(".view3d-stage svg").is_visible()
+    assert not found.locator("canvas").is_visible()
+    sentence = "if the browser had WebGL" if off == "webgl" else "Where JavaScript is on"
+    assert sentence in found.locator(".view3d-hint").inner_text()
+
+
+def framed(shown, ground, ink, wide):
+    """A notebook or a column of the documentation that holds a view."""
+    style = f"margin: 0 auto; width: {wide}px; background: {ground}; color: {ink}"
+    return f'<!DOCTYPE html><html lang="en"><title>n</title><body style="{style}">{shown._repr_html_()}</body></html>'
+
+
+def inside(found, script):
+    return found.frames[1].evaluate(script)
+
+
+GROUND = "getComputedStyle(document.documentElement).backgroundColor"
+
+
+@pytest.mark.parametrize(("ground", "ink", "scheme", "shade"), [("#111", "#eee", "light", 20), ("#fff", "#222", "dark", 255)])
+def test_in_a_notebook_a_view_is_dark_as_the_notebook_is_whatever_the_system_is(opened, ground, ink, scheme, shade):
+    shown = arms.load("planar-3r").show()
+    found = opened(framed(shown, ground, ink, 640), color_scheme=scheme)
+    found.wait_for_function("document.querySelector('iframe').contentWindow")
+    found.frames[1].wait_for_function(f"{GROUND}.startsWith('rgb({shade},')")
+    found.evaluate(f"document.body.style.color = '{ground}'")  # another theme is chosen
+    found.frames[1].wait_for_function(f"{GROUND}.startsWith('rgb({275 - shade},')")
+
+
+@pytest.mark.parametrize("wide", [390, 690, 1000])
+def test_the_frame_of_a_view_cuts_nothing_off(opened, wide):
+    arm = arms.load("panda")
+    q = generic_configuration(arm)
+    shown = arm.show([q, q + 0.1], labels=["as it is", "best found"], locked=["panda_joint2", "panda_joint4"])
+    found = opened(framed(shown, "#fff", "#222", wide))
+    found.frames[1].wait_for_selector(".view3d-drawn")
+    tall, room = inside(found, "[document.documentElement.scrollHeight, innerHeight]")
+    assert tall <= room == shown.height
+    assert inside(found, "document.querySelector('.view3d-stage').clientHeight") > 300
+    inside(found, "document.querySelector('details').open = true")
+    assert inside(found, "document.querySelector('.view3d-stage').clientHeight") >= 258  # the arm stays beside its sliders
+
+
+def test_the_drawing_stays_until_the_view_is_drawn(opened):
+    html = arms.load("planar-3r").show().to_html().replace("<main>", '<main style="margin-top: 3000px">')
+    found = opened(html)
+    seen = "getComputedStyle(document.querySelector('.view3d-stage svg')).visibility"
+    found.wait_for_selector(".view3d-live", state="attached")
+    assert found.evaluate(seen) == "visible"  # nothing was drawn: it is out of sight
+    found.locator(".view3d-stage").scroll_into_view_if_needed()
+    found.wait_for_function(f"{seen} === 'hidden'")
+    assert painted(found)[0] > 50

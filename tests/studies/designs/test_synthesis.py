@@ -1,0 +1,266 @@
+"""Arms made from null spaces and Jacobians, and the record book: the index of the library and MuJoCo measure them."""
+
+import numpy as np
+import pytest
+import yaml
+
+import holdfast as hf
+from holdfast.studies.designs.arm_comparison.orders import find_distinct_orders
+from holdfast.studies.designs.record_book.entries import digest_record_text, parse_record
+from holdfast.studies.designs.record_book.workspaces import compute_exact_area, estimate_area_by_grid
+from holdfast.studies.designs.synthesis.axes import find_joint_axes, find_pose_jacobians
+
+ROWS = {"planar": [0, 1], "position": [0, 1, 2], "pose": [0, 1, 2, 3, 4, 5]}
+
+
+def left(arm, task, k):
+    """The least relative manipulability at zero, by reduced Jacobians and determinants (Abdi 2012, eq. 3)."""
+    from itertools import combinations
+
+    j = arm.jacobian(np.zeros(arm.n))[ROWS[task]]
+    volumes = [np.linalg.det(x @ x.T) for x in (np.delete(j, s, axis=1) for s in combinations(range(arm.n), k))]
+    return np.sqrt(max(min(volumes), 0) / np.linalg.det(j @ j.T))
+
+
+@pytest.mark.parametrize(
+    ("task", "n", "m", "k"),
+    [
+        ("planar", 5, 2, 3),
+        ("position", 4, 3, 1),
+        ("position", 6, 3, 3),
+        ("pose", 7, 6, 1),
+        ("pose", 9, 6, 3),
+        ("pose", 10, 6, 2),
+    ],
+)
+def test_a_ceiling_is_realised_by_a_revolute_arm(task, n, m, k):
+    c = hf.index_bounds.upper_bound(n=n, m=m, k=k)
+    exact = hf.designs.synthesise(c, task=task, starts=4, seed=1, decimals=16)
+    assert max(exact.losses) < 1e-9
+    assert left(exact.arms[0], task, k) == pytest.approx(c.best_known, rel=1e-9)
+    made = hf.designs.synthesise(c, task=task, starts=4, seed=1)
+    assert min(made.losses) < 1e-4
+    for arm, loss in zip(made.arms, made.losses, strict=True):
+        assert left(arm, task, k) == pytest.approx(made.value - loss, abs=1e-10)
+        assert sum(abs(r.a) + abs(r.d) for r in hf.arms.dh_table(arm).rows[:-1]) == pytest.approx(2, abs=1e-3)
+
+
+def test_lines_of_poses_are_found_from_nearly_every_start():
+    null = hf.index_bounds.upper_bound(n=7, m=6).null_space
+    found, residual = find_pose_jacobians(null, starts=20, seed=0)
+    assert residual < 1e-12
+    assert len(found) >= 15
+    for j in found:
+        assert abs((j[:3] * j[3:]).sum(axis=0)).max() < 1e-9
+        np.testing.assert_allclose(np.linalg.norm(j[3:], axis=0), 1, atol=1e-11)
+        assert abs(j @ null).max() < 1e-9
+
+
+@pytest.mark.parametrize("task", ["planar", "position", "pose"])
+def test_a_jacobian_comes_back(task, rng, pa10_7):
+    j = pa10_7.jacobian(rng.uniform(-1, 1, 7)) if task == "pose" else rng.normal(size=(len(ROWS[task]), 7))
+    arm = hf.designs.synthesise(jacobian=j, task=task, failures=1, decimals=16).arms[0]
+    np.testing.assert_allclose(arm.jacobian(np.zeros(7))[ROWS[task]], j, atol=1e-9)
+
+
+def test_what_is_no_jacobian_of_an_arm_is_refused(pa10_7):
+    j = pa10_7.jacobian(np.full(7, 0.3))
+    for wrong, said in (
+        (np.where(np.arange(7) == 2, 0, j), "column 3 of the Jacobian is 0"),
+        (j * np.where(np.arange(7) == 4, 1.01, 1.0), "column 5 of the Jacobian is the velocity of no revolute joint"),
+        (np.where(np.arange(7) == 4, np.nan, j), "not finite"),
+        (j[[0, 1, 2, 3, 4, 4]], "dependent"),
+    ):
+        with pytest.raises(hf.InputError, match=said):
+            find_joint_axes(wrong)
+    with pytest.raises(hf.InputError, match="has 3 rows; task 'pose' has 6"):
+        hf.designs.synthesise(jacobian=j[:3])
+    with pytest.raises(hf.InputError, match="give one of"):
+        hf.designs.synthesise()
+    with pytest.raises(hf.InputError, match="not orthonormal"):
+        hf.designs.synthesise(null_space=np.ones((7, 1)))
+    with pytest.raises(hf.InputError, match="of task 'pose' with 6 rows"):
+        hf.designs.synthesise(hf.index_bounds.upper_bound(n=5, m=3, k=2))
+
+
+# ---- orders ------------------------------------------------------------------------------------------------------------
+
+
+def test_orders_are_judged_as_the_index_judges_their_arms(pa10_7):
+    """A few orders: the same draws through the index of the arm that is made for each of them."""
+    (j,), _ = find_pose_jacobians(hf.index_bounds.upper_bound(n=7, m=6).null_space, starts=1, seed=2)
+    found = hf.designs.compare_joint_orders(j, samples=300, at_most=3, seed=5)
+    assert found.at_home == pytest.approx(7**-0.5, rel=1e-9)
+    draws = np.random.default_rng(5)
+    draws.permutation(np.zeros((2520, 7)))  # the orders are drawn first
+    q = draws.uniform(-np.pi, np.pi, (300, 7))
+    for d, order in enumerate(found.orders):
+        arm = hf.designs.synthesise(jacobian=j[:, order], decimals=16).arms[0]
+        rho = np.array([least(arm.jacobian(x)) for x in q])
+        assert found.mean[d] == pytest.approx(rho.mean(), rel=1e-7)
+        assert found.counts[d].tolist() == [(rho >= h).sum() for h in found.thresholds]
+        assert found.interval(d, 1).low <= found.fractions[d, 1] <= found.interval(d, 1).high
+
+
+def least(jacobian):
+    return abs(np.linalg.svd(jacobian)[2][-1]).min()
+
+
+def test_a_reversed_order_is_the_same_arm_read_from_the_tool(rng):
+    """At the angles of the first in reverse and the other way round both have the same value."""
+    (j,), _ = find_pose_jacobians(hf.index_bounds.upper_bound(n=7, m=6).null_space, starts=1, seed=2)
+    one, other = (hf.designs.synthesise(jacobian=x, decimals=16).arms[0] for x in (j, j[:, ::-1]))
+    for q in rng.uniform(-np.pi, np.pi, (20, 7)):
+        assert least(one.jacobian(q)) == pytest.approx(least(other.jacobian(-q[::-1])), abs=1e-10)
+
+
+def test_orders_that_a_symmetry_makes_the_same_are_judged_once(rng, pa10_7):
+    corners = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    up = np.array([[0, 0, 1.0]] * 4) * rng.choice([-1, 1], (4, 1))
+    # Paths through the corners of a square, up to its symmetries: by the sides, and with one or two diagonals.
+    assert len(find_distinct_orders(up @ turn.T, corners @ turn.T + rng.normal(size=3))) == 3
+    w = rng.normal(size=(5, 3))
+    assert len(find_distinct_orders(w / np.linalg.norm(w, axis=1, keepdims=True), rng.normal(size=(5, 3)))) == 60
+
+
+def test_the_front_of_orders_is_that_of_fresh_samples(rng, pa10_7):
+    found = hf.designs.compare_joint_orders(
+        pa10_7.jacobian(rng.uniform(-1, 1, 7)), samples=100, at_most=40, thresholds=(0.1, 0.2)
+    )
+    assert (np.diff(found.lengths[found.front]) > 0).all()
+    assert (np.diff(found.fresh) > 0).all()
+    assert len(found.front) == len(found.fresh) >= 1
+
+
+def test_orders_that_cannot_be_judged(pa10):
+    with pytest.raises(hf.InputError, match="say how many with at_most"):
+        hf.designs.compare_joint_orders(pa10.jacobian(np.full(9, 0.3)))
+    with pytest.raises(hf.InputError, match="of 6 rows"):
+        hf.designs.compare_joint_orders(np.eye(3))
+
+
+# ---- the record book ---------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def book():
+    return hf.designs.record_designs()
+
+
+def test_a_changed_digit_is_found(book, tmp_path):
+    """The last but two of the value, of a length, of an entry of a null space."""
+    for name in ("pose-9R-k2-001", "position-6R-k3-001", "jacobian-9-6-2-001"):
+        data = yaml.safe_load(book[name].text)
+        for change in ("value", "bound", "inside"):
+            new = yaml.safe_load(book[name].text)
+            new.pop("digest", None)  # which finds all of them
+            if change == "value":
+                new["value"] = data["value"] * (1 + 1e-7)
+            elif change == "bound":
+                new["proven_bound"]["value"] *= 1 - 1e-6
+            elif "arm" in new:
+                new["arm"]["rows"][3]["a"] += 1e-5
+            else:
+                new["null_space"][4][1] += 1e-7
+            file = tmp_path / "changed.yaml"
+            file.write_text(yaml.safe_dump(new), encoding="utf-8")
+            assert not hf.designs.record_design(str(file)).check().ok, (name, change)
+
+
+def test_every_changed_digit_of_a_file_is_found(book, rng):
+    """By the digest: that of joint 1's offset, say, changes nothing that is measured."""
+    files = [r for r in book.values() if r.arm is not None]
+    assert len(files) == 36
+    for record in files:
+        assert record.data.digest == digest_record_text(record.text)
+        assert digest_record_text(record.text.replace(", ", ",  ")) == record.data.digest
+        digits = [k for k, c in enumerate(record.text[: record.text.index("digest:")]) if c.isdigit()]
+        for k in rng.choice(digits, 20):
+            changed = record.text[:k] + str((int(record.text[k]) + 1) % 10) + record.text[k + 1 :]
+            assert digest_record_text(changed) != record.data.digest
+    text = book["panda-pose-k1-001"].text.replace("at: [0.0,", "at: [0.1,")
+    failed = [said for said, holds in parse_record(yaml.safe_load(text), text, "changed").check().claims if not holds]
+    assert len(failed) == 1
+    assert "digest" in failed[0]
+
+
+def test_a_workspace_is_measured_again_in_closed_form_by_a_grid_and_by_the_library(book, tmp_path):
+    """Widths of the last joint's range, and what they cost: section 9 of the specification; the library samples the plane."""
+    b = 2 * np.arccos(0.6)
+    for width, area in ((0.001, 9.4185), (0.02, 9.2983), (0.05, 9.1059), (0.1, 8.7783), (0.2, 8.1013)):
+        assert compute_exact_area([0.5, 1.25, 1.25], (b - width, b)) == pytest.approx(area, abs=6e-5)
+    limits = np.array([[-np.pi, np.pi], [b - 0.2, b]])
+    assert estimate_area_by_grid([0.5, 1.25, 1.25], limits) == pytest.approx(8.1013, rel=2e-3)
+    record = book["workspace-planar-3R-001"]
+    for last in ((b - 0.2, b), (-0.3, 0.4), (2.9, 3.4)):
+        pairs = np.array([[-np.pi, np.pi], [-np.pi, np.pi], last])
+        found = hf.tolerant_workspace(record.arm, "planar", pairs).size
+        assert compute_exact_area([0.5, 1.25, 1.25], last) == pytest.approx(found, rel=1e-4)
+    changed = yaml.safe_load(record.text)
+    del changed["digest"]
+    for key, value, said in (
+        ("limits", [None, [-1, 1], None], "no joint but the last"),
+        ("limits", [None, None], "limits of each joint"),
+        ("value", 9.4, "value"),
+    ):
+        file = tmp_path / "changed.yaml"
+        file.write_text(yaml.safe_dump(changed | {key: value}), encoding="utf-8")
+        check = hf.designs.record_design(str(file)).check()
+        assert any(said in claim for claim, holds in check.claims if not holds)
+    for value in (0.0, -1.0):  # every quantity of the book is positive
+        file.write_text(yaml.safe_dump(changed | {"value": value}), encoding="utf-8")
+        with pytest.raises(hf.InputError, match="value"):
+            hf.designs.record_design(str(file))
+    assert [book[f"workspace-planar-4R-least-{x}-001"].gap for x in ("00", "05", 10, 15)] == pytest.approx([0] * 4, abs=1e-12)
+
+
+def test_the_best_configurations_of_arms_that_are_sold_hold(book):
+    """The index of the library at the configuration, within the limits: the check measures by differences."""
+    sold = [r for r in book.values() if r.data.kind.of is not None]
+    assert len(sold) == 10
+    for record in sold:
+        c = record.data.kind
+        index = hf.indices.relative_manipulability(record.arm, c.task, c.failures)
+        assert index(record.q) == pytest.approx(record.data.value, rel=1e-7)
+        assert record.data.value <= index.bound
+    changed = yaml.safe_load(book["panda-pose-k1-001"].text)
+    del changed["digest"]
+    for at, value, said in ((3, 1e-6, "value"), (5, 1.0, "within its limits")):
+        q = list(changed["at"])
+        q[at] += value
+        record = parse_record(changed | {"at": q}, "", "changed")
+        assert any(said in claim for claim, holds in record.check().claims if not holds)
+    with pytest.raises(hf.InputError, match="there is no built-in arm 'pandas'"):
+        parse_record(changed | {"class": changed["class"] | {"of": "pandas"}}, "", "changed")
+
+
+def test_a_record_in_mujoco(book):
+    """The arm, exported as URDF and read by MuJoCo, has at home the index that the record claims: Jacobian by MuJoCo."""
+    mujoco = pytest.importorskip("mujoco")
+    record = book["pose-9R-k2-001"]
+    arm = record.arm
+    model = mujoco.MjModel.from_xml_string(hf.arms.urdf_text(arm))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    j, last = np.zeros((6, arm.n)), model.nbody - 1
+    tool = data.xpos[last] + data.xmat[last].reshape(3, 3) @ arm.tool[:3, 3]
+    mujoco.mj_jac(model, data, j[:3], j[3:], tool, last)
+    null = np.linalg.svd(j)[2][6:].T
+    pairs = [np.sqrt(np.linalg.det(null[[a, b]] @ null[[a, b]].T)) for a in range(9) for b in range(a)]
+    assert min(pairs) == pytest.approx(record.data.value, rel=1e-8)
+    assert hf.indices.relative_manipulability(arm, "pose", 2)(record.q) == pytest.approx(record.data.value, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["panda", "ur5-rail", "planar-3r"])
+def test_an_arm_written_as_urdf_is_the_same_arm(name, tmp_path, rng):
+    arm, file = hf.arms.load(name), tmp_path / "arm.urdf"
+    file.write_text(hf.arms.urdf_text(arm), encoding="utf-8")
+    again = hf.Arm.from_urdf(file)
+    q = rng.uniform(-1, 1, arm.n)
+    assert again.forward_kinematics(q) == pytest.approx(arm.forward_kinematics(q), abs=1e-14)
+    for mine, its in zip(arm.joints, again.joints, strict=True):
+        assert (mine.name, mine.lower, mine.velocity, mine.effort) == (its.name, its.lower, its.velocity, its.effort)
+    for mine, its in zip(arm.links, again.links, strict=True):
+        assert (mine is None) == (its is None)
+        assert mine is None or (mine.mass == its.mass and its.inertia == pytest.approx(mine.inertia, abs=1e-12))
