@@ -22,19 +22,19 @@ from holdfast.studies.assessment.single_points import explain
 
 SMALL_REACH_FRACTION = 0.1  # of the poses that the healthy arm reaches
 
-# Sections in order: files of `sections` with a SECTION_TITLE and blocks(facts) -> list[Block]; empty ones are omitted.
-SECTION_MODULES = (
-    "key_numbers",
-    "structure",
-    "views",
-    "distribution",
-    "gain",
-    "collisions",
-    "survival",
-    "worst",
-    "upgrades",
-    "places",
-)
+# Titles of the sections in order, by files of `sections` with a function blocks(facts) -> list[Block]; empty ones are omitted.
+SECTION_TITLES = {
+    "key_numbers": "Key numbers",
+    "structure": "Single points of failure by structure",
+    "views": "The arm and the region",
+    "distribution": "How the index is distributed",
+    "gain": "What choosing configurations gains",
+    "collisions": "Does the arm collide with {others}?",
+    "survival": "What survives a locked joint",
+    "worst": "Which failure is the worst",
+    "upgrades": "Which joint deserves a redundant motor or brake",
+    "places": "The worst {noun}s, and where tolerance is low",
+}
 
 
 def write(assessment: Assessment, path: Path, threshold: float | None = None) -> Path:
@@ -45,11 +45,13 @@ def write(assessment: Assessment, path: Path, threshold: float | None = None) ->
 def build(assessment: Assessment, threshold: float | None = None) -> Page:
     """Build the report as blocks, before it becomes HTML. See :func:`write`."""
     facts = AssessmentFacts(assessment, threshold)
-    modules = [import_module(f"holdfast.interface.presentation.assessment.sections.{name}") for name in SECTION_MODULES]
     sections = [Section("", [_describe_single_points(facts)])]
     sections += [
-        Section(module.SECTION_TITLE.format(noun=facts.noun, others=facts.collision_objects), module.blocks(facts))
-        for module in modules
+        Section(
+            title.format(noun=facts.noun, others=facts.collision_objects),
+            import_module(f"holdfast.interface.presentation.assessment.sections.{name}").blocks(facts),
+        )
+        for name, title in SECTION_TITLES.items()
     ]
     run = assessment
     return Page(

@@ -14,7 +14,6 @@ from holdfast.interface.report.page import Block, Callout, Picture, Table, Text
 from holdfast.model.collision.clearance import Clearance
 from holdfast.studies.assessment.rows import Collisions
 
-SECTION_TITLE = "Does the arm collide with {others}?"
 _MAX_NAMED_PAIRS = 6  # pairs that are not checked, by name
 
 

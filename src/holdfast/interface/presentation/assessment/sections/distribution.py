@@ -8,8 +8,6 @@ from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Picture, Text
 
-SECTION_TITLE = "How the index is distributed"
-
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
     """Build the figure of the density and the cumulative distribution, and a threshold to move."""

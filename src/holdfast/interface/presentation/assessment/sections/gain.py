@@ -12,7 +12,6 @@ from holdfast.interface.report import figures
 from holdfast.interface.report.figures import Curve
 from holdfast.interface.report.page import Block, Picture, Table, Text
 
-SECTION_TITLE = "What choosing configurations gains"
 _MAX_DOTS = 20_000
 
 

@@ -12,8 +12,6 @@ from holdfast.interface.presentation.assessment.sections import collisions
 from holdfast.interface.report.page import Block, Table
 from holdfast.model.failure_modes import failure_sets
 
-SECTION_TITLE = "Key numbers"
-
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
     """Build the table of key numbers."""

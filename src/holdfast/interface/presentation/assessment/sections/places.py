@@ -16,8 +16,6 @@ from holdfast.interface.report.views import choose_side_and_top_views
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.poses import zyx_angles
 
-SECTION_TITLE = "The worst {noun}s, and where tolerance is low"
-
 _MIN_POSES_FOR_MAP = 200
 
 

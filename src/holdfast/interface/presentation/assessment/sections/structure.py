@@ -8,8 +8,6 @@ from holdfast.core.formatting import format_number, format_percent
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report.page import Block, Table, Text
 
-SECTION_TITLE = "Single points of failure by structure"
-
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
     """Build the table of every task and the joints whose lock makes it impossible."""

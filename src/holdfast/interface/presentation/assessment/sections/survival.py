@@ -15,8 +15,6 @@ from holdfast.interface.report.views import View, choose_side_and_top_views
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
 from holdfast.studies.assessment.plan import LOCK_RESTARTS
 
-SECTION_TITLE = "What survives a locked joint"
-
 _MIN_POSES_FOR_MAP = 200
 
 

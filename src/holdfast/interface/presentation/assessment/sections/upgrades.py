@@ -7,7 +7,6 @@ from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report.page import Block, Table, Text
 from holdfast.studies.assessment.upgrade import MAX_REOPTIMISED_POSES, Upgrade
 
-SECTION_TITLE = "Which joint deserves a redundant motor or brake"
 _MAX_TABLE_ROWS = 40
 
 

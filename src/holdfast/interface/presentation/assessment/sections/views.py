@@ -11,8 +11,6 @@ from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report import figures, scenes
 from holdfast.interface.report.page import Block, Picture
 
-SECTION_TITLE = "The arm and the region"
-
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
     """Draw the arm and the region from the side, from above, and in three dimensions."""

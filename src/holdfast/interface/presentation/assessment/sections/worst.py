@@ -12,7 +12,6 @@ from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Picture, Table, Text
 
-SECTION_TITLE = "Which failure is the worst"
 _MAX_TABLE_ROWS = 40
 
 
